@@ -148,6 +148,8 @@ pub use sources::starter;
 
 #[cfg(feature = "cli")]
 use entry::cli;
+#[cfg(feature = "python")]
+use entry::python;
 #[cfg(feature = "cli")]
 use mechanics::batch;
 use mechanics::statics::{assembly, effect, interface, resultant};

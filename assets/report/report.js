@@ -10,7 +10,7 @@
     const body = document.createElement("div");
     body.innerHTML = text.textContent;
     text.replaceWith(...body.childNodes);
-    stepping(scene);
+    enlarging(scene);
     marks(scene);
     copying(scene);
   };
@@ -29,43 +29,9 @@
     scene.open = true;
     fill(scene);
     const target = document.getElementById(name) || scene;
-    if (target.matches(".step") && scene.show) scene.show(all(".step", scene).indexOf(target));
     target.scrollIntoView();
   };
   addEventListener("hashchange", follow);
-
-  /* One step at a time: buttons, and the arrow keys within the scene. */
-  function stepping(scene) {
-    const steps = all(".step", scene);
-    if (steps.length < 2) return;
-    const links = all("nav.steps a", scene);
-    const bar = make("div", "", { className: "stepper" });
-    const back = make("button", "◀ Previous step", { type: "button" });
-    const next = make("button", "Next step ▶", { type: "button" });
-    const where = make("span", "", { className: "small" });
-    where.setAttribute("aria-live", "polite");
-    bar.append(back, next, where);
-    scene.querySelector("nav.steps").after(bar);
-    let at = 0;
-    scene.show = (to) => {
-      at = Math.min(Math.max(to, 0), steps.length - 1);
-      steps.forEach((step, i) => { step.hidden = i !== at; });
-      links.forEach((link, i) => i === at ? link.setAttribute("aria-current", "step") : link.removeAttribute("aria-current"));
-      back.disabled = at === 0;
-      next.disabled = at === steps.length - 1;
-      where.textContent = `step ${at + 1} of ${steps.length}`;
-    };
-    back.addEventListener("click", () => scene.show(at - 1));
-    next.addEventListener("click", () => scene.show(at + 1));
-    links.forEach((link, i) => link.addEventListener("click", (event) => { event.preventDefault(); scene.show(i); }));
-    scene.addEventListener("keydown", (event) => {
-      const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-      if (!by || event.target.matches("input, textarea, select, .wide") || event.altKey || event.ctrlKey || event.metaKey) return;
-      event.preventDefault();
-      scene.show(at + by);
-    });
-    scene.show(0);
-  }
 
   /* What the mouse or the keyboard points at in a figure is marked in the table, and the other way round. */
   function marks(scene) {
@@ -76,7 +42,7 @@
       const parts = new Map();
       for (const touch of all("g.touch", step)) {
         const mark = touch.id.replace(/^.*-/, "");
-        parts.set(mark, [touch]);
+        parts.set(mark, [...(parts.get(mark) || []), touch]);
         touch.dataset.mark = mark;
       }
       const rows = all("tr[data-mark]", step);
@@ -107,6 +73,17 @@
           to.focus();
         });
       }
+    }
+  }
+
+  /* On a phone a figure grows to the size at which its letters are legible, and is pushed about. */
+  function enlarging(scene) {
+    for (const plate of all(".plate", scene)) {
+      const button = make("button", "Enlarge", { type: "button", className: "enlarge" });
+      button.addEventListener("click", () => {
+        button.textContent = plate.classList.toggle("large") ? "Reduce" : "Enlarge";
+      });
+      plate.append(button);
     }
   }
 

@@ -1,4 +1,6 @@
-//! Ways in for people and other languages.
+//! The entry points: the command line, and interfaces for other languages.
 
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "python")]
+pub mod python;

@@ -5,8 +5,9 @@
 //! coordinate, and whose nodes store the box around their items. Building the tree costs more than many scans of a short
 //! list.
 //!
-//! A box may have more than the two coordinates of the plane. The axis-parallel boxes of thin, inclined stones overlap by
-//! the hundred; boxes that also bound x + y and y − x ([`Aabb::with_diagonals`]), or a direction, do not.
+//! A box may have more than the two coordinates of the plane. The axis-parallel box of a thin, inclined stone can
+//! overlap hundreds of others. A box that also bounds x + y and y − x ([`Aabb::with_diagonals`]), or another direction,
+//! overlaps only a few.
 //!
 //! Reference: Ericson, Real-Time Collision Detection, 2005, chapters 6 (bounding-volume hierarchies) and 7 (sorted lists).
 
@@ -36,7 +37,7 @@ impl Aabb {
 }
 
 impl Aabb<4> {
-    /// Bounds of some points in x, y, x + y and y − x: an upright box and one turned by 45°.
+    /// Bounds of some points in x, y, x + y and y − x: an upright box and a box rotated by 45°.
     pub(crate) fn with_diagonals(points: &[Point]) -> Aabb<4> {
         points.iter().fold(Aabb::EMPTY, |bounds, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
@@ -65,7 +66,7 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Twice the box's centre in coordinate `d`: it serves to order boxes, for which the factor does not matter.
+    /// Twice the box's centre in coordinate `d`. It is used only to order boxes, so the factor of 2 does not matter.
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
@@ -109,7 +110,8 @@ impl<T, const D: usize> SortedBoxes<T, D> {
     }
 
     fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
-        // All boxes before `begin` end to the left of the query. The scan stops at the first that begins to its right.
+        // All boxes before `begin` end to the left of the query. The scan stops at the first box that begins to its
+        // right.
         let left = query.min[0];
         let begin = self.entries.partition_point(|entry| entry.max_right < left);
         let rest = self.entries[begin..].iter();
@@ -131,7 +133,7 @@ pub(crate) struct BoxTree<T, const D: usize> {
 struct Node<const D: usize> {
     /// The box around all items below this node.
     bounds: Aabb<D>,
-    /// Index of the first node after this subtree: where a search goes on that does not descend here.
+    /// Index of the first node after this subtree. A search that does not descend into this subtree continues there.
     skip_to: usize,
     /// Indices of a leaf's items; empty for an inner node.
     items: std::ops::Range<usize>,
@@ -174,10 +176,10 @@ impl<T, const D: usize> BoxTree<T, D> {
     }
 }
 
-/// The typical size of a box in each coordinate, by which distances in different coordinates are compared.
+/// The typical size of a box in each coordinate: the unit in which distances in different coordinates are compared.
 ///
 /// It is the median size plus a thousandth of the interquartile range of the centres. The second term keeps the size of
-/// point-like boxes above 0. Median and quartiles, because the ground may be far larger than everything else.
+/// point-like boxes above 0. Medians and quartiles are used because the ground may be far larger than all other items.
 fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     const SPREAD_SHARE: f64 = 1e-3;
     let mut values = Vec::with_capacity(order.len());
@@ -226,7 +228,7 @@ fn build<const D: usize>(
         nodes[number].bounds = order.iter().fold(Aabb::EMPTY, |all, b| all.union(&b.0));
         nodes[number].items.end += order.len();
     } else {
-        // Split across the coordinate in which the centres are spread over the most typical sizes.
+        // Split the coordinate in which the range of the centres, divided by the typical size, is largest.
         let range = doubled_centre_range(order);
         let relative = |d: &usize| range[*d] / typical[*d];
         let split = (0..D).max_by(|a, b| relative(a).total_cmp(&relative(b)));
@@ -271,7 +273,7 @@ impl<T, const D: usize> BoxIndex<T, D> {
         sorted.chain(tree.flat_map(move |tree| tree.intersecting(query)))
     }
 
-    /// One of the two is `Some`: both are chained, so that one iterator type serves both variants.
+    /// Exactly one of the two is `Some`. Callers chain both, so that one iterator type serves both variants.
     fn variants(&self) -> (Option<&SortedBoxes<T, D>>, Option<&BoxTree<T, D>>) {
         match self {
             BoxIndex::Sorted(list) => (Some(list), None),

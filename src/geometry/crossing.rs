@@ -1,8 +1,8 @@
 //! [`crossings`]: pairs of sides that cross or touch although a simple polygon does not allow it.
 //!
-//! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`], so that the answer does
-//! not depend on rounding; only the reported place is rounded. Reference: de Berg et al., Computational Geometry, 2008,
-//! chapter 2, for the test of two segments.
+//! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`]. The answer therefore
+//! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
+//! 2008, chapter 2, for the test of two segments.
 
 use super::edge::{Edge, orientation, ring_edges};
 use super::{Aabb, BoxIndex, Point};
@@ -39,7 +39,7 @@ impl Side {
         self.edge.bounds()
     }
 
-    /// A point in common with a later side of the polygon that a simple polygon does not allow.
+    /// A point that this side and a later side have in common although a simple polygon does not allow it.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
         // Neighbours share a corner. They cross only if the second one folds back onto the first.
@@ -55,6 +55,7 @@ impl Side {
 
 /// The crossings of a polygon's sides, in the order of the sides, at most [`MAX_CROSSINGS`].
 pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
+    // List every side with its ring and its corner number.
     let mut sides: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
     for (ring, corners) in rings.iter().enumerate() {
         sides.extend(ring_edges(corners).enumerate().map(|(corner, edge)| Side {
@@ -78,6 +79,7 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
                 });
             }
         };
+        // Test each pair once: only with sides that come later in the list.
         let bounds = a.bounds();
         match &index {
             None => (sides[number + 1..].iter())
@@ -120,8 +122,8 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    // A proper crossing: each segment has its ends on different sides of the other's line. A turn of 0 needs no case of
-    // its own: that end was not on the other segment, so both ends of the other lie to one side of this segment's line.
+    // A proper crossing: each segment has its ends on different sides of the other's line. A turn of 0 needs no special
+    // case: that end is on the line but not on the segment, so both ends of the other lie on one side of this line.
     if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);

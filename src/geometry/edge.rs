@@ -1,4 +1,4 @@
-//! [`Edge`]: a side of a polygon, and the predicate that tells on which side of a line a point lies.
+//! [`Edge`], a side of a polygon, and [`orientation`], which decides on which side of a line a point lies.
 
 use super::{Aabb, Point, Vector};
 
@@ -40,7 +40,7 @@ impl Edge {
 
 /// The sides of a closed ring of corners, in their order; the last side leads back to the first corner.
 pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
-    // A comparison instead of a remainder: this loop is among the most frequent when scenes are read.
+    // A comparison is faster than a remainder, and reading a scene spends much of its time in this loop.
     let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };
     (0..ring.len()).map(move |i| Edge {
         from: ring[i],

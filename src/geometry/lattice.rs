@@ -1,4 +1,5 @@
-//! [`Lattice`]: cells with integer coordinates, so that collisions and contacts are decided exactly.
+//! [`Lattice`]: a regular lattice of cells with integer coordinates, on which collisions and contacts are decided
+//! exactly.
 //!
 //! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and what uses it.
 //! Node (x, y) of the triangular lattice lies at side·(x + y/2, y·√3/2), of the square lattice at side·(x, y).
@@ -16,7 +17,7 @@ pub enum LatticeKind {
     Square,
 }
 
-/// The shape of a cell, and of a triangle the side of its horizontal edge on which it lies.
+/// The shape of a cell. A triangle lies above (`Up`) or below (`Down`) its horizontal edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellShape {
     /// A square.
@@ -27,7 +28,7 @@ pub enum CellShape {
     Down,
 }
 
-/// One cell of a lattice, identified by the left end of its lower edge; of a downward triangle, of its upper edge.
+/// One cell of a lattice, identified by the left end of its lower edge (for a downward triangle, of its upper edge).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cell {
     /// First lattice coordinate.
@@ -155,7 +156,7 @@ impl Lattice {
     /// ```
     pub fn point(&self, x: f64, y: f64) -> Point {
         match self.kind {
-            // 2x + y is an integer for every node, so that equal positions get equal bits.
+            // 2x + y is an exact integer for every node, so nodes at the same position get bit-identical coordinates.
             LatticeKind::Triangular => Point::new(
                 (2.0 * x + y) * (self.side / 2.0),
                 y * (self.side * HALF_SQRT_3),
@@ -245,7 +246,7 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
     Some(rings)
 }
 
-/// The direction in which the path a → b → c turns: 1 left, 0 straight on, −1 right.
+/// The direction in which the path a → b → c turns: 1 for left, 0 for straight on, −1 for right.
 fn turn(a: Node, b: Node, c: Node) -> i64 {
     ((b.0 - a.0) * (c.1 - b.1) - (b.1 - a.1) * (c.0 - b.0)).signum()
 }
@@ -270,7 +271,7 @@ fn doubled_area(ring: &[Node]) -> i64 {
         .sum()
 }
 
-/// Whether each cell can be reached from each other one across common edges; false for no cells.
+/// Whether every cell can be reached from every other cell across common edges; false if there are no cells.
 fn is_connected(cells: &[Cell]) -> bool {
     let mut owner: BTreeMap<LatticeEdge, Cell> = BTreeMap::new();
     for cell in cells {

@@ -1,8 +1,8 @@
-//! Places, displacements, outlines and lattices of the plane.
+//! Geometry of the plane: points, vectors, polygons and lattices.
 //!
-//! Makes [`Point`] (a place) and [`Vector`] (a displacement, a force, a direction), kept apart because only places move
-//! when a scene is moved. Axes: x to the right, y up; angles anticlockwise. The only epsilons of the crate live in
-//! [`Tolerance`]. Nothing here knows of forces.
+//! A [`Point`] is a place; a [`Vector`] is a displacement, a force or a direction. They are two types because only
+//! points change when a scene is moved. Axes: x to the right, y up; angles anticlockwise. [`Tolerance`] contains the
+//! lengths and the angle within which two bodies touch. This module does not deal with statics.
 
 mod lattice;
 mod box_index;
@@ -44,7 +44,7 @@ pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The vector turned a quarter anticlockwise, `(−v_y, v_x)`.
+/// The vector rotated anticlockwise by 90°: `(−v_y, v_x)`.
 pub fn quarter_turn(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }

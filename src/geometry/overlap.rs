@@ -5,7 +5,7 @@
 //! leave it (separating-axis test). The area comes from clipping one piece by the other (Sutherland and Hodgman 1974).
 //! References: Ericson, Real-Time Collision Detection, 2005, §4.4 and §5.2; Held, FIST, 2001, for ear clipping.
 //!
-//! Invariant: polygons that only touch do not overlap, even if rounding makes them up to `gap` deep along a long side.
+//! Invariant: polygons that only touch do not overlap. An overlap of up to `gap` metres in depth counts as touching.
 //! Depth is a distance along a side's normal, so it does not depend on where the scene lies.
 
 use std::borrow::Cow;
@@ -21,7 +21,7 @@ pub struct ConvexPieces<'p> {
 
 /// A convex piece with two quick tests: its bounds, and its extent across its longest side.
 ///
-/// The second one separates most pairs of long thin pieces that lie side by side, whose bounds intersect.
+/// Long thin pieces that lie side by side have intersecting bounds; the second test separates most of these pairs.
 #[derive(Clone, Debug)]
 struct Piece<'p> {
     bounds: Bounds,
@@ -111,7 +111,8 @@ impl<'p> ConvexPieces<'p> {
                 }
                 triangle
             })
-            // Triangles without area overlap nothing, and their sides have no direction to separate along.
+            // Triangles without area overlap nothing, and their sides may have no direction for the separating-axis
+            // test.
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
             .filter_map(|t| Piece::new(Cow::Owned(t)))
             .collect();
@@ -135,6 +136,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
             if one.is_separated_from(two) || two.is_separated_from(one) {
                 continue;
             }
+            // Separating-axis test across the sides of both pieces.
             let mut pair_depth = penetration(&one.corners, &two.corners);
             if pair_depth > 0.0 {
                 pair_depth = pair_depth.min(penetration(&two.corners, &one.corners));
@@ -148,6 +150,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     if depth <= gap {
         return None;
     }
+    // Area and centroid of the common part, relative to a corner near it.
     let base = a.all().next()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
     (area > 0.0).then(|| Overlap {
@@ -177,7 +180,9 @@ fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     (area, moment)
 }
 
-/// The smallest depth of `b` behind a side of the convex polygon `a`, metres; at most 0 if a side separates them.
+/// The smallest distance, over the sides of the convex polygon `a`, by which `b` reaches behind a side; metres.
+///
+/// It is at most 0 if a side separates the two polygons.
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
     let mut depth = f64::INFINITY;
     for i in 0..a.len() {
@@ -201,11 +206,14 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
 fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut kept = a.to_vec();
     for i in 0..b.len() {
+        // One step of Sutherland and Hodgman: keep the corners on the inner side, add the points where the outline
+        // crosses.
         let (from, to) = (b[i], b[(i + 1) % b.len()]);
         let side = |p: &Point| cross(to - from, p - from);
         let mut next = Vec::with_capacity(kept.len() + 1);
         for k in 0..kept.len() {
             let (p, q) = (kept[k], kept[(k + 1) % kept.len()]);
+            // `side` is positive on the inner side of the cutting line. A corner on the line is kept.
             let (side_p, side_q) = (side(&p), side(&q));
             if side_p >= 0.0 {
                 next.push(p);

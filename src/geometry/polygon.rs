@@ -1,4 +1,4 @@
-//! [`Polygon`]: a simple outline with holes, checked when it is made.
+//! [`Polygon`]: a simple outline with holes, checked when it is constructed.
 //!
 //! Invariant: the outline runs anticlockwise and every hole clockwise. The material therefore lies to the left of each
 //! edge, and [`Edge::outward`] points out of it. Repeated corners are dropped. Corners on a straight side are kept,
@@ -10,8 +10,9 @@ use super::{Bounds, Edge, Point, Vector, cross};
 
 /// A ring with |area| up to this fraction of its squared perimeter encloses no area.
 ///
-/// It is about five times the rounding of a number, so that the computed area of collinear corners counts as 0. The
-/// thinnest stones of real scenes are above 10⁻⁶; a tenth would let the rounding of a flat ring pass as area.
+/// It is about five times the relative rounding of a number, so that the computed area of collinear corners counts as
+/// 0. A limit ten times smaller would accept the rounding error of a flat ring as an area. A limit ten times larger
+/// would change little: the thinnest stones of real scenes are above 10⁻⁶.
 const MIN_AREA_PER_SQUARED_PERIMETER: f64 = 1e-15;
 
 /// A simple polygon, possibly with holes.
@@ -113,7 +114,7 @@ impl Polygon {
 
     /// Centroid of the area.
     pub fn centroid(&self) -> Point {
-        // Relative to a corner, so that no digits cancel for a block far from the origin.
+        // Coordinates relative to a corner: for a block far from the origin, products of absolute coordinates cancel.
         let base = self.rings[0][0];
         let mut doubled_area = 0.0;
         let mut moment = Vector::zeros();
@@ -187,7 +188,7 @@ pub(crate) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// What [`check_rings`] learns about rings that it accepts.
+/// The results of [`check_rings`] for rings that it accepts.
 #[derive(Default)]
 struct CheckedRings {
     dropped: DroppedCorners,
@@ -210,7 +211,7 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
         }
         let area = signed_area(points);
         let perimeter: f64 = ring_edges(points).map(|e| e.length()).sum();
-        // False for NaN.
+        // False if the area is NaN.
         let encloses_area = area.abs() > MIN_AREA_PER_SQUARED_PERIMETER * perimeter * perimeter;
         if !encloses_area {
             let is_collinear = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
@@ -230,7 +231,7 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
 
 /// Reports sides that cross or touch, or else rings without area.
 ///
-/// The areas on both sides of a crossing can cancel: then the crossing is the error to report, not the area.
+/// The areas on both sides of a crossing can cancel. Then only the crossing is reported, not the missing area.
 fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Vec<PolygonError>> {
     let error = |crossing: Crossing| {
         let listed =
@@ -307,7 +308,7 @@ fn signed_area(ring: &[Point]) -> f64 {
         / 2.0
 }
 
-/// Whether a ring winds around a point: a ray to the right crosses it an odd number of times.
+/// Whether a point lies inside a ring: a ray from the point to the right crosses the ring an odd number of times.
 fn ring_contains(ring: &[Point], p: Point) -> bool {
     let mut inside = false;
     for e in ring_edges(ring) {

@@ -1,20 +1,20 @@
 //! [`Tolerance`]: all tolerances of the crate that are lengths.
 //!
-//! Only scenes off a lattice need them. There, coordinates are rounded: a file written from 32-bit floats is off by
-//! 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this from how its coordinates are
-//! written. Two edges *touch* when their distance is at most [`Tolerance::gap`]. They form an interface when they
-//! overlap over more than [`Tolerance::min_contact_length`], and otherwise only a touching corner. That length depends
-//! on the edges: a tip of a millionth of a block may be the only support of a stone, but two long bricks that overlap by
-//! as little are just neighbours.
+//! Scenes on a lattice need no tolerance. In other scenes, coordinates are rounded: a file written from 32-bit floats
+//! is off by 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this error from the
+//! decimals of its coordinates. Two edges *touch* when their distance is at most [`Tolerance::gap`]. They form an
+//! interface when they overlap by more than [`Tolerance::min_contact_length`], and otherwise only a touching corner.
+//! That length depends on the edges: a tip of a millionth of a block may be the only support of a stone, but two long
+//! bricks that overlap by as little are only neighbours.
 
 /// The lengths, in metres, up to which differences between two bodies of a scene count as rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// The largest distance between two edges that touch, and the largest depth of an overlap that is ignored.
     pub gap: f64,
-    /// Long edges that overlap by less than this are a touching corner.
+    /// Long edges that overlap by less than this length form a touching corner, not an interface.
     pub min_length: f64,
-    /// Edges of any length that overlap by less than this do so by the rounding of coordinates.
+    /// Overlaps shorter than this are attributed to the rounding of coordinates, whatever the length of the edges.
     pub rounding: f64,
     /// The largest sine of the angle between two edges that face each other, whatever their length.
     pub angle: f64,
@@ -23,21 +23,23 @@ pub struct Tolerance {
 impl Tolerance {
     /// The gap as a fraction of the scene's extent.
     ///
-    /// It is 20 µm for a building of 20 m. Ten times as much would close joints of 0.2 mm, which may be open on purpose. A
-    /// tenth is less than what 32-bit floats lose at two edges (6·10⁻⁸ of each coordinate), so that contacts go missing.
+    /// It is 20 µm for a building of 20 m. Ten times this value would close joints of 0.2 mm, which may be open on
+    /// purpose. A tenth is below the rounding of 32-bit floats at two edges (6·10⁻⁸ of each coordinate): contacts would
+    /// be missed.
     pub const GAP_PER_EXTENT: f64 = 1e-6;
     /// The shortest interface of long edges, as a fraction of the gap.
     pub const LENGTH_PER_GAP: f64 = 0.25;
-    /// The shortest interface as a fraction of the shorter edge, where this is less.
+    /// The shortest interface as a fraction of the shorter edge. It applies if it gives less than `min_length`.
     pub const LENGTH_PER_EDGE: f64 = 1e-3;
     /// The largest angle between two edges that face each other, radians.
     ///
-    /// A tenth would miss short joints whose ends are rounded. Ten times as much would make interfaces of open wedges.
+    /// A tenth would miss short joints whose ends are rounded. Ten times this angle would turn open wedges into
+    /// interfaces.
     pub const MAX_ANGLE: f64 = 0.01;
-    /// The extent counts for at most this many typical block sizes, so that scattered blocks keep their small contacts.
+    /// The extent is limited to this many typical block sizes, so that scattered blocks keep their small contacts.
     pub const MAX_EXTENT_IN_BLOCKS: f64 = 1000.0;
 
-    /// The tolerance of a scene that is `extent` metres across and whose blocks are `typical` metres large.
+    /// The tolerance of a scene that is `extent` metres across and whose blocks are typically `typical` metres in size.
     ///
     /// A scene without blocks has extent 0 and gets the tolerance 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
@@ -45,7 +47,7 @@ impl Tolerance {
         Tolerance::from_gap(Self::GAP_PER_EXTENT * extent)
     }
 
-    /// The tolerance under which edges touch up to a distance of `gap` metres.
+    /// The tolerance with which edges touch if their distance is at most `gap` metres.
     pub fn from_gap(gap: f64) -> Tolerance {
         Tolerance {
             gap,

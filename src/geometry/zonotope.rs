@@ -9,8 +9,8 @@
 //! τ = max |n·r| / Σ |n·gᵢ|   over n = gᵢ × gⱼ
 //! ```
 //!
-//! A zonotope that is flat, or a line segment, has no such facets. The normals that bound it within its plane or line are
-//! tried as well. Every direction n gives a lower bound of τ, so that additional directions do no harm.
+//! A zonotope that is flat, or a line segment, has no such facets. The normals that bound it within its plane or line
+//! are therefore tried too. Every direction n gives a lower bound of τ, so additional directions do no harm.
 //!
 //! [`zonotope_gauge`] evaluates this formula. [`zonotope_gauge_bound`] and [`quick_gauge_bound`] return upper bounds in
 //! linear time, from the combination with the least sum of squares.
@@ -21,21 +21,22 @@
 /// A vector of space.
 pub type Vec3 = [f64; 3];
 
-/// The largest number of generators of which all pairs are tested. More are first reduced by adding up similar ones.
+/// Up to this number of generators, all pairs are tested. Larger sets are first reduced by adding up similar
+/// generators.
 ///
 /// The test takes m³ steps for m generators. Adding up generators makes the answer larger than the smallest τ.
 const MAX_GENERATORS: usize = 40;
 
-/// Above this number, generators are first added up by direction cells, because comparing all pairs takes m³ steps too.
+/// Above this number, generators are first added up by direction cells, because merging by pairs also takes m³ steps.
 const MAX_PAIRED_GENERATORS: usize = 120;
 
-/// Up to this number the exact test is as quick as an upper bound.
+/// Up to this number of generators, the exact test is as fast as an upper bound.
 const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 
 /// The relative rounding of a sum of three products, with some reserve.
 ///
-/// A tenth would take the rounding of a flat zonotope for a width, and return a finite τ for a point outside its plane.
-/// Ten times as much would raise τ by some per cent in zonotopes that are 10⁻¹² of their length wide.
+/// With a tenth of this value, rounding would give a flat zonotope a width, and a point outside its plane a finite τ.
+/// With ten times this value, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The smallest τ for which `point` lies in the zonotope scaled by τ; infinite if there is none.
@@ -57,7 +58,7 @@ pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
     if longest == 0.0 || !longest.is_finite() || !norm(point).is_finite() {
         return f64::INFINITY;
     }
-    // Scaled to lengths of at most 1, so that products neither overflow nor vanish.
+    // Scale the generators to lengths of at most 1, so that products neither overflow nor vanish.
     let scaled = |v: &Vec3| v.map(|x| x / longest);
     let reduced = reduce(generators.iter().map(scaled));
     gauge_over_normals(&reduced, scaled(&point))
@@ -126,7 +127,7 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         }
         lengths += (own[0] + own[1] + own[2]).sqrt();
     }
-    // The scaled Gram matrix has ones on its diagonal and p, q, r beside them.
+    // The scaled Gram matrix has ones on its diagonal and p, q, r off the diagonal.
     let [a, b, c] = squares.map(f64::sqrt);
     let [p, q, r] = [
         products[0] / (b * c),
@@ -134,10 +135,11 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         products[2] / (a * b),
     ];
     let determinant = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
+    // The determinant lies between 0 and 1. Below 10⁻³ the generators are so close to a plane that rounding matters.
     if !(determinant > 1e-3) {
         return None;
     }
-    // Solve by cofactors, in the units of the axes again.
+    // Solve by cofactors and scale the solution back to the units of the axes.
     let [x, y, z] = [point[0] / a, point[1] / b, point[2] / c];
     let solution = [
         ((1.0 - p * p) * x + (p * q - r) * y + (r * p - q) * z) / (determinant * a),
@@ -213,7 +215,8 @@ struct Rounding {
     width: f64,
 }
 
-/// |n·r| / Σ |n·gᵢ|; 0 if |n·r| is only rounding, and otherwise with the rounding subtracted from the width.
+/// The lower bound |n·r| / Σ |n·gᵢ| of the gauge: 0 if |n·r| may be rounding alone. Rounding is subtracted from the
+/// width Σ |n·gᵢ|, so that the result is never too small; it is infinite if no width is left.
 fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> f64 {
     let distance = dot(normal, point).abs();
     if distance <= rounding.distance {
@@ -233,6 +236,7 @@ fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> 
 /// The sum of two generators spans a part of their zonotope, so that the gauge can only grow. Parallel generators are
 /// added up without any loss.
 fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
+    // Sum generators by direction cell if there are very many; otherwise sum only parallel ones.
     let use_cells = generators.len() > MAX_PAIRED_GENERATORS;
     let mut reduced: Vec<Vec3> = Vec::with_capacity(generators.len().min(MAX_PAIRED_GENERATORS));
     let cells = if use_cells {

@@ -1,4 +1,4 @@
-//! Pages of shapes and text, and the files they are written to. Knows nothing of mechanics.
+//! Pages of shapes and text, and the files to which they are written. This folder does not use the mechanics.
 
 pub mod drawing;
 

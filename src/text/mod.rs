@@ -1,18 +1,18 @@
-//! Escapes untrusted text: one function per output format, for every string that does not come from this program.
+//! Escapes untrusted text for each output format. It is applied to every string that does not come from this program.
 //!
 //! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of terminals,
 //! characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return harmless text on
-//! one line. Invisible characters become [`HIDDEN`], so that the reader sees that they were there.
+//! one line. Invisible characters become [`HIDDEN`], so that the reader sees where they were.
 
 mod spelling;
 
 pub use spelling::nearest;
 
-/// Replaces an invisible character that would have an effect.
+/// The character that replaces each control character and each character that changes the reading direction.
 pub const HIDDEN: char = '\u{fffd}';
 
-/// A 64-bit hash of some bytes (FNV-1a), the same on every machine and in every version of Rust. It finds accidental
-/// differences; it does not protect against somebody who makes two texts of one hash.
+/// A 64-bit hash of some bytes (FNV-1a), the same on every machine and in every version of Rust. It detects accidental
+/// differences, but it is not secure: two texts with the same hash can be constructed.
 ///
 /// ```
 /// use drystone::internals::text::hash;
@@ -36,8 +36,8 @@ pub fn line(text: &str) -> String {
     text.chars().map(visible).collect()
 }
 
-/// Like [`line()`], with runs of white space reduced to single spaces, and shortened to `max_chars` characters with an
-/// ellipsis. For headings.
+/// Text for a heading: like [`line()`], with runs of white space reduced to single spaces, and shortened to `max_chars`
+/// characters with an ellipsis.
 pub fn heading(text: &str, max_chars: usize) -> String {
     let line = line(text);
     let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
@@ -52,7 +52,7 @@ pub fn heading(text: &str, max_chars: usize) -> String {
         .collect()
 }
 
-/// The visible replacement of a character.
+/// The character itself if it is visible, otherwise its replacement: a space or [`HIDDEN`].
 fn visible(c: char) -> char {
     match c {
         '\t' | '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => ' ',
@@ -87,7 +87,7 @@ pub fn xml(text: &str) -> String {
     out
 }
 
-/// Text for Markdown, escaped so that it starts no emphasis, heading, list, link, code or HTML and no automatic link.
+/// Text for Markdown, escaped so that it cannot start emphasis, a heading, a list, a link, code or HTML.
 pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
@@ -100,13 +100,14 @@ pub fn markdown(text: &str) -> String {
     backslash_escaped(text, starts_block)
 }
 
-/// Text for a cell of a Markdown table. Like [`markdown`], but `64.7 kN` and `-3` need no escapes, since no line starts
-/// there.
+/// Text for a cell of a Markdown table: like [`markdown`], but `64.7 kN` and `-3` are not escaped, because a cell
+/// cannot start a list.
 pub fn markdown_cell(text: &str) -> String {
     backslash_escaped(line(text).trim(), |_, _| false)
 }
 
-/// Text with a backslash before each character that Markdown interprets, or for which `is_special(position, character)`.
+/// Text with a backslash before each character that Markdown interprets or for which `is_special(position, character)`
+/// is true.
 fn backslash_escaped(text: &str, is_special: impl Fn(usize, char) -> bool) -> String {
     let mut out = String::with_capacity(text.len());
     for (place, c) in text.char_indices() {
@@ -159,9 +160,9 @@ pub fn shell(word: &str) -> String {
 
 /// JSON text with the same values, in which characters that a terminal would interpret are written as escapes.
 ///
-/// Valid JSON has such characters only inside strings, where escapes are allowed.
+/// In valid JSON, such characters occur only inside strings, where escapes are allowed.
 pub fn json(text: &str) -> String {
-    // Most text has no such character. Testing bytes is much cheaper than decoding characters.
+    // Most text has no such character, and testing bytes is much faster than decoding characters.
     let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
     if text.as_bytes().iter().all(is_plain) {
         return text.to_string();
@@ -178,7 +179,7 @@ pub fn json(text: &str) -> String {
     out
 }
 
-/// Text for a GitHub annotation, which has its own escapes; line breaks are kept as escapes.
+/// Text for a GitHub annotation, which uses escapes such as `%0A`; line breaks are kept as escapes.
 pub fn github(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(line).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")

@@ -1,14 +1,17 @@
-//! [`nearest`]: the known name that an unknown name was probably meant to be.
+//! [`nearest`]: finds the known name that an unknown name was probably meant to be.
 //!
 //! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or swap
 //! with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest distance.
 
-/// Only this many letters of a name are compared: the distance takes quadratic time.
+/// The number of letters of a name that are compared. It is limited because the time grows with its square.
 const MAX_LETTERS: usize = 80;
 
-/// The known name with the smallest distance to `name`, at most a third of its letters plus one; the first of several.
+/// The known name with the smallest distance to `name`; `None` if no distance is at most a third of its letters plus
+/// one.
+///
+/// Of several names with the same distance, the first is returned.
 pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    // A file with many unknown names and many known ones must not take minutes.
+    // This limit keeps the time short for files with many unknown and many known names.
     const MAX_COMPARED_NAMES: usize = 2000;
     let mut wanted = Vec::new();
     letters(name, &mut wanted);
@@ -21,7 +24,7 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
         };
         if distance < wanted.len() || other.starts_with(name) {
             best = Some(other);
-            // Of equally near names the first is returned: from here on only a nearer one counts.
+            // From here on, only a strictly smaller distance is accepted, so that the first of equally near names wins.
             match distance.checked_sub(1) {
                 Some(nearer) => max_distance = nearer,
                 None => break,
@@ -58,7 +61,7 @@ impl Rows {
         if a.len().abs_diff(b.len()) > max_distance {
             return None;
         }
-        // A common beginning and a common end do not change the distance.
+        // A common prefix and a common suffix do not change the distance, so remove them.
         let same = a.iter().zip(b).take_while(|(x, y)| x == y).count();
         let (a, b) = (&a[same..], &b[same..]);
         let backwards = a.iter().rev().zip(b.iter().rev());
@@ -84,7 +87,7 @@ impl Rows {
                 left = here;
                 least = least.min(here);
             }
-            // Each row depends on the row before it and, for swaps, on the one before that: neither can lead below its least.
+            // Stop early: each row depends only on the two rows before it, so no later value is below their minima.
             if least > max_distance && least_before + 1 > max_distance {
                 return None;
             }

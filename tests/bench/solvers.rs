@@ -16,8 +16,8 @@ use std::hint::black_box;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, QuadraticProgram, Scale, columns, kinematic_dual, least_residual_dual,
-    sticking_columns,
+    Column, Program, QuadraticProgram, Scale, adhesion_columns, columns, kinematic_dual,
+    least_residual_dual,
 };
 use drystone::internals::solve::{
     Conditioning, MAX_ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
@@ -100,8 +100,8 @@ fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     let all = columns(program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
-    let with_sticking: Vec<Column> = [all.clone(), sticking_columns(program)].concat();
-    let sticks = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
+    let with_adhesion: Vec<Column> = [all.clone(), adhesion_columns(program)].concat();
+    let sticks = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     [
         (
             "least force",
@@ -110,7 +110,7 @@ fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
         ("least residual", least_residual_dual(&loads, &all).0),
         (
             "least sticking",
-            kinematic_dual(&loads, &with_sticking, sticks).0,
+            kinematic_dual(&loads, &with_adhesion, sticks).0,
         ),
     ]
 }

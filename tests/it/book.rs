@@ -83,7 +83,7 @@ fn every_broken_scene_is_told_with_its_chapter_and_line() {
         "outer.md, line 4: the scene is not valid",
         "inner.md, line 1: cannot read",
         "nowhere.json",
-        "inner.md, line 4: there is no kind of figure \"spiral\"; known are forces, mechanism",
+        "inner.md, line 4: there is no kind of figure \"spiral\"; known are forces, flow, mechanism",
         "inner.md, line 7: unknown option \"colour=red\"",
     ] {
         assert!(problems.contains(said), "{said} is not in {problems}");

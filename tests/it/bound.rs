@@ -6,8 +6,13 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::process::Command;
+use std::time::Instant;
 
+use drystone::Analysis;
+use drystone::analysis::{Options, UndecidedReason, Verdict};
 use serde_json::json;
+
+use crate::structure::{block, on_floor, rectangle, scene};
 
 struct Ran {
     code: Option<i32>,
@@ -291,4 +296,25 @@ fn a_limit_of_time_leaves_the_rest_undecided() {
         said(&["check", "--no-timing", "--time-limit", "1000", "wall.json"]),
         free
     );
+}
+
+/// A closed form decides two blocks on a floor in no time. Where they overlap a verdict needs a second analysis, for which a time
+/// limit of 0 leaves no time.
+#[test]
+fn a_time_limit_leaves_overlaps_undecided() {
+    let beside = |depth: f64| {
+        let left = block("left", rectangle(0.0, 0.0, 1.0, 1.0), 1.0);
+        let right = block("right", rectangle(1.0 - depth, 0.0, 1.0, 1.0), 1.0);
+        scene(&on_floor(0.7, vec![left, right]))
+    };
+    let now = Options::default().deadline(Instant::now());
+    for (depth, late) in [(-0.5, Verdict::Stable), (0.001, Verdict::Undecided)] {
+        let scene = beside(depth);
+        assert_eq!(Analysis::new(&scene).verdict(), Verdict::Stable, "{depth}");
+        let analysis = Analysis::with(&scene, &now);
+        assert_eq!(analysis.verdict(), late, "{depth}");
+        let doubts = &analysis.frames[0].doubts;
+        let is_late = doubts.contains(&UndecidedReason::Late);
+        assert_eq!(is_late, depth > 0.0, "{doubts:?}");
+    }
 }

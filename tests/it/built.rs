@@ -12,7 +12,7 @@ const REFERENCE: &str = include_str!("../reference/problems.txt");
 
 #[test]
 fn every_key_has_a_method_of_its_name() {
-    let read = json!({ "drystone": 1, "title": "all", "gravity": [0.0, -9.0], "friction": 0.6, "kernel": 0.1, "density": 2.0,
+    let read = json!({ "drystone": 1, "title": "all", "author": "A. Mason", "project": "Mill Lane", "date": "2026-11-23", "gravity": [0.0, -9.0], "friction": 0.6, "kernel": 0.1, "density": 2.0,
         "thickness": 0.5, "contact_tolerance": 1e-6, "corner_contacts": true,
         "materials": { "oak": { "density": 700.0, "friction": 0.5, "fill": "#8b6b3d" }, "slate": {} },
         "friction_pairs": [{ "between": ["oak", "slate"], "friction": 0.3 }],
@@ -39,6 +39,9 @@ fn every_key_has_a_method_of_its_name() {
     let frame = ShapeEntry::from([[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]);
     let made = Scene::builder()
         .title("all")
+        .author("A. Mason")
+        .project("Mill Lane")
+        .date("2026-11-23")
         .gravity([0.0, -9.0])
         .friction(0.6)
         .kernel(0.1)

@@ -5,14 +5,18 @@
 //! inside and wrong on its way out is caught too.
 
 mod balance;
+mod beyond;
 mod force;
+mod healed;
 mod interval;
 mod margin;
 mod motion;
+mod solve;
 mod wedging;
 mod words;
 
 use drystone::analysis::{Options, Verdict};
+use drystone::result::key::{KEYS, REFUSAL_KEYS, Type};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::{Analysis, figure};
 use serde_json::{Value, json};
@@ -154,4 +158,40 @@ fn every_test_named_in_the_list_exists() {
         seen += 1;
     }
     assert!(seen > 30, "{seen}");
+}
+
+/// Every key of a result that is a number, a word or a sentence stands in the list of claims, next to at least one test.
+#[test]
+fn every_key_of_a_result_has_a_test() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let text = std::fs::read_to_string(format!("{root}/src/doc/claims.md")).expect("readable");
+    let (_, section) = text
+        .split_once("## Every key of a result")
+        .expect("a section");
+    let section = section.split("\n## ").next().unwrap_or_default();
+    let quoted = |cell: &str| -> Vec<String> {
+        let words = cell.split('`').skip(1).step_by(2);
+        words.map(str::to_owned).collect()
+    };
+    let mut listed = Vec::new();
+    for row in section.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = row.split(" | ").collect();
+        let [keys, tests] = cells[..] else {
+            panic!("two cells: {row}");
+        };
+        let tests = quoted(tests);
+        let are_tests = tests.iter().all(|test| test.contains("::"));
+        assert!(!tests.is_empty() && are_tests, "{row}");
+        listed.extend(quoted(keys));
+    }
+    let holds_others = |kind: Type| matches!(kind, Type::Object | Type::Objects | Type::ByRobot);
+    let keys = KEYS.iter().chain(REFUSAL_KEYS);
+    let mut expected: Vec<&str> = keys
+        .filter(|key| !holds_others(key.kind))
+        .map(|key| key.path)
+        .collect();
+    expected.sort_unstable();
+    expected.dedup();
+    listed.sort_unstable();
+    assert_eq!(listed, expected);
 }

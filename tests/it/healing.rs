@@ -380,3 +380,38 @@ fn where_coordinates_come_from_is_told() {
     let scene = Scene::from_json(&wall.file(0.0, Written::Decimals(3), None).to_string()).unwrap();
     assert_eq!(scene.healed().corners, 0);
 }
+
+/// Three stones whose corners a wide tolerance would push into each other. They stay as they are written, are judged as such, and the
+/// first of them is named with its place.
+#[test]
+fn what_cannot_be_healed_stays_as_written_and_is_named_with_its_place() {
+    let file = json!({ "drystone": 1, "contact_tolerance": 0.05,
+        "ground": [{ "polygon": corners(-3.0, -3.0, 8.0, 1.0) }],
+        "blocks": [
+            { "id": "a", "polygon": [[0.98, 0.21], [0.84, 0.54], [0.29, 0.96], [-0.0, 1.0], [-0.4, 0.92], [-0.53, 0.85], [-0.76, 0.65], [-0.1, -1.0], [0.27, -0.96]] },
+            { "id": "b", "polygon": [[2.97, 0.39], [2.65, 0.85], [2.57, 0.91], [2.44, 0.98], [1.59, 0.97], [1.06, 0.34], [1.55, -0.82], [3.0, -0.12], [3.02, 0.01]] },
+            { "id": "c", "polygon": [[1.61, 2.52], [0.78, 2.71], [0.0, 1.65], [1.54, 0.89], [1.56, 0.9]] }
+        ] });
+    let scene = Scene::from_json(&file.to_string()).expect("a sound scene");
+    let healed = scene.healed();
+    assert!(healed.kept > 0, "{healed:?}");
+    let Some(BodyId::Block(first)) = healed.first_kept else {
+        panic!("{healed:?}");
+    };
+    let block = &scene.blocks()[first.0];
+    let written = file["blocks"][first.0]["polygon"]
+        .as_array()
+        .expect("a list");
+    let outline = block.body.polygon.outline();
+    assert!(written.iter().all(|corner| {
+        let at = [&corner[0], &corner[1]].map(|v| v.as_f64().expect("a number"));
+        outline.iter().any(|p| [p.x, p.y] == at)
+    }));
+    let (least, words) = (block.body.polygon.bounds().min, scene.tolerance_words());
+    let named = format!("; {} (from {:.4}, {:.4} to", block.id, least.x, least.y);
+    let words = words.expect("the scene is on no lattice");
+    assert!(
+        words.contains(&named) && words.contains("stayed as written"),
+        "{words}"
+    );
+}

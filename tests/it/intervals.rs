@@ -560,6 +560,14 @@ fn both_ends_are_those_of_an_exact_program() {
     );
 }
 
+/// A load pulls a lintel off its posts. The mechanisms of nearby tilts differ a little, and each cuts off a fifteenth less than the
+/// one before: the tilt was withheld after 200 cuts.
+#[test]
+fn slow_cuts_of_the_tilt_are_hurried() {
+    let found = problems(2536);
+    assert!(found.is_empty(), "{found:?}");
+}
+
 #[test]
 fn a_session_has_the_margins_of_the_scene() {
     for number in 0..12 {

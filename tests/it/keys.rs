@@ -15,6 +15,7 @@ fn a_load_tells_its_amount_and_a_key_what_it_is() {
         .into_iter()
         .flat_map(texts)
         .map(|t| t.words)
+        .filter(|words| !words.starts_with("largest: "))
         .collect();
     assert_eq!(amounts.len(), scene.loads().len(), "{amounts:?}");
     let key: Vec<Text> = classes(&drawing.items, &["key"])
@@ -60,7 +61,8 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
     );
     let figure = drawn("assets/thesis/figure-4.json", Some(COLUMN));
     let high = figure.height / figure.width * 84.0;
-    assert!(high < 220.0, "{high} mm");
+    // A4 less margins of 35 mm at the top and the bottom.
+    assert!(high < 227.0, "{high} mm");
 }
 
 #[test]

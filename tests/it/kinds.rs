@@ -9,7 +9,8 @@ use serde_json::json;
 
 use super::structure;
 
-const KINDS: [Kind; 4] = [
+const KINDS: [Kind; 5] = [
+    Kind::Flow,
     Kind::Mechanism,
     Kind::Thrust,
     Kind::Kernel,
@@ -252,4 +253,45 @@ fn what_changed_from_frame_to_frame_is_marked_and_what_did_not_is_not() {
         svg.contains("new: high; 1 of 2 shared forces changed by over 5 %"),
         "{svg}"
     );
+}
+
+#[test]
+fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust() {
+    let scene = scene("study/arch-27.json");
+    let plain = Analysis::new(&scene);
+    let kinds = Kind::Thrust.stated_margins(&plain).expect("the kernel");
+    let asked = drystone::analysis::Options::default()
+        .margins(true)
+        .margin_kinds(kinds);
+    let analysis = Analysis::with(&scene, &asked);
+    let family = analysis.thrust_states(0);
+    let [least, central, greatest] = [&family.least, &family.central, &family.greatest]
+        .map(|state| state.as_ref().expect("it is an arch").thrust);
+    assert!(
+        least < central && central < greatest,
+        "{least} {central} {greatest}"
+    );
+    // The forces of the analysis, another balance of the same arch, lie between.
+    assert!(least <= family.present * (1.0 + 1e-6), "{}", family.present);
+    assert!(family.present <= greatest * (1.0 + 1e-6));
+    let drawing = draw(&analysis, Kind::Thrust);
+    assert_eq!(all(&drawing, "thrust-least").len(), 1);
+    assert_eq!(all(&drawing, "thrust-greatest").len(), 1);
+    let svg = svg::write(&drawing);
+    for words in [
+        "least thrust",
+        "greatest thrust",
+        "most central line",
+        "forces of least sum",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn what_stands_without_thrust_has_no_family() {
+    let scene = scene("study/stack-harmonic-stands.json");
+    let analysis = Analysis::new(&scene);
+    assert!(analysis.thrust_states(0).least.is_none());
+    assert_eq!(Kind::Thrust.stated_margins(&analysis), None);
 }

@@ -110,6 +110,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "result/",
             "drawing/style/format/value.rs",
             "import/geojson.rs",
+            "import/degrees.rs",
             "report/book.rs",
         ],
     ),
@@ -127,11 +128,12 @@ const DOORS: &[(&str, &[&str])] = &[
             "output/png.rs",
             "output/png/",
             "output/pdf.rs",
+            "output/pdf/",
             "output/svg.rs",
             "output/svg/",
         ],
     ),
-    ("krilla", &["output/pdf.rs"]),
+    ("krilla", &["output/pdf.rs", "output/pdf/"]),
     ("subsetter", &["output/svg/font.rs"]),
     ("write_fonts", &["output/svg/font.rs"]),
     (
@@ -144,8 +146,15 @@ const DOORS: &[(&str, &[&str])] = &[
     ),
     (
         "png",
-        &["output/png.rs", "output/png/", "snapshot/picture/"],
+        &[
+            "output/png.rs",
+            "output/png/",
+            "output/animation.rs",
+            "output/animation/",
+            "snapshot/picture/",
+        ],
     ),
+    ("gif", &["output/animation.rs", "output/animation/"]),
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
     ("skrifa", &["drawing/text.rs"]),
@@ -159,16 +168,19 @@ const DOORS: &[(&str, &[&str])] = &[
     ("clap", &["cli/"]),
     ("tempfile", &["output/file.rs"]),
     ("signal_hook", &["cli/signal.rs"]),
-    ("plotters", &["chart/"]),
+    ("plotters", &["chart/plot.rs", "chart/plot/"]),
     ("maud", &["report/", "snapshot/review.rs"]),
     ("pulldown_cmark", &["report/book.rs"]),
     ("roxmltree", &["import/", "snapshot/element/tree.rs"]),
     ("svgtypes", &["import/", "snapshot/element/shape.rs"]),
     ("simplecss", &["import/"]),
+    ("pyo3", &["python/"]),
+    ("arrow_array", &["python/table.rs"]),
+    ("arrow_schema", &["python/table.rs"]),
 ];
 
 /// Doors that are one file, but whose file the owning module may choose.
-const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa", "plotters"];
+const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa"];
 
 /// Names that say nothing about what a file is.
 const EMPTY_NAMES: &[&str] = &[
@@ -306,6 +318,7 @@ fn a_module_uses_what_is_listed_before_it_and_groups_below_its_own() {
     assert!(may("figure", "drawing") && may("figure", "analysis"));
     assert!(!may("drawing", "analysis") && !may("analysis", "drawing"));
     assert!(may("cli", "report") && !may("report", "cli"));
+    assert!(may("python", "cli") && !may("cli", "python"));
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod import;
 mod labels;
 mod intervals;
 mod keys;
+mod flow;
 mod kinds;
 mod laws;
 mod layers;

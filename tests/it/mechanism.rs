@@ -109,7 +109,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
                 let shared = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0)
                     .map_or(0.0, |o| o.area);
                 let share = shared / a.area().min(b.area());
-                assert!(share < 0.012, "{name}: {share} of the smaller");
+                assert!(share < 0.005, "{name}: {share} of the smaller");
                 compared += 1;
             }
         }
@@ -141,7 +141,18 @@ fn what_slides_stays_on_its_joint() {
 fn an_animated_mechanism_moves_and_its_pages_are_alike() {
     let scene = scene("tests/scenes/arch13thin.json");
     let analysis = Analysis::new(&scene);
-    let pages = figure::pages(&analysis, Kind::Mechanism, &Options::default());
+    let film = figure::film(&analysis, Kind::Mechanism, &Options::default(), 2.0);
+    assert_eq!(
+        film.last().map(|(_, seconds)| *seconds),
+        Some(1.0),
+        "it rests"
+    );
+    let moving: f64 = film[..film.len() - 1]
+        .iter()
+        .map(|(_, seconds)| seconds)
+        .sum();
+    assert!((moving - 2.0).abs() < 1e-9, "{moving} s");
+    let pages: Vec<_> = film.into_iter().map(|(page, _)| page).collect();
     assert!(pages.len() >= 10);
     let first = |n: usize| {
         let picture = all(&pages[n].items, "picture")[0];
@@ -152,6 +163,8 @@ fn an_animated_mechanism_moves_and_its_pages_are_alike() {
         .map(|n| (first(n) - first(0)).norm())
         .collect();
     assert!(ways.windows(2).all(|w| w[1] > w[0]), "{ways:?}");
+    let (first_step, middle) = (ways[1], ways[ways.len() / 2 + 1] - ways[ways.len() / 2]);
+    assert!(middle > 3.0 * first_step, "it begins slowly: {ways:?}");
     let size = |n: usize| (pages[n].width, pages[n].height);
     assert!((1..pages.len()).all(|n| size(n) == size(0)));
 }
@@ -185,4 +198,134 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     // Without margins there is nothing to show, and that is said.
     let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
     assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
+}
+
+/// Two stacks of seven blocks that lean towards each other, 0.2 m apart at the top.
+fn corbelled_vault() -> Scene {
+    let left = [-3.6, -3.35, -3.05, -2.7, -2.35, -2.0, -1.7];
+    let mut blocks = Vec::new();
+    for (row, x) in left.into_iter().enumerate() {
+        let (low, high) = (0.5 * row as f64, 0.5 * (row + 1) as f64);
+        for (side, x) in [("L", x), ("R", -x - 1.6)] {
+            let right = x + 1.6;
+            blocks.push(format!(
+                r#"{{ "id": "{side}{row}", "polygon": [[{x},{low}],[{right},{low}],[{right},{high}],[{x},{high}]] }}"#
+            ));
+        }
+    }
+    let text = format!(
+        r#"{{ "drystone": 1, "density": 2400, "ground": [{{ "polygon": [[-5,-0.6],[5,-0.6],[5,0],[-5,0]] }}],
+             "blocks": [{}] }}"#,
+        blocks.join(", ")
+    );
+    Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// The largest common area of two bodies in a picture, as a share of the smaller one.
+fn worst_overlap(scene: &Scene, drawing: &drystone::drawing::Drawing) -> f64 {
+    let picture = all(&drawing.items, "picture")[0];
+    let camera = picture.camera.expect("it shows the scene");
+    let mut bodies: Vec<Polygon> = all(&picture.items, "displaced")
+        .into_iter()
+        .chain(all(&picture.items, "block"))
+        .map(|group| polygon(group, &camera))
+        .collect();
+    bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
+    let mut worst: f64 = 0.0;
+    for (i, a) in bodies.iter().enumerate() {
+        for b in &bodies[..i] {
+            let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
+            let area = common.map_or(0.0, |o| o.area);
+            worst = worst.max(area / a.area().min(b.area()));
+        }
+    }
+    worst
+}
+
+#[test]
+fn parts_that_did_not_touch_stop_before_they_meet() {
+    let scene = corbelled_vault();
+    let analysis = Analysis::new(&scene);
+    assert_eq!(analysis.frames[0].verdict, Verdict::Unstable);
+    let film = figure::film(&analysis, Kind::Mechanism, &Options::default(), 1.0);
+    for (page, _) in &film {
+        let worst = worst_overlap(&scene, page);
+        assert!(worst < 0.005, "{worst} of the smaller");
+    }
+}
+
+#[test]
+fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
+    for (name, scene) in brought() {
+        let analysis = Analysis::new(&scene);
+        if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel() > 0.0 {
+            continue;
+        }
+        let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
+        let picture = all(&drawing.items, "picture")[0];
+        let camera = picture.camera.expect("it shows the scene");
+        let mut bodies: Vec<Polygon> = all(&picture.items, "displaced")
+            .into_iter()
+            .chain(all(&picture.items, "block"))
+            .map(|group| polygon(group, &camera))
+            .collect();
+        bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
+        let slides: Vec<&str> = all(&picture.items, "slip")
+            .iter()
+            .filter_map(|slip| slip.title.strip_prefix("Slip between "))
+            .collect();
+        for hinge in all(&picture.items, "hinge") {
+            let pair = hinge.title.strip_prefix("Hinge between ").expect("titled");
+            assert!(!slides.contains(&pair), "{name}: {pair} also slides");
+            let ring = hinge.items.iter().find_map(|item| match item {
+                Item::Path(path) => Some(&path.outline),
+                _ => None,
+            });
+            let ring: Vec<Point> = ring
+                .expect("a ring")
+                .points()
+                .map(|p| camera.back(p))
+                .collect();
+            let sum: Vector = ring.iter().map(|p| p.coords).sum();
+            let centre = Point::from(sum / ring.len() as f64);
+            let near = |body: &&Polygon| {
+                let far = body.edges().map(|e| {
+                    let along = e.to - e.from;
+                    let share = (centre - e.from).dot(&along) / along.norm_squared();
+                    (centre - (e.from + along * share.clamp(0.0, 1.0))).norm()
+                });
+                far.fold(f64::INFINITY, f64::min) * camera.length(1.0) < 1.5
+            };
+            let touching = bodies.iter().filter(near).count();
+            assert!(touching >= 2, "{name}: the hinge between {pair} floats");
+        }
+    }
+}
+
+#[test]
+fn the_headline_says_what_is_missing() {
+    let slide = scene("tests/scenes/slide.json");
+    let kinds = Kind::Mechanism.stated_margins(&Analysis::new(&slide));
+    let kinds = kinds.expect("it has a headline");
+    let asked = drystone::analysis::Options::default()
+        .margins(true)
+        .margin_kinds(kinds);
+    let svg = |scene: &Scene| {
+        let analysis = Analysis::with(scene, &asked);
+        let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
+        drystone::output::svg::write(&drawing)
+    };
+    // The slope rises by 4 in 9: 0.444 is needed, rounded up to 0.45.
+    assert!(svg(&slide).contains("falls: would need friction 0.45"));
+    // A block 1 m wide and 2 m high of 8 N topples under a push at its top of more than 2 N: half of 4 N.
+    let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
+        "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,2],[0,2]], "weight": 8 } ],
+        "loads": [ { "block": "a", "force": [4, 0], "at": [0, 2] } ] }"#;
+    let pushed = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
+    let svg = svg(&pushed);
+    assert!(
+        svg.contains("falls: carries 50\u{a0}% of its load"),
+        "{svg}"
+    );
+    assert!(svg.contains("Load on block a: 4 N"), "the load is drawn");
 }

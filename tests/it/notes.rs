@@ -63,7 +63,7 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
         ),
         (
             scene(&format!(
-                "\"blocks\": [{{ \"id\": \"a\", {square} }},\n{{ \"id\": \"b\", {square}, \"at\": [2, 0] }}], \"steps\": [{{ \"place\": [\"a\"] }}]"
+                "\"blocks\": [{{ \"id\": \"a\", {square}, \"weight\": 5 }},\n{{ \"id\": \"b\", {square}, \"at\": [2, 0], \"weight\": 5 }}], \"steps\": [{{ \"place\": [\"a\"] }}]"
             )),
             NoteCode::UnusedBlock,
             "blocks[1]",
@@ -86,6 +86,12 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             2,
         ),
         (
+            scene(&format!("\"blocks\": [{{ {square} }}]")),
+            NoteCode::DefaultDensity,
+            "blocks[0]",
+            2,
+        ),
+        (
             format!("{{ \"drystone\": 1, {block} }}"),
             NoteCode::NoGround,
             "ground",
@@ -93,7 +99,7 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
         ),
         (
             scene(
-                "\"blocks\": [{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]] },\n{ \"polygon\": [[1.004, 0], [2, 0], [2, 1], [1.004, 1]] }]",
+                "\"density\": 2500, \"blocks\": [{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]] },\n{ \"polygon\": [[1.004, 0], [2, 0], [2, 1], [1.004, 1]] }]",
             ),
             NoteCode::NearMiss,
             "blocks[1]",
@@ -156,7 +162,7 @@ fn what_is_usual_is_not_noted() {
 #[test]
 fn a_note_changes_no_verdict_and_an_unknown_code_is_a_problem() {
     let text = format!(
-        "{{ \"drystone\": 1, {GROUND}, \"blocks\": [{{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]], \"friction\": 3 }}] }}"
+        "{{ \"drystone\": 1, {GROUND}, \"blocks\": [{{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]], \"friction\": 3, \"weight\": 5 }}] }}"
     );
     let scene = Scene::from_json(&text).expect("sound");
     let analysis = Analysis::new(&scene);
@@ -181,7 +187,7 @@ fn many_near_misses_are_few_notes() {
         })
         .collect();
     let text = format!(
-        "{{ \"drystone\": 1, \"ground\": [{{ \"polygon\": [[-5, -1], [99, -1], [99, 0], [-5, 0]] }}], \"blocks\": [{}] }}",
+        "{{ \"drystone\": 1, \"density\": 2500, \"ground\": [{{ \"polygon\": [[-5, -1], [99, -1], [99, 0], [-5, 0]] }}], \"blocks\": [{}] }}",
         blocks.join(",")
     );
     let found = notes(&text);

@@ -211,7 +211,7 @@ fn the_format_page_tells_every_key_of_a_scene_file() {
 
 fn key_table(keys: &[Key]) -> String {
     let mut rows =
-        String::from("| key | value | unit | there | meaning |\n|---|---|---|---|---|\n");
+        String::from("| key | value | unit | present | meaning |\n|---|---|---|---|---|\n");
     for key in keys {
         let when = if key.when.is_empty() {
             "always"

@@ -3,7 +3,7 @@
 use drystone::analysis::{Analysis, Options as Asked, Toward, Verdict};
 use drystone::drawing::{Drawing, Group, Item};
 use drystone::figure::{self, Kind, Options};
-use drystone::report::entry::{Entry, File, ReportOptions};
+use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
 use drystone::scene::Scene;
 
 use crate::labels::{classes, texts};
@@ -136,18 +136,24 @@ fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
     };
     let captions = |scene: &Scene| {
         let entry = Entry::new(file, &Analysis::new(scene), &ReportOptions::default());
-        let grids = entry.steps.iter().flat_map(|s| &s.grids);
-        let captions: Vec<String> = grids.map(|g| g.caption.clone()).collect();
-        (captions.join(" / "), entry.row.friction)
+        let parts = entry.sections.iter().flat_map(|s| &s.parts);
+        let notes = parts.filter_map(|part| match part {
+            SheetPart::Note(words) => Some(words.as_str()),
+            _ => None,
+        });
+        (notes.collect::<Vec<_>>().join(" / "), entry.row.friction)
     };
     let (falls, used) = captions(&block(1.0, 4.0));
     assert!(
-        falls.contains("Interfaces, with the missing forces added"),
+        falls.contains("The forces include those that are missing."),
         "{falls}"
     );
     assert_eq!(used, None);
     let (stands, used) = captions(&block(1.0, 2.0));
-    assert!(stands.contains("Interfaces /"), "{stands}");
+    assert!(
+        stands.contains("nearest to opening or sliding first") && !stands.contains("missing"),
+        "{stands}"
+    );
     assert!(
         used.is_some_and(|u| (u - 2.0 / 3.0).abs() < 1e-6),
         "{used:?}"

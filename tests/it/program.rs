@@ -10,6 +10,7 @@ mod import;
 mod readme;
 mod render;
 mod safety;
+mod silent;
 mod words;
 
 use std::fs;

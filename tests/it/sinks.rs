@@ -406,7 +406,9 @@ const WRITERS: &[(&str, &[&str])] = &[
         &[
             "output/svg.rs",
             // Puts the name space into a chart that is written already.
-            "report/entry/mod.rs",
+            "report/entry/part.rs",
+            // Draws the bar of a margin into a cell of a table.
+            "report/print/table.rs",
             "output/svg/",
             "output/tree.rs",
             "chart/",

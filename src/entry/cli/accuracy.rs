@@ -1,4 +1,4 @@
-//! `drystone accuracy`: what accuracy costs in time, measured here and now.
+//! `drystone accuracy`: measures the time and the accuracy of solution methods on this machine.
 
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ impl Accuracy {
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
         destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, None, None)?;
-        // A scene without a title is known by its file.
+        // A scene without a title gets the name of its file as title.
         let scenes: Vec<Scene> = sources
             .iter()
             .map(|source| {
@@ -90,7 +90,11 @@ impl Accuracy {
         }
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
         for (path, _) in &files {
-            terminal.note(&format!("{}: {frames} frames", path.display()));
+            let frames = match frames {
+                1 => "1 frame".to_owned(),
+                _ => format!("{frames} frames"),
+            };
+            terminal.note(&format!("{}: {frames}", path.display()));
         }
         Ok(ExitStatus::Done)
     }

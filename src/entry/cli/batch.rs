@@ -1,11 +1,12 @@
-//! `drystone batch`: a line of JSON for every scene of a corpus, however many there are.
+//! `drystone batch`: reads any number of scenes and prints one line of JSON for each.
 
+mod csv;
 mod input;
 mod output;
 mod pace;
 mod resume;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
@@ -44,7 +45,8 @@ pub(crate) struct Batch {
     /// Files of a scene per line (.ndjson, .jsonl), scene files (.json), or folders of both; - reads lines from standard input
     #[arg(value_name = "INPUT", default_value = "-")]
     inputs: Vec<PathBuf>,
-    /// Write the lines to a file, each as soon as it is its turn, in place of standard output
+    /// Write the lines to a file, each as soon as it is its turn, in place of standard output; a file that ends in .csv gets a
+    /// table with one row for each frame
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Keep the whole lines that the output file has already and answer the scenes that follow; a last line cut short is
@@ -84,7 +86,8 @@ fn fields(typed: &str) -> Result<Fields, String> {
 
 impl Batch {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let work = self.work().map_err(|c| vec![c])?;
+        let form = self.form().map_err(|c| vec![c])?;
+        let work = self.work(form).map_err(|c| vec![c])?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;
         let mut records = Records::new(inputs.list);
         let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
@@ -92,6 +95,7 @@ impl Batch {
             path: self.output.as_deref(),
             resume: self.resume,
             settings: self.settings(&work),
+            form,
         };
         let mut output = Output::open(&target, &inputs.files, &mut records).map_err(|c| vec![c])?;
         if let Some(folder) = &self.render {
@@ -101,7 +105,7 @@ impl Batch {
         let threads = self.jobs.map_or_else(
             || {
                 let cores = thread::available_parallelism().map_or(1, usize::from);
-                // A picture is waited for until it lies on the disk; meanwhile others are drawn.
+                // A thread that writes a picture waits for the disk. More threads than cores keep all cores busy.
                 cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
             },
             usize::from,
@@ -134,7 +138,7 @@ impl Batch {
                 }
             },
         );
-        // What was answered before the failure is a result all the same.
+        // Write the answers from before the error: they are valid results.
         let flushed = output.flush();
         pace.end();
         match (failed, flushed) {
@@ -143,7 +147,34 @@ impl Batch {
         }
     }
 
-    fn work(&self) -> Result<Work, CliError> {
+    /// The form of the output, by the ending of its file.
+    fn form(&self) -> Result<Form, CliError> {
+        let ending = self
+            .output
+            .as_deref()
+            .and_then(Path::extension)
+            .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let refuse = |why: &str| Err(CliError::CommandLine(why.into()));
+        match ending.as_deref() {
+            Some("csv") if self.resume => refuse(
+                "--resume needs one line for each scene, and a .csv file has one row for each frame; write an .ndjson file",
+            ),
+            Some("csv") if self.fields != Fields::default() || self.margins.are_requested() => {
+                refuse(
+                    "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
+                )
+            }
+            Some("csv") => Ok(Form::Csv),
+            Some(ending @ ("parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite")) => {
+                refuse(&format!(
+                    "batch writes no .{ending} files; write .csv or .ndjson, which pandas, polars and DuckDB read"
+                ))
+            }
+            _ => Ok(Form::Json),
+        }
+    }
+
+    fn work(&self, form: Form) -> Result<Work, CliError> {
         let format = self.picture.asked().unwrap_or(Format::Png);
         let picture = self.picture.clone().or_width(WIDTH, format).of_many();
         let drawn = match &self.render {
@@ -174,11 +205,13 @@ impl Batch {
             level: self.level,
             margins: self.margins.clone(),
             fields,
+            form,
             drawn: drawn.map(Arc::new),
         })
     }
 
-    /// What the answers of a run depend on; threads and progress are not among it.
+    /// The settings on which the answers of a run depend. The number of threads and the progress report do not change the
+    /// answers.
     fn settings(&self, work: &Work) -> Settings {
         let mut settings = vec![
             ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
@@ -207,7 +240,17 @@ struct Work {
     level: AnalysisArgs,
     margins: MarginArgs,
     fields: Fields,
+    form: Form,
     drawn: Option<Arc<Drawn>>,
+}
+
+/// The form of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    /// One line of JSON for each scene.
+    Json,
+    /// One row for each frame.
+    Csv,
 }
 
 /// How scenes are drawn, and where to.
@@ -228,14 +271,16 @@ struct Answer {
 }
 
 impl Work {
-    /// The line for a record; a complaint where its picture could not be written, as nothing later could be either.
+    /// Analyses one record. Returns its line, or an error if its picture could not be written, because then no later
+    /// picture could be written either.
     fn answer(&self, record: Record) -> Result<Answer, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
         let scene = resume::record_hash(&record);
         let shown = input::shown(&record);
         let caught = isolate(&shown, || self.examined(&origin, &name, &record));
-        let (line, ending) = caught.unwrap_or_else(|fault| Ok(refused(&origin, &fault.list)))?;
+        let (line, ending) =
+            caught.unwrap_or_else(|fault| Ok(self.refused(&origin, &fault.list)))?;
         Ok(Answer {
             line,
             ending,
@@ -251,33 +296,41 @@ impl Work {
     ) -> Result<(String, ExitStatus), CliError> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
-            Err(why) => return Ok(refused(origin, &[problem(Code::NotReadable, why, "")])),
+            Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
         let scene = match Scene::from_slice_within(bytes, self.level.contact_tolerance) {
             Ok(scene) => scene,
-            Err(problems) => return Ok(refused(origin, &problems.list)),
+            Err(problems) => return Ok(self.refused(origin, &problems.list)),
         };
         let options = self.options();
-        if self.drawn.is_none() && self.fields.are_few() {
-            let verdict = verdicts(&scene, &options).into_iter().max();
-            let verdict = verdict.unwrap_or(Verdict::Stable);
-            return Ok((
-                verdict_line(origin, &scene.title, verdict, &self.fields),
-                ExitStatus::from(verdict),
-            ));
+        if self.drawn.is_none() && self.fields.are_few() && self.form == Form::Json {
+            let found = verdicts(&scene, &options);
+            let ending = ExitStatus::from_verdicts(&scene, found.iter().copied());
+            let verdict = found.into_iter().max().unwrap_or(Verdict::Stable);
+            let line = verdict_line(origin, &scene.title, verdict, &self.fields);
+            return Ok((line, ending));
         }
         let analysis = Analysis::with(&scene, &options);
         let picture = match &self.drawn {
             None => PictureOutcome::NotAsked,
             Some(drawn) => drawn.draw(&analysis, name)?,
         };
-        Ok((
-            line_of(origin, &analysis, &picture, &self.fields),
-            ExitStatus::from_analysis(&analysis),
-        ))
+        let line = match self.form {
+            Form::Json => line_of(origin, &analysis, &picture, &self.fields),
+            Form::Csv => csv::rows(origin, &analysis),
+        };
+        Ok((line, ExitStatus::from_analysis(&analysis)))
     }
 
-    /// The options of an analysis: nothing beyond what is written. A time limit counts from here.
+    fn refused(&self, origin: &Origin, problems: &[Problem]) -> (String, ExitStatus) {
+        let line = match self.form {
+            Form::Json => problem_line(origin, problems),
+            Form::Csv => csv::problem_row(origin, problems),
+        };
+        (line, ExitStatus::WrongInput)
+    }
+
+    /// The options of an analysis: only what the line contains is computed. A time limit starts with this call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());
         if self.fields.ask(&["frames", "margins"]) {
@@ -291,7 +344,7 @@ impl Work {
 }
 
 impl Drawn {
-    /// Draws a scene into its file. The file is complete before the line that names it.
+    /// Draws a scene into its file. The file is complete before the line that names it is written.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {
@@ -329,8 +382,4 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
         help: help.into(),
         place: None,
     }
-}
-
-fn refused(origin: &Origin, problems: &[Problem]) -> (String, ExitStatus) {
-    (problem_line(origin, problems), ExitStatus::WrongInput)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Options};
+use crate::analysis::{Analysis, Options, Verdict};
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
@@ -13,10 +13,11 @@ use crate::cli::margins::MarginArgs;
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
-use crate::cli::table;
+use crate::cli::table::{self, Detail};
 use crate::cli::terminal::Terminal;
 use crate::result::{Layout, Timing, refusal, to_json_of};
 use crate::scene::Note;
+use crate::wording::verdict::counted;
 
 /// Say whether scenes stand, what fails, and how that is proved
 #[derive(Debug, Args)]
@@ -38,6 +39,12 @@ pub(crate) struct Check {
     /// Leave out notes of what is allowed and seldom meant; a scene silences single ones by "silence": ["code"]
     #[arg(long)]
     no_notes: bool,
+    /// Add the sum of all forces, what would have to stick, the proof, the time and the contact tolerance
+    #[arg(long, short, conflicts_with = "json")]
+    verbose: bool,
+    /// End with 0 whatever the verdicts are; wrong input still ends with 2
+    #[arg(long)]
+    exit_zero: bool,
     /// Say below the tables what their words mean
     #[arg(long, conflicts_with = "json")]
     explain: bool,
@@ -91,23 +98,24 @@ impl Check {
             Timing::Included
         };
         let width = terminal.width();
-        let answer = |source: &Source| {
+        let answer = |source: &Source| -> Answer {
             let mut analysis = Analysis::with(&source.scene, &options);
             if self.no_notes {
                 analysis.notes.clear();
             }
             let ending = ExitStatus::from_analysis(&analysis);
+            let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
             if self.json {
                 let file = source.path.to_string_lossy();
                 let json = to_json_of(&file, &analysis, timing, layout);
-                return (ending, json, Page::default());
+                return (ending, verdicts, json, Page::default());
             }
-            let mut page = table::of(&source.name(), &analysis, timing, width);
+            let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
             page.append(&noted(&analysis.notes));
             page.end();
-            (ending, String::new(), page)
+            (ending, verdicts, String::new(), page)
         };
-        let answers: Vec<Result<(ExitStatus, String, Page), CliError>> = sources
+        let answers: Vec<Result<Answer, CliError>> = sources
             .par_iter()
             .map(|(_, source)| {
                 progress.doing(&source.name());
@@ -127,7 +135,8 @@ impl Check {
         }
         refused.sort_by_key(|(number, ..)| *number);
         let printed = if self.json {
-            let mut objects: Vec<String> = done.iter().map(|(_, json, _)| json.clone()).collect();
+            let mut objects: Vec<String> =
+                done.iter().map(|(_, _, json, _)| json.clone()).collect();
             for (number, path, complaint) in &refused {
                 let file = path.to_string_lossy();
                 objects.insert(*number, refusal(&file, &complaint.problems(), layout));
@@ -138,6 +147,11 @@ impl Check {
             if !terminal.is_quiet() {
                 for (.., table) in &done {
                     page.append(table);
+                }
+                if done.len() > 1 {
+                    page.line(&total(
+                        done.iter().map(|(_, verdicts, ..)| verdicts.as_slice()),
+                    ));
                 }
                 if self.explain {
                     page.append(&table::explained(width));
@@ -150,11 +164,41 @@ impl Check {
         }
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
-        Ok((done.iter().map(|(ending, ..)| *ending))
-            .chain(wrong)
-            .max()
-            .unwrap_or(ExitStatus::Done))
+        let endings = done.iter().map(|(ending, ..)| match self.exit_zero {
+            true => ExitStatus::Done,
+            false => *ending,
+        });
+        Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
+
+    fn detail(&self, timing: Timing) -> Detail {
+        match self.verbose {
+            true => Detail::Full(timing),
+            false => Detail::Short,
+        }
+    }
+}
+
+/// What a scene comes to, the verdicts of its frames, and its JSON or its table.
+type Answer = (ExitStatus, Vec<Verdict>, String, Page);
+
+/// The total of several scenes: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`.
+fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
+    let counts = |verdicts: &[Verdict]| {
+        let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
+        let count = |kind: Verdict| verdicts.iter().filter(|v| **v == kind).count();
+        let found = kinds.into_iter().filter(|kind| count(*kind) > 0);
+        let words: Vec<String> = found.map(|kind| counted(count(kind), kind)).collect();
+        words.join(", ")
+    };
+    let worst = |frames: &[Verdict]| frames.iter().max().copied().unwrap_or(Verdict::Stable);
+    let by_scene: Vec<Verdict> = scenes.clone().map(worst).collect();
+    let by_frame: Vec<Verdict> = scenes.flatten().copied().collect();
+    let mut words = format!("{} scenes: {}", by_scene.len(), counts(&by_scene));
+    if by_frame.len() > by_scene.len() {
+        words += &format!("; {} frames: {}", by_frame.len(), counts(&by_frame));
+    }
+    words
 }
 
 /// Notes below a table, a line each with what to do about it in the next.

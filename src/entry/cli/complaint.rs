@@ -1,4 +1,4 @@
-//! [`CliError`]: everything that can go wrong with a command, and how a person is shown it.
+//! [`CliError`]: all errors of a command, and their messages.
 //!
 //! The only file that names ariadne. A problem of a scene is shown in the line of the file where it is; ariadne is handed
 //! that one line and nothing else, so that a long file costs no more than a short one.
@@ -65,7 +65,7 @@ pub(crate) enum CliError {
 }
 
 impl CliError {
-    /// How the command ends for it.
+    /// The exit status for this error.
     pub(crate) fn ending(&self) -> ExitStatus {
         match self {
             CliError::NotWritten { .. } => ExitStatus::NotWritten,
@@ -79,7 +79,7 @@ impl CliError {
         }
     }
 
-    /// Whether this is the program's own fault on one scene. The other scenes are answered then.
+    /// Whether the program itself failed on one scene. The other scenes are answered then.
     pub(crate) fn is_internal_fault(&self) -> bool {
         match self {
             CliError::Scene { problems, .. } => {
@@ -89,7 +89,7 @@ impl CliError {
         }
     }
 
-    /// What a program reads of a scene that cannot be read.
+    /// The problems of a scene that cannot be read, for JSON output.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         let alone = |code, message: String, help: &str| {
             vec![Problem {
@@ -113,17 +113,21 @@ impl CliError {
                 format!("cannot read {what}: {why}"),
                 "check the path, and that the file may be read",
             ),
-            // No other complaint is about a single scene file.
+            // All other errors do not concern a single scene file.
             other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
         }
     }
 
-    /// The message for a person; `width` is the terminal's number of columns, if it is a terminal.
+    /// The message for a person. `width` is the number of columns of the terminal; `None` if the output is not a terminal.
     pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {
             CliError::Scene { name, problems } => {
                 page.block(&all(name, problems.text.as_deref(), &problems.list, width));
+                let has_lines = [".ndjson", ".jsonl"].iter().any(|end| name.ends_with(end));
+                if has_lines {
+                    page.line("a file with one scene on each line is for: drystone batch FILE");
+                }
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
                     page.line(
                         "drystone render --broken draws its outlines with these problems marked",
@@ -189,7 +193,7 @@ struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// `None` where the span does not fit the text.
+    /// The place of a byte range in a text; `None` if the range does not fit the text.
     fn new(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
         let before = text.get(..span.start)?;
         let start = before.rfind('\n').map_or(0, |n| n + 1);
@@ -209,14 +213,14 @@ impl<'a> Place<'a> {
         })
     }
 
-    /// Whether the line can be read whole, with the place marked and labelled below it.
+    /// Whether the whole line fits the width, with the place marked and a label below it.
     fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
         if self.line.chars().count() > LONG_LINE {
             return false;
         }
         let before: String = self.line.chars().take(self.range.start).collect();
         let label = seen(&line(&before)) + ARROW + seen(&label(problem));
-        // What is marked may be long: the arrow to the label starts from its middle.
+        // The marked text may be long. The arrow to the label starts at its middle.
         let label = label + self.range.len().div_ceil(2);
         let columns = margin(problem) + label.max(seen(&line(self.line)) + 1);
         width.is_none_or(|width| columns <= width)
@@ -226,12 +230,12 @@ impl<'a> Place<'a> {
 /// From the middle of a place to its label, `╰──── `, and a column to spare.
 const ARROW: usize = 8;
 
-/// How many columns stand before the text of a line, with its number.
+/// The number of columns before the text of a line, which contain its number.
 fn margin(problem: &Problem) -> usize {
     problem.line.to_string().len() + 4
 }
 
-/// What stands under the place.
+/// The label below the marked place.
 fn label(problem: &Problem) -> String {
     match problem.path.as_str() {
         "" => "here".into(),
@@ -261,10 +265,11 @@ fn plain(name: &str, problem: &Problem) -> String {
     out
 }
 
-/// The problem under its line. ariadne is handed empty lines in place of those before it, so that it counts right.
+/// The message with the line and a mark below it. ariadne gets empty lines in place of the lines above, so that its line
+/// numbers are right.
 fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
-    // A blank behind the line gives a problem at its very end, such as a file cut short, something to point at.
+    // A space after the line, so that a problem at its very end, such as a file that ends early, has a place to mark.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
@@ -276,7 +281,7 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
                 .with_color(Color::Red),
         );
     if !problem.help.is_empty() {
-        // Its later lines stand below its first, behind "Help: ".
+        // The later lines of the help are indented like its first line, which starts with "Help: ".
         let room = width.map(|width| width.saturating_sub(margin(problem) + "Help: ".len()));
         report = report.with_help(broken(&line(&problem.help), room));
     }
@@ -287,9 +292,9 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
     }
 }
 
-/// A plain complaint with a piece of a line that is too long to be shown whole.
+/// The message with a part of the line, for a line that is too long to be shown completely.
 fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
-    // Two blanks, and a mark at either end of the piece.
+    // Subtract two spaces and a mark at each end of the part.
     let room = width.map_or(WINDOW, |width| {
         width.saturating_sub(4).clamp(NARROWEST, WINDOW)
     });
@@ -297,7 +302,7 @@ fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) 
     let letters: Vec<char> = text.chars().collect();
     let start = place.range.start.min(letters.len());
     let wide = |c: &char| seen(c.encode_utf8(&mut [0; 4]));
-    // Backwards from the place, then on from where that ends, as far as there is room.
+    // Extend the part to the left of the place first, then to the right, as far as the width allows.
     let fits = |letters: &mut dyn Iterator<Item = &char>, most: usize| {
         let mut left = most;
         let fit = letters.take_while(|c| {

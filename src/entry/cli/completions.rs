@@ -1,4 +1,4 @@
-//! `drystone completions`: what a shell needs to complete our command line. The only file that names clap_complete.
+//! `drystone completions`: completion scripts for shells. No other file uses clap_complete.
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;

@@ -1,7 +1,7 @@
-//! [`Destination`]: where pictures go.
+//! [`Destination`]: the file or folder for pictures.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use crate::cli::complaint::CliError;
 use crate::cli::picture::Format;
@@ -19,7 +19,8 @@ pub(crate) enum Destination {
 }
 
 impl Destination {
-    /// What `-o` means: `-`, an existing folder, a path with a slash at its end, or a file.
+    /// The meaning of the argument of `-o`: `-` for standard output, an existing folder, a path with a slash at its end, or
+    /// a file.
     pub(crate) fn from_path(typed: &Path) -> Destination {
         let text = typed.to_string_lossy();
         if text == "-" {
@@ -60,7 +61,7 @@ impl Destination {
     }
 }
 
-/// `.svg, .png or .pdf`.
+/// A list of endings in words: `.svg, .png or .pdf`.
 fn one_of(names: &[String]) -> String {
     match names.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
@@ -68,9 +69,9 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
-/// Refuses outputs that would overwrite an input or one another, by whatever names or links.
+/// Refuses outputs that would overwrite an input or another output, under any names or links.
 pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
-    // What a shell feeds into standard input is a file like any other, where the system has a name for it.
+    // The file that a shell redirects to standard input is an input too, if the system has a path for it.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");
     for (number, output) in outputs.iter().enumerate() {
@@ -99,11 +100,14 @@ pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliErro
     Ok(())
 }
 
-/// Writes all files or none.
+/// Writes all files or none. Commands that keep existing files have the option `--force`.
 pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), CliError> {
     write_whole(files, existing).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),
-        why: unwritten.why.to_string(),
+        why: match unwritten.why.kind() {
+            io::ErrorKind::AlreadyExists => "the file exists; --force replaces it".into(),
+            _ => unwritten.why.to_string(),
+        },
     })
 }
 

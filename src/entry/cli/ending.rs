@@ -1,8 +1,8 @@
-//! [`ExitStatus`]: how a command ended, in the order in which the worse one wins.
-
-use std::process::ExitCode;
+//! [`ExitStatus`]: the result of a command. The variants are ordered: of several results the worst decides the exit code.
 
 use crate::analysis::{Analysis, Verdict};
+use crate::scene::Scene;
+use crate::scene::format::Expectation;
 
 /// How a command ended. The greater is the one that is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,17 +20,29 @@ pub(crate) enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// What the frames of an analysis come to.
+    /// What the frames of an analysis come to. A frame that falls as its author expects is done; one that stands against the
+    /// expectation counts as one that falls.
     pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
-        ExitStatus::from(analysis.verdict())
+        let verdicts = analysis.frames.iter().map(|frame| frame.verdict);
+        ExitStatus::from_verdicts(&analysis.scene, verdicts)
     }
 
-    /// The process's exit code.
-    pub(crate) fn code(self) -> ExitCode {
-        ExitCode::from(self.number())
+    /// Likewise, from the verdicts of the frames alone.
+    pub(crate) fn from_verdicts(
+        scene: &Scene,
+        verdicts: impl IntoIterator<Item = Verdict>,
+    ) -> ExitStatus {
+        let frames = verdicts.into_iter().zip(&scene.frames);
+        let endings = frames.map(|(verdict, frame)| match (frame.expected, verdict) {
+            (Some(Expectation::Unstable), Verdict::Unstable) => ExitStatus::Done,
+            (Some(Expectation::Unstable), Verdict::Stable) => ExitStatus::Unstable,
+            (_, verdict) => ExitStatus::from(verdict),
+        });
+        endings.max().unwrap_or(ExitStatus::Done)
     }
 
-    fn number(self) -> u8 {
+    /// The exit code of the process.
+    pub(crate) fn number(self) -> u8 {
         match self {
             ExitStatus::Done => 0,
             ExitStatus::Unstable => 1,

@@ -1,4 +1,4 @@
-//! `drystone figures`: the gallery, every figure as SVG, PNG and PDF, and their captions.
+//! `drystone figures`: writes the gallery: every figure as SVG, PNG and PDF, with its caption.
 
 use std::path::{Path, PathBuf};
 

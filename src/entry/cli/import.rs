@@ -12,10 +12,11 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::source::FrameChoice;
 use crate::cli::terminal::Terminal;
-use crate::import::{self, Format, Imported, Options, Remark};
+use crate::import::{self, Format, Imported, Options, Remark, STONES, Stone};
 use crate::output::file::Existing;
 use crate::result::import_json;
 use crate::scene::format::SceneFile;
+use crate::scene::{Note, NoteCode, Scene};
 
 /// So many moved bodies are listed; --json lists them all.
 const LISTED: usize = 12;
@@ -37,9 +38,18 @@ pub(crate) struct Import {
     /// Format of the drawing, if its file name does not show it
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<WrittenIn>,
-    /// Metres per unit of the drawing [default: its real size where it has one in mm, cm, in or pt, else 1]
-    #[arg(long, value_name = "M")]
-    scale: Option<f64>,
+    /// Replace the scene file if it exists
+    #[arg(long, requires = "output")]
+    force: bool,
+    /// Scale of the drawing as 1:50, or metres per unit of the drawing [default: 1:1]
+    #[arg(long, value_name = "1:N", value_parser = scale)]
+    scale: Option<DrawnAt>,
+    /// Unit of the drawing's coordinates [default: the unit that the drawing states, else m]
+    #[arg(long, value_name = "UNIT", value_enum)]
+    unit: Option<Unit>,
+    /// Name of a layer or element that is ground; may be given several times [default: names that begin with ground]
+    #[arg(long, value_name = "NAME")]
+    ground_layer: Vec<String>,
     /// Farthest that a chord may lie from its curve, in metres [default: a thousandth of the drawing's size]
     #[arg(long, value_name = "M")]
     flatten: Option<f64>,
@@ -56,6 +66,10 @@ pub(crate) struct Import {
     /// Friction coefficient of everything that brings none
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
+    /// Density and friction of everything that brings none, from a table: basalt, concrete, gneiss, granite, limestone or
+    /// sandstone; --density and --friction replace its values
+    #[arg(long, value_name = "NAME", value_parser = stone)]
+    material: Option<Stone>,
     /// Density in kg/m³ of every block that brings none
     #[arg(long, value_name = "KG/M3")]
     density: Option<f64>,
@@ -83,6 +97,38 @@ enum WrittenIn {
     Wkt,
 }
 
+/// A unit of length in drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Unit {
+    Mm,
+    Cm,
+    M,
+    In,
+    Ft,
+}
+
+impl Unit {
+    /// Metres in one unit.
+    fn metres(self) -> f64 {
+        match self {
+            Unit::Mm => 1e-3,
+            Unit::Cm => 1e-2,
+            Unit::M => 1.0,
+            Unit::In => 0.0254,
+            Unit::Ft => 0.3048,
+        }
+    }
+}
+
+/// What `--scale` says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum DrawnAt {
+    /// Real lengths divided by drawn lengths.
+    Ratio(f64),
+    /// Metres per unit of the drawing.
+    Metres(f64),
+}
+
 impl Import {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let stdout = Path::new("-");
@@ -98,6 +144,17 @@ impl Import {
         if let Some(file) = file {
             destination::apart(&[file.to_owned()], &[&self.drawing]).map_err(|c| vec![c])?;
         }
+        if let (Some(DrawnAt::Metres(metres)), Some(_)) = (self.scale, self.unit) {
+            let why = format!(
+                "--scale {metres} is already metres per unit, so --unit says nothing more; leave one of them out, or give the scale as 1:50"
+            );
+            return Err(vec![CliError::CommandLine(why)]);
+        }
+        let existing = if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        };
         let format = self.format().map_err(|c| vec![c])?;
         let name = if self.drawing == stdout {
             "standard input".into()
@@ -121,7 +178,7 @@ impl Import {
         match file {
             Some(path) => {
                 let files = [(path.to_owned(), scene.into_bytes())];
-                destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+                destination::write(&files, existing).map_err(|c| vec![c])?;
             }
             None => {
                 let printed = terminal.print_bytes(scene.as_bytes());
@@ -185,14 +242,22 @@ impl Import {
 
     fn options(&self) -> Options {
         Options {
-            scale: self.scale,
+            scale: match (self.scale, self.unit) {
+                (Some(DrawnAt::Metres(metres)), _) => Some(metres),
+                (_, unit) => unit.map(Unit::metres),
+            },
+            ratio: match self.scale {
+                Some(DrawnAt::Ratio(ratio)) => Some(ratio),
+                _ => None,
+            },
+            ground_layers: self.ground_layer.clone(),
             flatten: self.flatten,
             gap: self.gap,
             frame: self.frame.and_then(FrameChoice::number),
             scene: SceneFile {
                 title: self.title.clone(),
-                friction: self.friction,
-                density: self.density,
+                friction: self.friction.or(self.material.map(|m| m.friction)),
+                density: self.density.or(self.material.map(|m| m.density)),
                 thickness: self.thickness,
                 kernel: self.kernel,
                 gravity: self.gravity,
@@ -220,7 +285,13 @@ impl Import {
             ),
             count(scene.robots.len(), "robot", "robots"),
         ));
-        for note in &imported.notes {
+        if let Some(stone) = self.material {
+            page.line(&format!(
+                "  {}: {} kg/m³, friction coefficient {}; from {}",
+                stone.name, stone.density, stone.friction, stone.source
+            ));
+        }
+        for note in imported.notes.iter().chain(&light(imported)) {
             page.line(&format!("  {note}"));
         }
         for snapped in imported.snapped.iter().take(LISTED) {
@@ -265,6 +336,42 @@ fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
     page
 }
 
+/// The note that weights come from the default density.
+fn light(imported: &Imported) -> Option<String> {
+    let scene = Scene::new(imported.scene.clone()).ok()?;
+    let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
+    let note = scene.notes().iter().find(is_it)?;
+    Some(format!(
+        "{}; give --density in kg/m³ or --material limestone",
+        note.message
+    ))
+}
+
+fn stone(typed: &str) -> Result<Stone, String> {
+    Stone::from_name(typed).ok_or_else(|| {
+        let names = STONES.map(|stone| stone.name);
+        format!(
+            "the known materials are {}; for others give --density and --friction",
+            names.join(", ")
+        )
+    })
+}
+
+/// `1:50` is a ratio, `0.02` is metres per unit.
+fn scale(typed: &str) -> Result<DrawnAt, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
+    let wrong = || "give 1:50, or metres per unit such as 0.02".to_owned();
+    match typed.split_once(':') {
+        Some((drawn, real)) => match (number(drawn), number(real)) {
+            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
+                Ok(DrawnAt::Ratio(real / drawn))
+            }
+            _ => Err(wrong()),
+        },
+        None => number(typed).map(DrawnAt::Metres).ok_or_else(wrong),
+    }
+}
+
 /// `9.81` is downwards, `0,-9.81` is as it says.
 fn gravity(typed: &str) -> Result<[f64; 2], String> {
     let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
@@ -278,6 +385,14 @@ fn gravity(typed: &str) -> Result<[f64; 2], String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_scale_is_a_ratio_or_metres() {
+        assert_eq!(scale("1:50"), Ok(DrawnAt::Ratio(50.0)));
+        assert_eq!(scale("2 : 1"), Ok(DrawnAt::Ratio(0.5)));
+        assert_eq!(scale("0.02"), Ok(DrawnAt::Metres(0.02)));
+        assert!(scale("1:0").is_err() && scale("1:x").is_err() && scale("big").is_err());
+    }
 
     #[test]
     fn gravity_is_one_number_or_two() {

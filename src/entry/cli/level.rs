@@ -31,7 +31,7 @@ impl AnalysisArgs {
         self.wedging
     }
 
-    /// Each option with its value in words, as a record of what an answer depends on.
+    /// The name and the value of each option, for the record of what an answer depends on.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",
@@ -50,7 +50,7 @@ impl AnalysisArgs {
         ]
     }
 
-    /// The options of the analysis; a time limit counts from this call.
+    /// The options of the analysis. A time limit starts with this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,
@@ -63,7 +63,7 @@ impl AnalysisArgs {
     }
 }
 
-/// Reads a level of accuracy. `draft` was a third level, and its message says what replaces it.
+/// Parses a level of accuracy. For the former level `draft` the error message names the replacement.
 fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
     let names = ["standard", "proved", "draft"];
     let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));

@@ -1,4 +1,4 @@
-//! [`StyleArgs`]: colours, widths and sizes, the part that `render` and `shapes` share.
+//! [`StyleArgs`]: the options for theme and style, which `render` and `shapes` share.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub(crate) struct StyleArgs {
 }
 
 impl StyleArgs {
-    /// The style file, where there is one.
+    /// The style file, if one was given.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.style.as_deref()
     }

@@ -1,4 +1,4 @@
-//! `drystone man`: the command line's manual pages. The only file that names clap_mangen.
+//! `drystone man`: manual pages. No other file uses clap_mangen.
 
 use std::path::PathBuf;
 
@@ -48,7 +48,7 @@ impl Manual {
     }
 }
 
-/// The page of a command and those of the commands below it, `drystone-new-arch.1` for `drystone new arch`.
+/// Adds the pages of a command and of its subcommands: `drystone-new-arch.1` for `drystone new arch`.
 fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> std::io::Result<()> {
     let man = Man::new(command.clone());
     let mut page = Vec::new();

@@ -1,4 +1,4 @@
-//! [`MarginArgs`]: `--margins` and the list that may follow it, the part that `check` and `batch` share.
+//! [`MarginArgs`]: the option `--margins` and its optional list, which `check` and `batch` share.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -81,7 +81,7 @@ impl MarginArgs {
     }
 }
 
-/// The margins of a list; all of them where it is empty.
+/// The margins in a list; all margins for an empty list.
 fn kinds(names: &[Name]) -> MarginKinds {
     if names.is_empty() {
         return MarginKinds::ALL;
@@ -90,7 +90,18 @@ fn kinds(names: &[Name]) -> MarginKinds {
     MarginKinds::new(&kinds)
 }
 
-/// The words of a command line, with the list that may follow `--margins` joined to it.
+/// The margins of a list of names, all of them where it is empty; the first name that is none is the error.
+#[cfg(feature = "python")]
+pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
+    let read = |name: &String| Name::from_str(name, true).map_err(|_| name.clone());
+    let names = names
+        .iter()
+        .map(read)
+        .collect::<Result<Vec<Name>, String>>()?;
+    Ok(kinds(&names))
+}
+
+/// Joins the optional list after `--margins` to the option.
 ///
 /// `check --margins scene.json` asks for all, and `check --margins friction,tilt scene.json` for two: a word of names
 /// alone is a list, unless there is a file of that name.

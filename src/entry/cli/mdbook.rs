@@ -1,4 +1,4 @@
-//! `drystone mdbook`: scenes in the chapters of an mdBook become figures.
+//! `drystone mdbook`: a preprocessor for mdBook that replaces scenes in the chapters by figures.
 
 use std::io::{self, Read};
 

@@ -1,4 +1,4 @@
-//! The command line: what a person types, one file per command.
+//! The command line, with one file per command.
 //!
 //! Makes an exit code, by way of files, standard output and complaints. Results go to standard output, everything else
 //! to standard error. A command reads all of its input and checks it before it writes anything; output files appear
@@ -27,16 +27,16 @@ mod import;
 mod level;
 mod look;
 mod man;
-mod margins;
+pub(super) mod margins;
 mod mdbook;
 mod new;
 mod page;
 mod picture;
 mod progress;
-mod render;
+pub(super) mod render;
 mod report;
 mod schema;
-mod script;
+pub(super) mod script;
 mod shapes;
 mod signal;
 mod snapshot;
@@ -46,6 +46,7 @@ mod table;
 mod terminal;
 mod watch;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -96,11 +97,16 @@ enum Command {
 
 /// Runs the command line of this process and returns its exit code.
 pub fn run() -> ExitCode {
-    let line = match CommandLine::try_parse_from(margins::join_list(std::env::args_os())) {
+    ExitCode::from(run_with(std::env::args_os()))
+}
+
+/// Runs a command line, the program's name first, and returns the exit code.
+pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
+    let line = match CommandLine::try_parse_from(margins::join_list(words)) {
         Ok(line) => line,
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());
-            return refused(&error, printed).code();
+            return refused(&error, printed).number();
         }
     };
     signal::listen();
@@ -123,10 +129,10 @@ pub fn run() -> ExitCode {
         Command::Manual(manual) => manual.run(&terminal),
     };
     let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));
-    ending.code()
+    ending.number()
 }
 
-/// How it ended when only help, the version or a complaint of the command line was to be printed.
+/// The exit status after clap has printed help, the version or an error.
 fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     if error.use_stderr() {
         return ExitStatus::WrongInput;
@@ -134,7 +140,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     match terminal::written(printed) {
         Ok(()) => ExitStatus::Done,
         Err(complaint) => {
-            // Standard error may be as full as standard output; then only the exit code is left.
+            // If standard error cannot be written either, only the exit code is left.
             let page = complaint.page(terminal::error_width());
             let _ = write!(io::stderr(), "{}", page.text());
             complaint.ending()

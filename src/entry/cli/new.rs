@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::builder::RangedU64ValueParser;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
@@ -17,12 +17,22 @@ use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 pub(crate) struct New {
     #[command(subcommand)]
     kind: Option<Structure>,
+    /// Which small example, if no structure is named: one that stands in every step, or one that falls in a step
+    #[arg(long, value_enum, value_name = "NAME", default_value = "stands")]
+    example: Example,
     /// The file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<PathBuf>,
     /// Replace the file where it is there already
     #[arg(long, requires = "output", global = true)]
     force: bool,
+}
+
+/// A small example.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Example {
+    Stands,
+    Falls,
 }
 
 #[derive(Debug, Subcommand)]
@@ -209,7 +219,10 @@ impl New {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let text = match &self.kind {
             Some(kind) => kind.text(),
-            None => crate::scene::starter().to_owned(),
+            None => match self.example {
+                Example::Stands => crate::scene::starter().to_owned(),
+                Example::Falls => crate::scene::falling_starter().to_owned(),
+            },
         };
         match self
             .output

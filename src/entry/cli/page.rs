@@ -1,4 +1,4 @@
-//! [`Page`]: what a person reads on a terminal, put together from words of ours and from words of others.
+//! [`Page`]: text for a terminal. It keeps the text of this program apart from text that comes from files.
 //!
 //! The terminal takes nothing else. Words of ours are those that stand in this program, `&'static str`; all other words are
 //! made one harmless line on their way in, so that no title begins a line, sets a colour or moves the cursor. A new message
@@ -23,36 +23,36 @@ impl Page {
         page
     }
 
-    /// Text of this program, as it is.
+    /// Appends fixed text of this program without escaping.
     pub(crate) fn ours(&mut self, text: &'static str) {
         self.text.push_str(text);
     }
 
-    /// Words that go on in the same line.
+    /// Appends escaped text to the current line.
     pub(crate) fn words(&mut self, words: &str) {
         self.text.push_str(&text::line(words));
     }
 
-    /// Likewise, in colour.
+    /// Appends escaped text in a colour to the current line.
     pub(crate) fn styled(&mut self, style: Style, words: &str) {
         self.text.push_str(&style.render().to_string());
         self.words(words);
         self.text.push_str(&style.render_reset().to_string());
     }
 
-    /// The line ends.
+    /// Ends the current line.
     pub(crate) fn end(&mut self) {
         self.text.push('\n');
     }
 
-    /// Words, and the line ends.
+    /// Appends escaped text and ends the line.
     pub(crate) fn line(&mut self, words: &str) {
         self.words(words);
         self.end();
     }
 
-    /// Several lines that are put together elsewhere, from parts each of which is [`text::line`]: lines and colours stay,
-    /// every other control is made visible once more.
+    /// Appends several lines whose parts are already escaped with [`text::line`]. Line feeds and colours stay; all other
+    /// control characters are escaped again.
     pub(crate) fn block(&mut self, lines: &str) {
         let mut rest = lines;
         while let Some(c) = rest.chars().next() {
@@ -69,13 +69,13 @@ impl Page {
         }
     }
 
-    /// Another page below.
+    /// Appends another page.
     pub(crate) fn append(&mut self, page: &Page) {
         self.text.push_str(&page.text);
     }
 
-    /// The page with no line wider than this number of columns: a longer one continues below, further in than a row of a
-    /// table begins, so that what stands behind the break cannot be taken for one.
+    /// The page with no line wider than `width` columns. The rest of a longer line follows on the next line, indented
+    /// further than the rows of a table, so that it cannot be mistaken for a row.
     pub(crate) fn fitted(&self, width: usize) -> Page {
         let mut page = Page::default();
         for line in self.text.lines() {
@@ -118,13 +118,13 @@ impl Page {
         self.end();
     }
 
-    /// The page with its escape codes.
+    /// The text of the page with its escape codes.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
 }
 
-/// Words in lines of no more columns than this, as far as they have blanks.
+/// Breaks text into lines of at most `most` columns, at spaces only.
 pub(crate) fn broken(words: &str, most: Option<usize>) -> String {
     let mut lines = String::new();
     let mut column = 0;
@@ -142,7 +142,7 @@ pub(crate) fn broken(words: &str, most: Option<usize>) -> String {
     lines
 }
 
-/// How many columns of a terminal a text takes that may set colours.
+/// The width of a text in columns, without the escape sequences for colours.
 pub(crate) fn seen(text: &str) -> usize {
     let Some(at) = text.find('\u{1b}') else {
         return text.width();
@@ -152,7 +152,7 @@ pub(crate) fn seen(text: &str) -> usize {
     before.width() + seen(behind)
 }
 
-/// How many bytes of a text are an escape sequence that sets a colour, if it begins with one.
+/// The length in bytes of the colour escape sequence at the beginning of a text; `None` if there is none.
 fn colour(text: &str) -> Option<usize> {
     let inside = text.strip_prefix("\u{1b}[")?;
     let digits = inside.find(|c: char| !c.is_ascii_digit() && c != ';')?;

@@ -1,4 +1,4 @@
-//! [`Picture`]: how a drawing becomes a file's bytes, the part that `render` and `shapes` share.
+//! [`Picture`]: the options for picture files, which `render` and `shapes` share.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,9 +8,10 @@ use clap::{Args, ValueEnum};
 
 use crate::cli::complaint::CliError;
 use crate::drawing::{Colour, Drawing};
+use crate::output::animation::Step;
 use crate::output::fonts::Fonts;
 pub(crate) use crate::output::format::Format;
-use crate::output::format::{FormatError, Settings};
+use crate::output::format::{Animate, FormatError, Settings};
 use crate::output::pdf;
 use crate::output::png::{self, Compression, PngError, Size};
 use crate::output::svg::{self, Words};
@@ -21,7 +22,7 @@ pub(crate) struct Picture {
     /// Format, if the output is a folder or standard output [default: svg]
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
-    /// Width of a PNG in pixels
+    /// Width of a PNG or GIF in pixels [default of an animation: 800]
     #[arg(long, value_name = "PX", conflicts_with_all = ["scale", "width_mm"])]
     width: Option<u32>,
     /// Pixels of a PNG per unit of the drawing [default: 2]
@@ -106,7 +107,7 @@ impl Picture {
         let mut wrong = Vec::new();
         if !format.has_pixels() && (self.width.is_some() || self.scale.is_some()) {
             wrong.push(
-                "--width and --scale count pixels, and only a PNG has any; give --width-mm, write a PNG, or leave them out",
+                "--width and --scale count pixels, and only a PNG or GIF has any; give --width-mm, write a PNG, or leave them out",
             );
         }
         if self.dpi.is_some() && (!format.has_pixels() || self.width_mm.is_none()) {
@@ -154,37 +155,38 @@ impl Picture {
         format.write(&drawing, &settings).map_err(format_error)
     }
 
-    /// The bytes of drawings of one size that follow one another, as an animated PNG.
+    /// The bytes of drawings of one size that follow one another, each for its seconds.
     pub(crate) fn animated(
         &self,
-        drawings: Vec<Drawing>,
-        seconds: f64,
+        drawings: Vec<(Drawing, f64)>,
+        animate: Animate,
         fonts: &Fonts,
     ) -> Result<Vec<u8>, CliError> {
-        if let Some(drawing) = drawings.first() {
+        if let Some((drawing, _)) = drawings.first() {
             self.check_png((drawing.width, drawing.height))?;
         }
-        let svgs: Vec<String> = drawings
-            .into_iter()
-            .map(|drawing| svg::for_pixels(&self.on_page(drawing)))
-            .collect();
-        png::animate(&svgs, self.size(), seconds, fonts).map_err(png_error)
+        let step = |(drawing, seconds)| Step {
+            svg: svg::for_pixels(&self.on_page(drawing)),
+            seconds,
+        };
+        let steps: Vec<Step> = drawings.into_iter().map(step).collect();
+        animate(&steps, self.size(), fonts).map_err(png_error)
     }
 
-    /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
-    /// words are then as large as a footnote's, names in blocks a little smaller.
+    /// The width in pixels for which a figure is laid out; `None` for its natural width. With a width in millimetres text
+    /// is as large as a footnote, and names in blocks are slightly smaller.
     pub(crate) fn page(&self) -> Option<f64> {
         self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
     }
 
-    /// How many times as high as wide a figure may be that fits on an A4 page: of a width in print within its margins,
-    /// else as the page itself.
+    /// The largest ratio of height to width of a figure on an A4 page. A figure with a width in print has to fit inside the
+    /// margins.
     pub(crate) fn page_ratio(&self) -> f64 {
         let page = 297.0 / 210.0;
         self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
     }
 
-    /// Refuses a PNG of at least this width and height of its drawing.
+    /// Refuses a PNG whose drawing has at least this width and height, if that is too large.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
         png::check(width, height, self.size()).map_err(png_error)
     }
@@ -219,7 +221,7 @@ impl Picture {
         }
     }
 
-    /// Two pixels per unit where nothing is given: sharp on screens that have two, and still small.
+    /// Two pixels per unit by default: sharp on high-resolution screens, and still a small file.
     fn size(&self) -> Size {
         match (self.width, self.scale, self.width_mm) {
             (Some(width), _, _) => Size::Width(width),
@@ -233,7 +235,7 @@ impl Picture {
     }
 }
 
-/// A complaint about the size of a figure, with the way out that a figure of several steps has.
+/// An error about the size of a figure. For several steps it also suggests separate figures.
 pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
         CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(

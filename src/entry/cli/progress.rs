@@ -22,7 +22,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// A bar for this number of steps. If `shown` is false nothing is drawn.
+    /// A bar for this number of steps. If `shown` is false, nothing is drawn.
     pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
         match shown {
             Shown::Never => Progress {
@@ -53,7 +53,8 @@ impl Progress {
         let waiter = thread::spawn(move || {
             if over.recv_timeout(patience) == Err(RecvTimeoutError::Timeout) {
                 waiting.set_draw_target(target);
-                // A solve of many seconds is one step: the bar must be seen to live meanwhile.
+                // One step may take many seconds. The bar moves in the meantime, so that the user sees that the program
+                // works.
                 waiting.enable_steady_tick(Duration::from_millis(100));
                 waiting.tick();
             }
@@ -64,12 +65,12 @@ impl Progress {
         }
     }
 
-    /// Says what is being done.
+    /// Shows a description of the current work.
     pub(crate) fn doing(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
 
-    /// One step is done.
+    /// Counts one finished step.
     pub(crate) fn step(&self) {
         self.bar.inc(1);
     }
@@ -88,7 +89,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((done, waiter)) = self.waiter.take() {
             drop(done);
-            // The waiter only ever waits; if it could not, there is no bar to wipe off either.
+            // If the thread failed, there is no bar to remove.
             let _ = waiter.join();
         }
         self.bar.finish_and_clear();

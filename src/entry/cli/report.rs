@@ -1,12 +1,15 @@
 //! `drystone report`: many scenes on one page that a person reads.
 
-use std::fs;
+mod task;
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{self, Analysis};
+use task::Task;
+
+use crate::analysis::{self, Analysis, MarginKind, MarginKinds};
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
@@ -16,6 +19,7 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::script;
 use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
+use crate::drawing::Theme;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
@@ -39,9 +43,15 @@ pub(crate) struct Report {
     /// Report what changed from the first SCENE to the second: two files, or two folders with files of the same names
     #[arg(long, conflicts_with = "accuracy_study")]
     compare: bool,
-    /// Add the margins of each step
+    /// Compute all margins; without it those of loads, friction and tilt
     #[arg(long)]
     margins: bool,
+    /// Add an appendix with everything else: all joints, effects, solver details, charts
+    #[arg(long)]
+    full: bool,
+    /// Order the scenes by their headline margin, the smallest first
+    #[arg(long)]
+    sort: bool,
     /// Measure on each scene what accuracy costs in time; the times differ from run to run
     #[arg(long)]
     accuracy_study: bool,
@@ -60,13 +70,25 @@ pub(crate) struct Report {
     level: AnalysisArgs,
 }
 
-/// What became of a file or of two: its piece and how it ended, or the files that are no scenes.
-type Made = Result<(Piece, ExitStatus), Vec<(Refused, CliError)>>;
+/// The margins of a sheet unless all are asked for.
+const HEADLINES: [MarginKind; 3] = [
+    MarginKind::LoadFactor,
+    MarginKind::Friction,
+    MarginKind::Tilt,
+];
 
-/// A scene in a report, or two that it compares.
-enum Task {
-    One(PathBuf),
-    Two([PathBuf; 2]),
+/// Files that are no scenes, with what the command line says of them.
+type Wrong = Vec<(Refused, CliError)>;
+
+/// The piece of a task and its ending, or the files that are no scenes.
+type Described = Result<(Piece, ExitStatus), Wrong>;
+
+/// The results of all tasks.
+struct Collected {
+    pieces: Vec<Piece>,
+    wrong: Wrong,
+    /// The worst ending.
+    ending: ExitStatus,
 }
 
 impl Report {
@@ -74,16 +96,13 @@ impl Report {
         let form = self.form().map_err(|c| vec![c])?;
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let (tasks, mut notes) = self.tasks()?;
-        let inputs: Vec<&Path> = tasks.iter().flat_map(Task::paths).collect();
-        let main = match form {
-            Form::Split => self.output.join("index.html"),
-            _ => self.output.clone(),
-        };
-        let style: Vec<&Path> = self.look.file().into_iter().collect();
-        let all: Vec<&Path> = inputs.iter().copied().chain(style).collect();
-        destination::apart(&[main], &all).map_err(|c| vec![c])?;
+        self.check_targets(&tasks, form).map_err(|c| vec![c])?;
+        // A page that follows the reader's system needs its figures for both.
+        let follows = matches!(form, Form::Html | Form::Split) && !self.look.is_chosen();
         let wanted = ReportOptions {
             theme,
+            dark: follows.then(|| Theme::named("dark")).flatten(),
+            full: self.full,
             theme_name: self.look.name().map(str::to_owned),
             timing: if self.timing {
                 Timing::Included
@@ -91,8 +110,69 @@ impl Report {
                 Timing::LeftOut
             },
         };
+        let Collected {
+            pieces,
+            wrong,
+            ending,
+        } = self
+            .describe_all(&tasks, form, &wanted, terminal)
+            .map_err(|c| vec![c])?;
+        let (refused, complaints): (Vec<Refused>, Vec<CliError>) = wrong.into_iter().unzip();
+        if pieces.is_empty() && !complaints.is_empty() {
+            return Err(complaints);
+        }
+        if self.compare && pieces.len() > 1 {
+            let words = "In the table margins, friction, blocks and largest forces are those of the second scenes.";
+            notes.push(words.to_owned());
+        }
+        for complaint in &complaints {
+            terminal.refuse(complaint);
+        }
+        let is_dark = || wanted.theme.page.brightness() < 0.5;
+        let report = Page {
+            title: self.heading(&pieces),
+            pieces,
+            refused,
+            notes,
+            compares: self.compare,
+            dark: self.look.is_chosen().then(is_dark),
+        };
+        let words = report.summary();
+        self.write(report, form).map_err(|c| vec![c])?;
+        terminal.note(&format!("{}: {words}", self.output.display()));
+        Ok(match (complaints.is_empty(), self.strict) {
+            (false, _) => ExitStatus::WrongInput,
+            (true, true) => ending,
+            (true, false) => ExitStatus::Done,
+        })
+    }
+
+    /// Refuses to write the report over one of its inputs.
+    fn check_targets(&self, tasks: &[Task], form: Form) -> Result<(), CliError> {
+        let main = match form {
+            Form::Split => self.output.join("index.html"),
+            _ => self.output.clone(),
+        };
+        let inputs = tasks.iter().flat_map(Task::paths);
+        let inputs: Vec<&Path> = inputs.chain(self.look.file()).collect();
+        destination::apart(&[main], &inputs)
+    }
+
+    /// The pieces of all tasks, the files that are no scenes, and the worst ending.
+    fn describe_all(
+        &self,
+        tasks: &[Task],
+        form: Form,
+        wanted: &ReportOptions,
+        terminal: &Terminal,
+    ) -> Result<Collected, CliError> {
         let options = analysis::Options {
-            margins: self.margins,
+            // JSON has what was asked for, as check has.
+            margins: self.margins || form != Form::Json,
+            margin_kinds: match self.margins {
+                true => MarginKinds::ALL,
+                false => MarginKinds::new(&HEADLINES),
+            },
             ..self.level.options()
         };
         let shown = if terminal.shows_progress() {
@@ -106,65 +186,36 @@ impl Report {
             progress.doing(&task.name());
             let first = task.paths()[0];
             let made = source::isolated(first, || {
-                self.made(task, number + 1, form, &wanted, &options)
+                self.describe(task, number + 1, form, wanted, &options)
             });
             progress.step();
             // The overview lists a fault of the program like a file that is no scene.
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
-        let made: Vec<Result<Made, CliError>> = if self.accuracy_study {
+        let described: Vec<Result<Described, CliError>> = if self.accuracy_study {
             // Scenes analysed at the same time would disturb each other's timing.
             numbered.iter().map(one).collect()
         } else {
             numbered.par_iter().map(one).collect()
         };
-        drop(progress);
-        let mut pieces = Vec::new();
-        let mut refused = Vec::new();
-        let mut complaints = Vec::new();
+        let (mut pieces, mut wrong) = (Vec::new(), Vec::new());
         let mut ending = ExitStatus::Done;
-        for made in made {
-            match made.map_err(|c| vec![c])? {
+        for described in described {
+            match described? {
                 Ok((piece, ended)) => {
                     pieces.push(piece);
                     ending = ending.max(ended);
                 }
-                Err(wrong) => {
-                    for (file, complaint) in wrong {
-                        refused.push(file);
-                        complaints.push(complaint);
-                    }
-                }
+                Err(files) => wrong.extend(files),
             }
         }
-        if pieces.is_empty() && !complaints.is_empty() {
-            return Err(complaints);
+        if self.sort {
+            pieces.sort_by(|a: &Piece, b: &Piece| a.row.reserve.total_cmp(&b.row.reserve));
         }
-        if self.compare && pieces.len() > 1 {
-            let words = "In the table margins, friction, blocks and largest forces are those of the second scenes.";
-            notes.push(words.to_owned());
-        }
-        for complaint in &complaints {
-            terminal.refuse(complaint);
-        }
-        let report = Page {
-            title: self.heading(&pieces),
+        Ok(Collected {
             pieces,
-            refused,
-            notes,
-            compares: self.compare,
-            dark: self
-                .look
-                .is_chosen()
-                .then(|| wanted.theme.page.brightness() < 0.5),
-        };
-        let words = report.summary();
-        self.write(report, form).map_err(|c| vec![c])?;
-        terminal.note(&format!("{}: {words}", self.output.display()));
-        Ok(match (complaints.is_empty(), self.strict) {
-            (false, _) => ExitStatus::WrongInput,
-            (true, true) => ending,
-            (true, false) => ExitStatus::Done,
+            wrong,
+            ending,
         })
     }
 
@@ -211,100 +262,19 @@ impl Report {
         }
     }
 
-    /// The scenes of the report, and notes on files that have no counterpart.
-    fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
-        if self.compare {
-            return self.pairs();
-        }
-        if self.scenes.iter().filter(|p| *p == Path::new("-")).count() > 1 {
-            let why = "standard input (-) can be read only once";
-            return Err(vec![CliError::CommandLine(why.into())]);
-        }
-        let mut tasks = Vec::new();
-        let mut complaints = Vec::new();
-        for path in &self.scenes {
-            if !path.is_dir() {
-                tasks.push(Task::One(path.clone()));
-                continue;
-            }
-            match below(path) {
-                Ok(files) if files.is_empty() => {
-                    let why = format!("{}: there is no .json file in this folder", path.display());
-                    complaints.push(CliError::CommandLine(why));
-                }
-                Ok(files) => tasks.extend(files.into_iter().map(Task::One)),
-                Err(complaint) => complaints.push(complaint),
-            }
-        }
-        if complaints.is_empty() {
-            Ok((tasks, Vec::new()))
-        } else {
-            Err(complaints)
-        }
-    }
-
-    fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
-        let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
-        let [a, b] = self.scenes.as_slice() else {
-            return Err(refuse(
-                "--compare takes two scenes, or two folders of scenes",
-            ));
-        };
-        match (a.is_dir(), b.is_dir()) {
-            (false, false) => Ok((vec![Task::Two([a.clone(), b.clone()])], Vec::new())),
-            (true, true) => {
-                let one = |complaint| vec![complaint];
-                let (first, second) = (below(a).map_err(one)?, below(b).map_err(one)?);
-                let mut tasks = Vec::new();
-                let mut notes = Vec::new();
-                for path in &first {
-                    let inside = path.strip_prefix(a).unwrap_or(path);
-                    let other = b.join(inside);
-                    if second.contains(&other) {
-                        tasks.push(Task::Two([path.clone(), other]));
-                    } else {
-                        notes.push(format!("Only in the first folder: {}", inside.display()));
-                    }
-                }
-                for path in &second {
-                    let inside = path.strip_prefix(b).unwrap_or(path);
-                    if !first.contains(&a.join(inside)) {
-                        notes.push(format!("Only in the second folder: {}", inside.display()));
-                    }
-                }
-                if tasks.is_empty() {
-                    return Err(refuse(
-                        "--compare finds no file of the same name in both folders",
-                    ));
-                }
-                Ok((tasks, notes))
-            }
-            _ => Err(refuse(
-                "--compare takes two files or two folders, not one of each",
-            )),
-        }
-    }
-
     /// A task's piece of the report.
-    fn made(
+    fn describe(
         &self,
         task: &Task,
         number: usize,
         form: Form,
         wanted: &ReportOptions,
         options: &analysis::Options,
-    ) -> Result<Made, CliError> {
-        let mut read = Vec::new();
-        let mut wrong = Vec::new();
-        for path in task.paths() {
-            match source::with_text(path, self.level.contact_tolerance) {
-                Ok(source) => read.push(source),
-                Err(complaint) => wrong.push((refused(path, &complaint), complaint)),
-            }
-        }
-        if !wrong.is_empty() {
-            return Ok(Err(wrong));
-        }
+    ) -> Result<Described, CliError> {
+        let mut read = match self.read(task) {
+            Ok(read) => read,
+            Err(wrong) => return Ok(Err(wrong)),
+        };
         if form == Form::Pdf {
             // Its words are drawn here, in our fonts.
             for (source, _) in &mut read {
@@ -316,39 +286,11 @@ impl Report {
             .map(|(source, _)| Analysis::with(&source.scene, options))
             .collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
-        let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
-        let file = |i: usize| File {
-            name: &names[i],
-            text: &read[i].1,
-        };
-        let described = |analyses: &[Analysis]| match analyses {
-            [was, is] => {
-                let side = |i: usize, analysis| Side {
-                    file: file(i),
-                    analysis,
-                };
-                Some(compared([side(0, was), side(1, is)], wanted))
-            }
-            [one, ..] => Some(Entry::new(file(0), one, wanted)),
-            [] => None,
-        };
-        let Some(mut entry) = described(&analyses) else {
+        let Some(mut entry) = entry(&read, &analyses, wanted) else {
             return Ok(Err(Vec::new()));
         };
         if form == Form::Markdown {
-            // In Markdown only the figures use our fonts; the reader's program sets the text.
-            let fonts = Fonts::default();
-            let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
-            if analyses.iter().any(lacks) {
-                let mut drawn = analyses;
-                for analysis in &mut drawn {
-                    analysis.scene = script::legible(&analysis.scene, &fonts).into();
-                }
-                let steps = described(&drawn).map_or(Vec::new(), |entry| entry.steps);
-                for (step, drawn) in entry.steps.iter_mut().zip(steps) {
-                    step.plates = drawn.plates;
-                }
-            }
+            make_figures_legible(&mut entry, &read, analyses, wanted);
         }
         if self.accuracy_study {
             let mut scene = read[0].0.scene.clone();
@@ -360,6 +302,23 @@ impl Report {
         }
         let piece = Piece::new(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
+    }
+
+    /// The scenes of a task with their text, or the files that are no scenes.
+    fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, Wrong> {
+        let mut read = Vec::new();
+        let mut wrong = Vec::new();
+        for path in task.paths() {
+            match source::with_text(path, self.level.contact_tolerance) {
+                Ok(source) => read.push(source),
+                Err(complaint) => wrong.push((refused(path, &complaint), complaint)),
+            }
+        }
+        if wrong.is_empty() {
+            Ok(read)
+        } else {
+            Err(wrong)
+        }
     }
 
     fn write(&self, report: Page, form: Form) -> Result<(), CliError> {
@@ -392,20 +351,48 @@ impl Report {
     }
 }
 
-impl Task {
-    fn paths(&self) -> Vec<&Path> {
-        match self {
-            Task::One(path) => vec![path.as_path()],
-            Task::Two(paths) => paths.iter().map(PathBuf::as_path).collect(),
+/// The entry of one scene, or of two that are compared; `None` of no scene.
+fn entry(
+    read: &[(Source, String)],
+    analyses: &[Analysis],
+    wanted: &ReportOptions,
+) -> Option<Entry> {
+    let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
+    let file = |i: usize| File {
+        name: &names[i],
+        text: &read[i].1,
+    };
+    match analyses {
+        [was, is] => {
+            let side = |i: usize, analysis| Side {
+                file: file(i),
+                analysis,
+            };
+            Some(compared([side(0, was), side(1, is)], wanted))
         }
+        [one, ..] => Some(Entry::new(file(0), one, wanted)),
+        [] => None,
     }
+}
 
-    fn name(&self) -> String {
-        let names = self.paths().into_iter();
-        names
-            .map(|p| p.display().to_string())
-            .collect::<Vec<_>>()
-            .join(" → ")
+/// In Markdown only the figures use our fonts; the reader's program sets the text. Where our fonts lack characters, only the
+/// figures are drawn again without them.
+fn make_figures_legible(
+    entry: &mut Entry,
+    read: &[(Source, String)],
+    mut analyses: Vec<Analysis>,
+    wanted: &ReportOptions,
+) {
+    let fonts = Fonts::default();
+    let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
+    if !analyses.iter().any(lacks) {
+        return;
+    }
+    for analysis in &mut analyses {
+        analysis.scene = script::legible(&analysis.scene, &fonts).into();
+    }
+    if let Some(drawn) = self::entry(read, &analyses, wanted) {
+        entry.take_figures(drawn);
     }
 }
 
@@ -426,33 +413,4 @@ fn refused(path: &Path, complaint: &CliError) -> Refused {
         name: path.display().to_string(),
         problems: complaint.problems(),
     }
-}
-
-/// Every .json file below a folder, in the order of their paths. Links to folders are not followed: they may lead in a
-/// circle.
-fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let unread = |path: &Path, error: &std::io::Error| CliError::NotRead {
-        what: path.display().to_string(),
-        why: error.to_string(),
-    };
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let entries = fs::read_dir(&folder).map_err(|e| unread(&folder, &e))?;
-        for entry in entries {
-            let entry = entry.map_err(|e| unread(&folder, &e))?;
-            let kind = entry.file_type().map_err(|e| unread(&entry.path(), &e))?;
-            let path = entry.path();
-            let json = path
-                .extension()
-                .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-            if kind.is_dir() {
-                folders.push(path);
-            } else if json && path.is_file() {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    Ok(files)
 }

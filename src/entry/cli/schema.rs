@@ -1,4 +1,4 @@
-//! `drystone schema`: the JSON Schemas of scene files and of results, for editors and other programs.
+//! `drystone schema`: the JSON Schemas of scene files and of results.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! Scripts that no font has: their characters are named in a warning and drawn as their code points.
+//! Handles characters that no font has: a warning names them, and figures show their code points.
 
 use std::borrow::Cow;
 
@@ -8,7 +8,7 @@ use crate::cli::terminal::Terminal;
 use crate::output::fonts::Fonts;
 use crate::scene::Scene;
 
-/// Says which characters of the scenes no font has.
+/// Warns about characters of the scenes that no font has.
 pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
     for source in sources {
         let lacking = fonts.lacking(&words(&source.scene).join(" "));
@@ -34,13 +34,14 @@ pub(crate) fn lacks(scene: &Scene, fonts: &Fonts) -> bool {
     !fonts.lacking(&words(scene).join(" ")).is_empty()
 }
 
-/// The words of a scene that figures show.
+/// The texts of a scene that figures show.
 fn words(scene: &Scene) -> Vec<&str> {
     let blocks = scene.blocks.iter().map(|b| b.id.as_str());
     let robots = scene.robots.iter().map(|r| r.id.as_str());
     let frames = scene.frames.iter().map(|f| f.title.as_str());
-    let title = std::iter::once(scene.title.as_str());
-    title.chain(frames).chain(blocks).chain(robots).collect()
+    let titles = [&scene.title, &scene.author, &scene.project, &scene.date];
+    let titles = titles.into_iter().map(String::as_str);
+    titles.chain(frames).chain(blocks).chain(robots).collect()
 }
 
 /// The scene with the characters that no font has written as their code points.
@@ -52,13 +53,16 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
         }
     };
     spell(&mut scene.title);
+    spell(&mut scene.author);
+    spell(&mut scene.project);
+    spell(&mut scene.date);
     scene.frames.iter_mut().for_each(|f| spell(&mut f.title));
     scene.blocks.iter_mut().for_each(|b| spell(&mut b.id));
     scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
     scene
 }
 
-/// A character as a person reads it: itself and its number; its number alone where it would move the others about.
+/// A character in words: itself and its code point. Only the code point for a character that would change its neighbours.
 fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
     if c.is_alphanumeric() {

@@ -1,4 +1,4 @@
-//! What a signal does to a run: half-written files are taken away before it ends the process as it always does.
+//! Handles signals: deletes temporary files before a signal ends the process.
 //!
 //! The only file that names signal-hook. Other systems than Unix end a process without a word, and need nothing here.
 
@@ -9,7 +9,7 @@ use signal_hook::iterator::Signals;
 #[cfg(unix)]
 use signal_hook::low_level::emulate_default_handler;
 
-/// Listens for as long as the process lives.
+/// Handles signals until the process ends.
 #[cfg(unix)]
 pub(crate) fn listen() {
     let ignored = ignored();
@@ -17,14 +17,14 @@ pub(crate) fn listen() {
     let wanted = wanted
         .into_iter()
         .filter(|signal| ignored >> (signal - 1) & 1 == 0);
-    // Where the system gives no handler, signals do what they do without one.
+    // Without a handler, signals have their default effect.
     let Ok(mut signals) = Signals::new(wanted) else {
         return;
     };
     let listener = std::thread::Builder::new().name("signals".into());
     let _ = listener.spawn(move || {
         for signal in signals.forever() {
-            // A file that grows beyond its limit: the write fails then, as on a full disk, and that is reported.
+            // SIGXFSZ: the file exceeds its size limit. The write fails, as on a full disk, and its error is reported.
             if signal == SIGXFSZ {
                 continue;
             }
@@ -35,8 +35,8 @@ pub(crate) fn listen() {
     });
 }
 
-/// The signals that the parent process wants ignored (as `nohup` does), one bit each, the first the lowest. Linux reports them; elsewhere
-/// none are known.
+/// The signals that the parent process ignores (as `nohup` does), one bit each, with signal 1 in the lowest bit. Known on
+/// Linux only; 0 elsewhere.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -45,6 +45,6 @@ fn ignored() -> u64 {
         .unwrap_or(0)
 }
 
-/// Nothing to listen to.
+/// There are no signals on this system.
 #[cfg(not(unix))]
 pub(crate) fn listen() {}

@@ -13,7 +13,7 @@ use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::terminal::Terminal;
 use crate::output::file::{Existing, WriteError};
-use crate::snapshot::check::{Acceptance, folders};
+use crate::snapshot::outcome::{Acceptance, folders};
 use crate::snapshot::store::{self, Access};
 use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
 
@@ -97,7 +97,7 @@ impl Snapshot {
         drop(turn);
         self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
-            // Files for looking at are optional; the answer does not depend on them.
+            // These files only help a person to look at the difference. The answer does not depend on them.
             Err(failed) if !accepts => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));
@@ -112,7 +112,7 @@ impl Snapshot {
         Ok(ending(&report))
     }
 
-    /// Refuses what cannot be meant.
+    /// Refuses contradictory options.
     fn sound(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {

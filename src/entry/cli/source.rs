@@ -1,4 +1,4 @@
-//! Reads the scenes a command was given, all of them before anything else happens.
+//! Reads all scenes of a command before the command does anything else.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -19,17 +19,17 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// The file's name without folders and ending; `scene` for standard input.
+    /// The name of the file without folders and ending; `scene` for standard input.
     pub(crate) fn stem(&self) -> String {
         stem(&self.path)
     }
 
-    /// How a person is shown which scene is meant.
+    /// The name of the scene in messages.
     pub(crate) fn name(&self) -> String {
         name(&self.path)
     }
 
-    /// The scene cut down to one of its frames.
+    /// Reduces the scene to one of its frames.
     fn only_frame(&mut self, choice: FrameChoice) -> Result<(), CliError> {
         let count = self.scene.frames.len();
         let number = match choice {
@@ -64,7 +64,7 @@ pub(crate) enum FrameChoice {
 }
 
 impl FrameChoice {
-    /// The frame's number, from 0; `None` for the last.
+    /// The number of the frame, from 0; `None` for the last frame.
     pub(crate) fn number(self) -> Option<usize> {
         match self {
             FrameChoice::Number(number) => Some(number),
@@ -76,7 +76,7 @@ impl FrameChoice {
 impl FromStr for FrameChoice {
     type Err = String;
 
-    /// `1`, `2`, … or `a`, `b`, … `z`, `aa`, …, as the strip letters its panels, or `last`.
+    /// Parses a frame: a number from 1, a letter as in the figure (`a`, `b`, … `z`, `aa`, …), or `last`.
     fn from_str(typed: &str) -> Result<FrameChoice, String> {
         if typed == "last" {
             return Ok(FrameChoice::Last);
@@ -103,7 +103,7 @@ impl FromStr for FrameChoice {
     }
 }
 
-/// All the scenes, or everything that is wrong with any of them. A tolerance in metres takes the place of their own.
+/// Reads all scenes, or returns all problems of all scenes. A tolerance (m) replaces the tolerances of the scenes.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -115,7 +115,7 @@ pub(crate) fn read(
     }
 }
 
-/// All the scenes, and apart from them the faults of the program in reading some; or everything that is wrong with any of them.
+/// Reads all scenes. Returns internal faults of the program separately, or all problems of all scenes.
 pub(crate) fn read_apart_from_faults(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -138,7 +138,8 @@ pub(crate) fn read_apart_from_faults(
 /// A path as given, with the scene that was read from it or what is wrong with it.
 pub(crate) type Outcome = (PathBuf, Result<Source, CliError>);
 
-/// Every scene, or what is wrong with it, in the order given; of a folder its `.json` files in the order of their names.
+/// Reads the scenes, each with its own result, in the given order. The files of a folder are read in the order of their
+/// names.
 pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -160,7 +161,7 @@ pub(crate) fn read_each(
     Ok(paths.into_iter().map(outcome).collect())
 }
 
-/// The paths with the `.json` files of every folder in its place, sorted by name; a folder's own folders are left alone.
+/// Replaces each folder by the `.json` files in it, sorted by name. Subfolders are not read.
 pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     let mut all = Vec::new();
     for path in paths {
@@ -195,7 +196,7 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, CliError> {
     Ok(with_text(path, tolerance)?.0)
 }
 
-/// One scene and the text it was read from.
+/// Reads one scene and keeps its text.
 pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, String), CliError> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
@@ -220,13 +221,13 @@ pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, 
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
 }
 
-/// Runs the work on one scene file; an internal fault is a problem of that file.
+/// Runs `work` for one scene file. An internal fault becomes a problem of that file.
 pub(crate) fn isolated<R>(path: &Path, work: impl FnOnce() -> R) -> Result<R, CliError> {
     let name = name(path);
     isolate(&name, work).map_err(|problems| CliError::Scene { name, problems })
 }
 
-/// A file's name without folders and ending; `scene` for standard input.
+/// The name of a file without folders and ending; `scene` for standard input.
 pub(crate) fn stem(path: &Path) -> String {
     if path == Path::new("-") {
         return "scene".into();
@@ -235,7 +236,7 @@ pub(crate) fn stem(path: &Path) -> String {
     stem.to_string_lossy().into_owned()
 }
 
-/// How a person is shown which file is meant.
+/// The name of a file in messages.
 pub(crate) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "standard input".into()

@@ -1,4 +1,4 @@
-//! `drystone style`: a theme as a style file to start from.
+//! `drystone style`: prints a theme as a style file that a user can edit.
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;

@@ -4,36 +4,66 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, Contact, EffectName, FrameAnalysis, Verdict};
 use crate::cli::page::{Page, broken, seen};
 use crate::result::Timing;
-use crate::scene::Scene;
+use crate::scene::format::Expectation;
+use crate::scene::{Frame, Scene};
 use crate::text::heading;
 use crate::wording::number::{digits, duration, letter, tenths};
 use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
-/// What the columns mean, and what a verdict says and what it does not, for under the tables.
-const LIMITS: [[&str; 2]; 8] = [
+/// Every word of the tables and of the lines below them, with its meaning.
+const MEANINGS: [[&str; 2]; 16] = [
     [
         "stands",
         "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.",
     ],
-    ["falls", "none does, and a motion shows why."],
-    ["forces", "sum of all normal, friction and robot forces"],
+    ["falls", "no such set exists, and a motion proves it."],
+    [
+        "undecided",
+        "neither was proved; the reason is below the row.",
+    ],
+    ["weight", "of all blocks that are placed, in newtons"],
+    [
+        "largest",
+        "the largest force between two bodies, in newtons",
+    ],
+    ["between", "the two bodies"],
+    [
+        "friction",
+        "the largest share of the friction limit that a contact uses",
+    ],
+    ["robots", "the largest share of a limit that a robot uses"],
+    ["-", "does not exist, because the frame falls"],
+    [
+        "comes off",
+        "the two bodies separate; the number is the pull that would have to hold them together",
+    ],
+    [
+        "slides",
+        "the contact exceeds its friction; the number is the force that is missing",
+    ],
+    [
+        "forces",
+        "with --verbose: the sum of all normal, friction and robot forces",
+    ],
     [
         "sticking",
-        "what would have to be glued to make up for the rest",
+        "with --verbose: the sum of what would have to be glued so that it stands",
     ],
-    ["friction", "most of it that is used anywhere"],
-    ["robots", "most of a limit that is used"],
     [
         "proof",
-        "in parts of the forces on each block; of a motion in parts of the loads of what moves",
+        "with --verbose: the error of the balance relative to the forces on a block; or the power of a motion relative to the loads of what moves",
     ],
     [
         "margins",
-        "at which values it stands, then the present one; first the factor on the loads, else the margin nearest to its end",
+        "with --margins: the values at which it stands, then the present one; first the factor on the loads, else the margin nearest to its end",
+    ],
+    [
+        "note",
+        "something that is allowed and seldom meant, with the key that silences it",
     ],
 ];
 /// Before the meanings, and in how many columns these are broken into lines on wide terminals.
@@ -44,7 +74,7 @@ pub(crate) fn explained(width: Option<usize>) -> Page {
     let [indent, most] = MEANING;
     let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
     let mut page = Page::default();
-    for [word, meaning] in LIMITS {
+    for [word, meaning] in MEANINGS {
         let gap = " ".repeat(indent);
         for (number, line) in broken(meaning, Some(most)).lines().enumerate() {
             let word = if number == 0 { word } else { "" };
@@ -61,14 +91,30 @@ const TITLE: usize = 40;
 /// A scene's longer title is cut: a terminal would break the line, and what stands behind the break would look like a row.
 const HEADING: usize = 60;
 
+/// A longer name of a body is cut.
+const NAME: usize = 30;
 /// A narrow terminal cuts titles of frames to no less.
 const SHORTEST: usize = 8;
 
+/// Titles of frames and names of bodies are first cut to these numbers of columns.
+const READABLE: [usize; 2] = [20, 12];
+/// The column with the names of the two bodies.
+const BETWEEN: usize = 4;
+
+/// How much a table says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// What a person wants to know first.
+    Short,
+    /// Also the sums, the proof and the contact tolerance.
+    Full(Timing),
+}
+
 /// The table of one scene, for a terminal of `width` columns.
 ///
-/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes; where that is not enough,
-/// every value has a line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.
-pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<usize>) -> Page {
+/// Where the rows would be wider, titles and names are cut as far as it takes; where that is not enough, every value has a
+/// line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.
+pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
@@ -77,61 +123,73 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
         page.words(&heading(&scene.title, HEADING));
     }
     page.end();
-    let mut rows: Vec<[String; 7]> = scene
-        .frames
-        .iter()
-        .zip(&analysis.frames)
-        .enumerate()
-        .map(|(i, (step, f))| row(label(scene, i, &step.title), f, timing))
+    let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());
+    let columns = HEADS.len() - usize::from(!has_robots);
+    let heads: Vec<String> = HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();
+    let mut rows: Vec<Vec<String>> = (scene.frames.iter().zip(&analysis.frames).enumerate())
+        .map(|(i, (step, f))| {
+            let mut cells = row(scene, label(scene, i, &step.title), f);
+            cells.truncate(columns);
+            cells
+        })
         .collect();
-    let heads = [
-        "frame", "verdict", "forces", "sticking", "friction", "robots", "proof",
-    ]
-    .map(String::from);
-    let widest = |rows: &[[String; 7]], column: usize| {
-        let cells = rows.iter().chain([&heads]).map(|row| seen(&row[column]));
-        cells.max().unwrap_or(0)
-    };
-    let mut widths: [usize; 7] = std::array::from_fn(|column| widest(&rows, column));
-    let mut columns = widths.len();
-    let least: [usize; 7] = std::array::from_fn(|column| match column {
-        0 => widths[0].min(SHORTEST),
-        _ => widths[column],
-    });
-    let is_narrow = width.is_some_and(|width| taken(&least[..columns - 1]) > width);
-    if let Some(width) = width.filter(|width| !is_narrow && taken(&widths) > *width) {
-        columns -= 1;
-        let beyond = taken(&widths[..columns]).saturating_sub(width);
-        let most = widths[0].saturating_sub(beyond).max(SHORTEST);
-        for row in &mut rows {
-            row[0] = shortened(&row[0], most);
-        }
-        widths[0] = widest(&rows, 0);
-    }
+    let fits = width.is_none_or(|width| cut(&mut rows, &heads, width));
+    let widths = widths(&rows, &heads);
     let dim = Style::new().dimmed();
-    if !is_narrow {
-        line(&mut page, &heads, &widths[..columns], [dim; 7]);
+    if fits {
+        line(&mut page, &heads, &widths, [dim, dim]);
     }
-    for (frame, cells) in analysis.frames.iter().zip(&rows) {
-        let mut styles = [Style::new(); 7];
-        styles[1] = style(frame.verdict);
-        if is_narrow {
-            record(&mut page, &heads, cells, styles);
-        } else {
-            line(&mut page, cells, &widths[..columns], styles);
+    for ((frame, state), cells) in analysis.frames.iter().zip(&scene.frames).zip(&rows) {
+        let styles = [Style::new(), style(frame.verdict)];
+        match fits {
+            true => line(&mut page, cells, &widths, styles),
+            false => record(&mut page, &heads, cells, styles),
         }
-        if columns < cells.len() {
-            page.line(&format!("      proof: {}", cells[columns]));
-        }
-        for remark in remarks(scene, frame) {
+        for remark in remarks(scene, frame, state, detail) {
             page.line(&format!("      {remark}"));
         }
     }
-    if let Some(words) = scene.tolerance_words() {
+    let matters = scene.healed.corners > 0 || scene.healed.kept > 0 || detail != Detail::Short;
+    if let Some(words) = scene.tolerance_words().filter(|_| matters) {
         page.styled(dim, &format!("  {words}"));
         page.end();
     }
     page
+}
+
+/// The columns; the last one only if there are robots.
+const HEADS: [&str; 7] = [
+    "frame", "verdict", "weight", "largest", "between", "friction", "robots",
+];
+
+fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
+    let widest = |column: usize| {
+        let cells = rows.iter().map(|row| seen(&row[column]));
+        cells.max().unwrap_or(0).max(seen(&heads[column]))
+    };
+    (0..heads.len()).map(widest).collect()
+}
+
+/// Cuts titles and names so that rows take at most `width` columns; whether that is possible.
+fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
+    let least = [SHORTEST.max(seen(&heads[0])), seen(&heads[BETWEEN])];
+    for (column, least) in [
+        (0, READABLE[0]),
+        (BETWEEN, READABLE[1]),
+        (BETWEEN, least[1]),
+        (0, least[0]),
+    ] {
+        let widths = widths(rows, heads);
+        let beyond = taken(&widths).saturating_sub(width);
+        if beyond == 0 {
+            return true;
+        }
+        let most = widths[column].saturating_sub(beyond).max(least);
+        for row in rows.iter_mut() {
+            row[column] = shortened(&row[column], most);
+        }
+    }
+    taken(&widths(rows, heads)) <= width
 }
 
 fn style(verdict: Verdict) -> Style {
@@ -144,7 +202,7 @@ fn style(verdict: Verdict) -> Style {
 }
 
 /// Before the first column, and before every other.
-const GAPS: [&str; 2] = ["  ", "   "];
+const GAPS: [&str; 2] = ["  ", "  "];
 
 /// How many columns of a terminal a row takes whose cells are so wide.
 fn taken(widths: &[usize]) -> usize {
@@ -152,16 +210,17 @@ fn taken(widths: &[usize]) -> usize {
     widths.iter().sum::<usize>() + gaps
 }
 
-/// The first cells of a row: words to the left, numbers to the right of their columns.
-fn line(page: &mut Page, cells: &[String; 7], widths: &[usize], styles: [Style; 7]) {
+/// The cells of a row: words to the left, numbers to the right of their columns. The second style is that of the verdict.
+fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
+        let is_words = matches!(column, 0 | 1 | BETWEEN);
         page.words(GAPS[usize::from(column > 0)]);
-        if (2..6).contains(&column) {
+        if !is_words {
             page.words(&gap);
         }
-        page.styled(styles[column], cell);
-        if column < 2 {
+        page.styled(styles[usize::from(column == 1)], cell);
+        if is_words && column + 1 < cells.len() {
             page.words(&gap);
         }
     }
@@ -169,14 +228,14 @@ fn line(page: &mut Page, cells: &[String; 7], widths: &[usize], styles: [Style; 
 }
 
 /// The same below each other: the frame, and every value behind its name.
-fn record(page: &mut Page, heads: &[String; 7], cells: &[String; 7], styles: [Style; 7]) {
+fn record(page: &mut Page, heads: &[String], cells: &[String], styles: [Style; 2]) {
     page.line(&format!("  {}", cells[0]));
     let widest = heads.iter().map(|head| seen(head)).max().unwrap_or(0);
-    for ((head, cell), style) in heads.iter().zip(cells).zip(styles).skip(1) {
+    for (column, (head, cell)) in heads.iter().zip(cells).enumerate().skip(1) {
         page.words("      ");
         page.styled(Style::new().dimmed(), head);
         page.words(&" ".repeat(widest - seen(head) + 2));
-        page.styled(style, cell);
+        page.styled(styles[usize::from(column == 1)], cell);
         page.end();
     }
 }
@@ -207,40 +266,51 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
     }
 }
 
-fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
-    let friction = frame
-        .contacts
-        .iter()
-        .map(|c| c.friction_used)
-        .fold(0.0, f64::max);
-    let limit = frame
-        .robots
-        .iter()
-        .map(|r| r.limit_used)
-        .fold(0.0, f64::max);
-    let mut proof = proof::short(frame.proof);
-    if timing == Timing::Included {
-        let _ = write!(proof, ", {}", duration(frame.solve.seconds));
-    }
-    [
+fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
+    // The forces of a frame that falls do not exist: they include what would have to stick.
+    let stands = frame.verdict == Verdict::Stable;
+    let exists = |cell: String| if stands { cell } else { "-".into() };
+    let force = |contact: &Contact| contact.resultant.force.norm();
+    let contacts = frame.contacts.iter();
+    let largest = contacts
+        .clone()
+        .max_by(|a, b| force(a).total_cmp(&force(b)));
+    let between = largest.map_or("-".into(), |contact| {
+        let [a, b] = contact.interface.bodies.map(|id| scene.name(id));
+        format!("{}/{}", heading(a, NAME), heading(b, NAME))
+    });
+    let friction = contacts.map(|c| c.friction_used).fold(0.0, f64::max);
+    let limit = frame.robots.iter().map(|r| r.limit_used);
+    vec![
         label,
         plain(frame.verdict).into(),
-        format!("{} N", digits(frame.total_force)),
-        if is_left_out(frame) {
-            "unknown".into()
-        } else if frame.total_sticking == 0.0 {
-            "none".into()
-        } else {
-            format!("{} N", digits(frame.total_sticking))
-        },
-        tenths(friction),
-        if frame.robots.is_empty() {
-            "no robot".into()
-        } else {
-            tenths(limit)
-        },
-        proof,
+        format!("{} N", digits(frame.weight)),
+        exists(format!("{} N", digits(largest.map_or(0.0, force)))),
+        exists(between),
+        exists(tenths(friction)),
+        exists(match frame.robots.is_empty() {
+            true => "none".into(),
+            false => tenths(limit.fold(0.0, f64::max)),
+        }),
     ]
+}
+
+/// The sums, the proof and the time, in one line.
+fn sums(frame: &FrameAnalysis, timing: Timing) -> String {
+    let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
+        (true, _) => "unknown".into(),
+        (_, true) => "none".into(),
+        _ => format!("{} N", digits(frame.total_sticking)),
+    };
+    let mut words = format!(
+        "forces {} N, sticking {sticking}; proof: {}",
+        digits(frame.total_force),
+        proof::short(frame.proof)
+    );
+    if timing == Timing::Included {
+        let _ = write!(words, ", {}", duration(frame.solve.seconds));
+    }
+    words
 }
 
 /// Whether a frame falls and what would have to stick was not found out.
@@ -250,13 +320,28 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 }
 
 /// What a reader needs to know of a frame beyond its line, a sentence each.
-fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
-    let mut remarks: Vec<String> = frame
+fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if let Detail::Full(timing) = detail {
+        remarks.push(sums(frame, timing));
+    }
+    remarks.extend(match (state.expected, frame.verdict) {
+        (Some(Expectation::Unstable), Verdict::Unstable) => Some("falls, as expected".to_owned()),
+        (Some(Expectation::Unstable), Verdict::Stable) => {
+            Some("stands, but its `expect` says unstable".to_owned())
+        }
+        (Some(Expectation::Stable), Verdict::Unstable) => {
+            Some("falls, but its `expect` says stable".to_owned())
+        }
+        _ => None,
+    });
+    let failures: Vec<String> = frame
         .failures
         .iter()
         .take(MOST_LISTED)
         .map(|f| failure::sentence(scene, f))
         .collect();
+    remarks.extend(failures);
     if frame.failures.len() > MOST_LISTED {
         remarks.push(format!("and {} more", frame.failures.len() - MOST_LISTED));
     }
@@ -290,19 +375,19 @@ mod tests {
 
     fn assert_fits(name: &str, analysis: &Analysis) {
         for width in [40, 50, 60, 70, 79, 80, 100] {
-            let page = of(name, analysis, Timing::Included, Some(width)).fitted(width);
+            let page = of(name, analysis, Detail::Short, Some(width)).fitted(width);
             for line in page.text().lines() {
                 assert!(seen(line) <= width, "{width}: {line}");
             }
         }
         // A file or another program gets every row whole.
-        let page = of(name, analysis, Timing::Included, None);
-        assert!(page.text().contains("robots\u{1b}[0m   \u{1b}[2mproof"));
+        let page = of(name, analysis, Detail::Short, None);
+        assert!(page.text().contains("between"));
     }
 
     #[test]
     fn words_are_explained_beside_them_at_any_width() {
-        for (width, lines) in [(None, 11), (Some(100), 11), (Some(60), 14), (Some(40), 20)] {
+        for (width, lines) in [(None, 23), (Some(100), 23), (Some(60), 28), (Some(40), 45)] {
             let page = explained(width);
             let found: Vec<&str> = page.text().lines().collect();
             let widest = found.iter().map(|line| seen(line)).max();

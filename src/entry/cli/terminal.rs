@@ -1,4 +1,4 @@
-//! [`Terminal`]: the two streams, who may be quiet on them, and whether they carry colour.
+//! [`Terminal`]: standard output and standard error, with the options for quiet output and colours.
 //!
 //! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream
 //! does not want them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
@@ -38,7 +38,7 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// The process's streams, set to a voice.
+    /// The streams of the process with these output options.
     pub(crate) fn new(voice: OutputArgs) -> Terminal {
         let choice = match voice.color {
             Colour::Auto => ColorChoice::Auto,
@@ -49,27 +49,27 @@ impl Terminal {
         Terminal { quiet: voice.quiet }
     }
 
-    /// Whether only errors are wanted.
+    /// Whether only errors are printed.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
-    /// Whether a progress bar would be seen and is wanted.
+    /// Whether a progress bar is wanted and visible.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()
     }
 
-    /// Whether standard output is a terminal, where the bytes of a PNG would be unreadable.
+    /// Whether standard output is a terminal. Binary data such as a PNG must not be written to it.
     pub(crate) fn is_watched(&self) -> bool {
         io::stdout().is_terminal()
     }
 
-    /// How many columns a person sees of standard output; `None` where it goes into a file or to another program.
+    /// The number of columns of standard output; `None` if it is not a terminal.
     pub(crate) fn width(&self) -> Option<usize> {
         columns(terminal_size::terminal_size_of(io::stdout()))
     }
 
-    /// Writes a result for a person, no wider than the terminal.
+    /// Prints a result for a person, at most as wide as the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
@@ -80,7 +80,7 @@ impl Terminal {
         )
     }
 
-    /// Writes a result as it is: a picture or JSON, in which no text of others can do anything.
+    /// Prints bytes without change: a picture, or JSON that is already escaped.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
         let mut stream = io::stdout().lock();
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
@@ -91,19 +91,19 @@ impl Terminal {
         self.notes(&Page::new(words));
     }
 
-    /// Likewise, in several lines.
+    /// Prints several lines of information to standard error, unless `--quiet` is given.
     pub(crate) fn notes(&self, page: &Page) {
         if !self.quiet {
             self.complain(page);
         }
     }
 
-    /// Says what is wrong with what a command was given.
+    /// Prints an error of a command to standard error.
     pub(crate) fn refuse(&self, complaint: &CliError) {
         self.complain(&complaint.page(error_width()));
     }
 
-    /// Says what is wrong.
+    /// Prints an error message to standard error.
     pub(crate) fn complain(&self, page: &Page) {
         let page = fitted(page, error_width());
         let mut stream = anstream::stderr().lock();
@@ -112,7 +112,7 @@ impl Terminal {
     }
 }
 
-/// How many columns a person sees of standard error; `None` where it goes elsewhere.
+/// The number of columns of standard error; `None` if it is not a terminal.
 pub(crate) fn error_width() -> Option<usize> {
     columns(terminal_size::terminal_size_of(io::stderr()))
 }
@@ -129,7 +129,7 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
     }
 }
 
-/// A reader that closes the pipe has read enough: that is no failure of ours.
+/// Treats a closed pipe as success: its reader has read enough.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {

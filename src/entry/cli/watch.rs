@@ -1,4 +1,4 @@
-//! `--watch`: a command again whenever one of its inputs is saved.
+//! `--watch`: repeats a command whenever one of its input files changes.
 //!
 //! Looked for by size and time of change, a few times a second: that works on every system and on network drives.
 
@@ -17,7 +17,7 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// What is known of a file: when it changed, and how long it is; `None` while an editor replaces it.
 type Mark = Option<(SystemTime, u64)>;
 
-/// Runs a command, and runs it again after every change of a file, until the process is ended from outside.
+/// Runs a command, and runs it again after every change of a file, until the process is ended.
 ///
 /// What is wrong is reported, and watching goes on: the next save may mend it.
 pub(crate) fn repeat(
@@ -32,7 +32,7 @@ pub(crate) fn repeat(
                 terminal.refuse(complaint);
             }
         }
-        // A change while the command ran is a change; one that is still going on is waited for.
+        // A change during the run counts. If a file is still being written, wait until it is complete.
         let mut last = marks(files);
         loop {
             thread::sleep(PAUSE);

@@ -1,37 +1,53 @@
-//! [`Lines`]: what lies along straight sides becomes straight.
+//! [`Lines`]: moves the nodes along straight sides onto common straight lines.
 //!
-//! A joint of a wall runs through many corners, none of which lies exactly between its neighbours. To move each onto the
-//! side before it would only hand the misfit on; so all corners of a joint get one line, and a corner on two joints goes
-//! to where they cross.
+//! A joint of a wall runs through many corners, none of which lies exactly between its neighbours. Moving each corner
+//! onto the previous side would only pass the error on. Therefore one line is fitted to all corners of a joint, and a
+//! corner on two joints moves to the intersection of the two lines.
+//!
+//! Lines are fitted by total least squares (the principal axis of the nodes), or taken from a side, or made exactly
+//! level or upright. Then two steps alternate until no node moves: fit all lines to the nodes; move each node by the
+//! shortest least-squares step onto its lines. References: Pearson, On Lines and Planes of Closest Fit, 1901; Golub and
+//! Van Loan, Matrix Computations, 2013, §5.3 (least squares by normal equations) and §5.5 (shortest solution).
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::node::Nodes;
 use crate::geometry::{Point, Vector, quarter_turn};
 
-/// Rounds in which corners on three or more lines find their places.
-const ROUNDS: usize = 200;
-/// Two lines whose angle has a sine below the root of this do not say where they cross.
-const PARALLEL: f64 = 1e-4;
-/// Less than this part of the gap is the rounding of numbers.
+/// The largest number of times that lines are fitted and nodes are moved.
+///
+/// Nodes on at most two lines that do not change arrive in one step. Only nodes on three or more lines need many.
+const MAX_ITERATIONS: usize = 200;
+/// Two lines whose angle has a squared sine up to this are treated as parallel: their intersection is ill-conditioned.
+///
+/// The limit is an angle of 0.57°. At a tenth of it (0.18°), a node could move 300 times as far as its lines are off.
+/// At ten times (1.8°), the corners of slender wedges would no longer move to the intersection.
+const MIN_SQUARED_SINE: f64 = 1e-4;
+/// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test and of level lines.
+///
+/// It must exceed the rounding of coordinates; for a gap of 1 mm it is 10⁻¹² m.
 const ROUNDING: f64 = 1e-9;
+/// A node that would move farther than this many gaps stays where it was.
+const MAX_MOVE_IN_GAPS: f64 = 2.0;
 
-/// Sets of nodes, each of which is to lie on a line.
+/// Lines with the nodes that are to be moved onto them.
 pub(super) struct Lines(Vec<Line>);
 
 struct Line {
     nodes: Vec<usize>,
-    course: Course,
+    kind: LineKind,
 }
 
-/// What the line of some nodes is.
+/// How the line through some nodes is determined.
 #[derive(Clone, Copy)]
-enum Course {
-    /// That of one side, which reaches along all of them.
+enum LineKind {
+    /// The line through the two end nodes of one side, which extends along all nodes.
     Side([usize; 2]),
+    /// A horizontal line through the mean of the nodes.
     Level,
+    /// A vertical line through the mean of the nodes.
     Upright,
-    /// The one that passes all nodes as closely as can be.
+    /// The line with the least sum of squared distances from the nodes.
     Closest,
 }
 
@@ -42,15 +58,17 @@ struct Fit {
 }
 
 impl Fit {
-    /// How far a place lies from the line, metres.
+    /// The distance of a point from the line, metres.
     fn distance(&self, at: Point) -> f64 {
         self.normal.dot(&(at - self.through)).abs()
     }
 }
 
 impl Lines {
-    /// The lines of sides and the nodes on them; sides that share two nodes are one line where all of it is straight to
-    /// within the nodes' gaps.
+    /// The lines for straight sides; `on` lists the nodes on each side, which is given by its two end nodes.
+    ///
+    /// Sides that share two nodes get one common line if it passes all their nodes within the nodes' gaps; otherwise
+    /// each side gets its own line.
     pub(super) fn new(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
         let sets: Vec<BTreeSet<usize>> = on
@@ -63,6 +81,7 @@ impl Lines {
                 by_node.entry(*node).or_default().push(i);
             }
         }
+        // Count the nodes that each pair of sides shares, and group sides with at least two by union-find.
         let mut shared: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for list in by_node.values() {
             for (k, i) in list.iter().enumerate() {
@@ -82,6 +101,7 @@ impl Lines {
         for i in 0..sets.len() {
             joined.entry(root(&group, i)).or_default().push(i);
         }
+        // One line for each group, or one for each side of a group that is not straight.
         let mut lines = Vec::new();
         for members in joined.into_values() {
             let line = |members: &[usize]| {
@@ -98,7 +118,7 @@ impl Lines {
         Lines(lines)
     }
 
-    /// Moves the nodes onto their lines; a node that would have to go farther than two gaps stays.
+    /// Moves the nodes onto their lines. Fixed nodes stay, as do nodes that would move farther than two gaps.
     pub(super) fn settle(&self, nodes: &mut Nodes) {
         let mut lines_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, line) in self.0.iter().enumerate() {
@@ -109,22 +129,24 @@ impl Lines {
         lines_of.retain(|node, _| !nodes.all[*node].fixed);
         let begun: BTreeMap<usize, Point> =
             lines_of.keys().map(|n| (*n, nodes.all[*n].at)).collect();
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ITERATIONS {
+            // Fit all lines to the current nodes, then move every node towards its lines.
             let fits: Vec<Fit> = self.0.iter().map(|line| line.fit(nodes)).collect();
             let mut farthest = 0.0_f64;
             for (node, lines) in &lines_of {
                 let at = nodes.all[*node].at;
-                let step = towards(at, lines.iter().map(|l| &fits[*l]));
+                let step = least_squares_step(at, lines.iter().map(|l| &fits[*l]));
                 nodes.all[*node].at = at + step;
                 farthest = farthest.max(step.norm() / nodes.all[*node].gap);
             }
-            if farthest <= 1e-9 {
+            // Convergence test: the largest step, as a fraction of the node's gap.
+            if farthest <= ROUNDING {
                 break;
             }
         }
         for (node, at) in begun {
-            // Written so that NaN stays too.
-            if !((nodes.all[node].at - at).norm() <= 2.0 * nodes.all[node].gap) {
+            // The negated comparison also restores a node whose position is NaN.
+            if !((nodes.all[node].at - at).norm() <= MAX_MOVE_IN_GAPS * nodes.all[node].gap) {
                 nodes.all[node].at = at;
             }
         }
@@ -132,23 +154,25 @@ impl Lines {
 }
 
 impl Line {
-    /// `None` where no line passes all nodes within their gaps.
+    /// The line for some nodes and the sides that they lie on; `None` if no line passes all nodes within their gaps.
+    ///
+    /// The longest side is preferred. Otherwise the line is fitted, and made level or upright if the nodes allow it.
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
         let longest = *sides
             .iter()
             .reduce(|a, b| if length(b) > length(a) { b } else { a })?;
-        let line = |course| Line {
+        let line = |kind| Line {
             nodes: members.clone(),
-            course,
+            kind,
         };
-        // Written so that NaN does not fit.
+        // NaN fails the comparison, so a line without a direction does not fit.
         let fits = |line: &Line| {
             let fit = line.fit(nodes);
             (line.nodes.iter()).all(|n| fit.distance(place(*n)) <= nodes.all[*n].gap)
         };
-        let side = line(Course::Side(longest));
+        let side = line(LineKind::Side(longest));
         let along = (place(longest[1]) - place(longest[0])) / length(&longest);
         let reaches = |n: &usize| {
             let s = along.dot(&(place(*n) - place(longest[0])));
@@ -158,11 +182,11 @@ impl Line {
         if members.iter().all(reaches) && fits(&side) {
             return Some(side);
         }
-        let closest = line(Course::Closest);
+        let closest = line(LineKind::Closest);
         if !fits(&closest) {
             return None;
         }
-        // Level or upright as far as the corners can tell is level or upright.
+        // `off` is the scatter of the nodes: their largest distance from the fitted line, metres.
         let fit = closest.fit(nodes);
         let normal = fit.normal;
         let distances = members.iter().map(|n| fit.distance(place(*n)));
@@ -174,22 +198,25 @@ impl Line {
             });
             high - low
         };
-        // A steep line has no width, so that its slope times its width says nothing of whether it is level.
-        let (axis, course) = if normal.y.abs() >= normal.x.abs() {
-            (0, Course::Level)
+        // The line is made level if it rises over the nodes' width by no more than twice their scatter, and upright if
+        // it drifts sideways over their height by no more. A steep line is compared with the vertical only: its width
+        // is near 0, so that slope times width would be small for any steep line.
+        let (axis, kind) = if normal.y.abs() >= normal.x.abs() {
+            (0, LineKind::Level)
         } else {
-            (1, Course::Upright)
+            (1, LineKind::Upright)
         };
         let rounding = ROUNDING * nodes.all[members[0]].gap;
         if normal[axis].abs() * spread(axis) <= 2.0 * off + rounding {
-            return Some(line(course));
+            return Some(line(kind));
         }
         Some(closest)
     }
 
+    /// Fits the line to the current positions of its nodes.
     fn fit(&self, nodes: &Nodes) -> Fit {
         let place = |n: usize| nodes.all[n].at;
-        if let Course::Side([a, b]) = self.course {
+        if let LineKind::Side([a, b]) = self.kind {
             return Fit {
                 through: place(a),
                 normal: quarter_turn((place(b) - place(a)).normalize()),
@@ -199,9 +226,9 @@ impl Line {
         let count = self.nodes.len() as f64;
         let sum: Vector = self.nodes.iter().map(|n| place(*n) - first).sum();
         let through = first + sum / count;
-        let normal = match self.course {
-            Course::Level => Vector::new(0.0, 1.0),
-            Course::Upright => Vector::new(1.0, 0.0),
+        let normal = match self.kind {
+            LineKind::Level => Vector::new(0.0, 1.0),
+            LineKind::Upright => Vector::new(1.0, 0.0),
             _ => {
                 let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
                 for n in &self.nodes {
@@ -210,7 +237,8 @@ impl Line {
                     xy += d.x * d.y;
                     yy += d.y * d.y;
                 }
-                // The direction of greatest spread, by half the angle whose double the moments tell.
+                // Total least squares: the line follows the principal axis of the second moments, tan 2α = 2xy / (xx −
+                // yy).
                 let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
                 Vector::new(-libm::sin(angle), libm::cos(angle))
             }
@@ -219,8 +247,9 @@ impl Line {
     }
 }
 
-/// The least step from a place onto lines, as nearly as one place can lie on all of them.
-fn towards<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
+/// The shortest step from a point that minimises the sum of squared distances to some lines, metres.
+fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
+    // The normal equations [p q; q r] · step = pull.
     let (mut p, mut q, mut r) = (0.0, 0.0, 0.0);
     let mut pull = Vector::zeros();
     for line in lines {
@@ -230,15 +259,18 @@ fn towards<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
         r += n.y * n.y;
         pull += n * n.dot(&(line.through - at));
     }
+    // For two lines the determinant is the squared sine of their angle, and the trace is 2.
     let (trace, det) = (p + r, p * r - q * q);
-    if det > PARALLEL * trace * trace / 4.0 {
+    if det > MIN_SQUARED_SINE * trace * trace / 4.0 {
         return Vector::new(r * pull.x - q * pull.y, p * pull.y - q * pull.x) / det;
     }
+    // Nearly parallel lines: step only along their mean normal, the principal axis of the matrix.
     let angle = 0.5 * libm::atan2(2.0 * q, p - r);
     let normal = Vector::new(libm::cos(angle), libm::sin(angle));
     normal * (normal.dot(&pull) / trace)
 }
 
+/// The representative of the group that contains `i` (union-find).
 fn root(group: &[usize], mut i: usize) -> usize {
     while group[i] != i {
         i = group[i];

@@ -1,10 +1,19 @@
-//! Snapping: what nearly touches is made to touch. A drawing that is imported and a scene whose coordinates are rounded are
-//! healed by the same code.
+//! Snapping: moves corners of bodies that nearly touch so that they touch exactly. It serves imported drawings and
+//! scenes with rounded coordinates.
 //!
-//! Every body has its own gap; between two bodies the smaller one counts. Corners of different bodies that lie within
-//! that gap of each other become one place. Then corners within a gap of another body's side come onto it: a straight side, with all that lies along it, becomes one line and draws the corners there; a
-//! side that stands for a piece of a curve takes the corner in. Invariant: no body loses its shape, and no two bodies lie
-//! deeper in each other than they were drawn; a body that would is left as it was drawn.
+//! Every body has a gap, the distance by which its corners may move; between two bodies the smaller gap applies.
+//!
+//! 1. Corners of different bodies within the gap are merged into one node ([`Nodes`]): clustering with complete
+//!    linkage.
+//! 2. Nodes within the gap of a side of another body are found.
+//! 3. A straight side and the nodes along it are moved onto one line ([`Lines`]): total least squares. A side that
+//!    approximates a piece of a curve gets the node as an additional corner instead.
+//! 4. The result is checked. A body that lost its shape or overlaps another body more than before is left as drawn, and
+//!    the steps are repeated without moving it.
+//!
+//! Invariant: no body loses its shape, and no two bodies overlap more than they were drawn. References: Everitt et al.,
+//! Cluster Analysis, 2011, §4.2 (complete linkage); Milenkovic, Verifiable implementations of geometric algorithms
+//! using finite precision arithmetic, 1988 (merging corners and shifting them onto sides).
 
 mod line;
 mod node;
@@ -19,16 +28,16 @@ use node::Nodes;
 /// A corner of an outline, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
-    /// Where it lies.
+    /// Position, metres.
     pub(crate) at: Point,
-    /// Whether the side that begins here stands for a piece of a curve.
+    /// Whether the side that begins here approximates a piece of a curve.
     pub(crate) curved: bool,
 }
 
-/// An outline and its holes, either way round.
+/// An outline and its holes, each clockwise or anticlockwise.
 pub(crate) type Rings = Vec<Vec<Corner>>;
 
-/// The polygon of an outline and its holes.
+/// Converts an outline and its holes to a polygon.
 pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
     let points = |ring: &Vec<Corner>| ring.iter().map(|c| c.at).collect::<Vec<Point>>();
     let mut rings = rings.iter().map(points);
@@ -36,7 +45,7 @@ pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
     Polygon::new(outline, rings.collect())
 }
 
-/// Signed area in square metres: positive anticlockwise.
+/// Signed area of a ring in square metres, positive if the ring runs anticlockwise.
 pub(crate) fn area(ring: &[Corner]) -> f64 {
     let Some(base) = ring.first() else { return 0.0 };
     let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
@@ -46,23 +55,33 @@ pub(crate) fn area(ring: &[Corner]) -> f64 {
         / 2.0
 }
 
-/// So many times bodies that came out wrong are put back and the rest is tried again.
-const ROUNDS: usize = 12;
+/// The largest number of attempts. After each attempt, damaged bodies are fixed as drawn and the rest is snapped again.
+///
+/// After the last attempt, all bodies are returned as drawn.
+const MAX_ATTEMPTS: usize = 12;
 
-/// What is nearer than this part of the gap is there already: a thousandth of what counts as having moved.
-const EXACT: f64 = 1e-9;
+/// A node whose distance from a side is at most this fraction of the gap already lies on that side.
+///
+/// It is a thousandth of [`MIN_MOVE`]. A limit below the rounding of coordinates would rebuild bodies that already fit.
+const MAX_EXACT_DISTANCE: f64 = 1e-9;
+
+/// A corner that moves by at most this fraction of the gap is not reported as moved: that is the rounding of numbers.
+const MIN_MOVE: f64 = 1e-6;
+
+/// A ring whose area shrinks to this fraction of its former area, or below, has lost its shape.
+const MIN_AREA_SHARE: f64 = 0.5;
 
 /// How far corners may move.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gaps<'g> {
-    /// Each body's gap in metres, 0 for one that takes no part.
+    /// The gap of each body in metres; 0 for a body whose corners are not to be moved.
     pub(crate) of_body: &'g [f64],
-    /// A corner moves by at most this part of its shorter edge; infinite where only the gap counts.
+    /// A corner moves by at most this fraction of the shorter of its two sides; infinite if only the gap limits it.
     pub(crate) share_of_edge: f64,
 }
 
 impl<'g> Gaps<'g> {
-    /// Gaps that count whatever the length of an edge.
+    /// Gaps that do not depend on the lengths of sides.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -71,34 +90,33 @@ impl<'g> Gaps<'g> {
     }
 }
 
-/// What became of some bodies.
+/// The result of snapping.
 pub(crate) struct Outcome<'b> {
-    /// Their outlines; as they were given where none of them changed.
+    /// The outlines of all bodies; borrowed from the input if no body changed.
     pub(crate) bodies: Cow<'b, [Rings]>,
-    /// Which of them changed.
+    /// The bodies that changed.
     pub(crate) moved: Vec<Moved>,
-    /// Bodies that had to stay as they were drawn.
+    /// Numbers of the bodies that were left as drawn because snapping would have damaged them.
     pub(crate) kept: Vec<usize>,
 }
 
 /// A body that was changed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Moved {
-    /// Its number.
+    /// The number of the body.
     pub(crate) body: usize,
-    /// How many of its corners moved or came in.
+    /// The number of its corners that were moved or added.
     pub(crate) corners: usize,
-    /// How far the farthest moved, in metres.
+    /// The largest distance by which one of its corners moved, metres.
     pub(crate) distance: f64,
-    /// What it touches now.
+    /// Numbers of the bodies that it touches after snapping.
     pub(crate) to: BTreeSet<usize>,
 }
 
-/// The bodies with what lies within their gaps of each other brought together. The earlier body stays where two meet.
+/// Snaps corners and sides that lie within the gaps onto each other. Of two corners, that of the earlier body stays.
 ///
-/// A body of `fixed` stays as it is, and
-/// corners of others come to it; their sides do not. An overlap of up to `noise`, in parts of the gap between two bodies, is
-/// none.
+/// A body marked in `fixed` does not change. Corners of other bodies move onto it, but its corners do not move onto
+/// their sides. Overlaps of up to `noise` times the gap between two bodies are ignored.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
     gaps: Gaps<'_>,
@@ -106,21 +124,22 @@ pub(crate) fn snapped<'b>(
     noise: f64,
 ) -> Outcome<'b> {
     let mut kept = fixed.to_vec();
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ATTEMPTS {
         let mut outcome = attempt(bodies, gaps, &kept);
         if outcome.moved.is_empty() {
-            // To the last bit, so that nothing can have come out worse.
+            // No corner moved by more than rounding: return the input bit for bit, which needs no check.
             outcome.bodies = Cow::Borrowed(bodies);
         }
+        // Check the result. Damaged bodies are fixed as drawn, and the next attempt snaps the others.
         let fresh: Vec<usize> = match &outcome.bodies {
             Cow::Borrowed(_) => Vec::new(),
             Cow::Owned(new) => {
-                let wrong = spoilt(bodies, new, gaps.of_body, noise);
+                let wrong = damaged_bodies(bodies, new, gaps.of_body, noise);
                 wrong.into_iter().filter(|b| !kept[*b]).collect()
             }
         };
         if fresh.is_empty() {
-            outcome.kept = held(&kept, fixed);
+            outcome.kept = kept_but_not_fixed(&kept, fixed);
             return outcome;
         }
         for body in fresh {
@@ -130,19 +149,19 @@ pub(crate) fn snapped<'b>(
     Outcome {
         bodies: Cow::Borrowed(bodies),
         moved: Vec::new(),
-        kept: held(&vec![true; bodies.len()], fixed),
+        kept: kept_but_not_fixed(&vec![true; bodies.len()], fixed),
     }
 }
 
-/// The numbers of bodies that stay for another reason than that they are fixed.
-fn held(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
+/// The numbers of the bodies that are kept as drawn although the caller did not fix them.
+fn kept_but_not_fixed(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
     let pairs = kept.iter().zip(fixed).enumerate();
     pairs
         .filter_map(|(b, (kept, fixed))| (*kept && !*fixed).then_some(b))
         .collect()
 }
 
-/// A side of a body, between two nodes.
+/// A side of a body: it leads from the node `ends[0]` to the node `ends[1]`.
 struct Side {
     body: usize,
     ring: usize,
@@ -151,22 +170,28 @@ struct Side {
     curved: bool,
 }
 
-/// A node beside a side of another body, within their gaps.
-struct Beside<'s> {
+/// A node within the gap of a side of another body.
+struct NodeNearSide<'s> {
     node: usize,
     side: &'s Side,
-    /// How far along the side, and how far off it; metres.
+    /// Distance from the side's start to the foot of the perpendicular from the node, metres.
     reach: f64,
+    /// Distance of the node from the side, metres.
     off: f64,
 }
 
+/// Snaps all bodies once; the corners of the bodies marked in `kept` do not move. The result is not checked.
 fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b> {
+    // Step 1: merge close corners into nodes.
     let mut nodes = Nodes::new(bodies, gaps, kept);
     let gaps = gaps.of_body;
+    // Step 2: find the nodes near sides of other bodies.
     let sides = sides(bodies, &nodes);
-    let found = beside(&nodes, &sides, gaps, kept);
-    // Where everything fits already there is nothing to draw together.
-    let fits = |b: &Beside<'_>| !b.side.curved && b.off <= EXACT * nodes.all[b.node].gap;
+    let found = nodes_near_sides(&nodes, &sides, gaps, kept);
+    // If all nodes already lie on their sides, return the bodies unchanged.
+    let fits = |b: &NodeNearSide<'_>| {
+        !b.side.curved && b.off <= MAX_EXACT_DISTANCE * nodes.all[b.node].gap
+    };
     if nodes.exact && found.iter().all(fits) {
         return Outcome {
             bodies: Cow::Borrowed(bodies),
@@ -174,6 +199,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
             kept: Vec::new(),
         };
     }
+    // The bodies that share a node touch each other.
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
     for node in &nodes.all {
         let there = nodes.bodies(node);
@@ -181,10 +207,11 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
             touching[*a].extend(there.iter().filter(|b| *b != a));
         }
     }
-    // Where corners lie on straight sides, by the side; and those that curved sides take in, by how far along.
+    // `on`: for each straight side, given by its two end nodes, the nodes that lie on it.
+    // `taken`: for each curved side, the nodes that become corners of it, each with its distance from the side's start.
     let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
     let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
-    for Beside {
+    for NodeNearSide {
         node, side, reach, ..
     } in found
     {
@@ -200,14 +227,22 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
             on.entry([a.min(b), a.max(b)]).or_default().insert(node);
         }
     }
+    // Step 3: move the nodes of each straight side onto one line, then rebuild the outlines from the nodes.
     let lines = Lines::new(&nodes, &on);
     lines.settle(&mut nodes);
-    rebuilt(bodies, &nodes, taken, touching, gaps)
+    rebuild_bodies(bodies, &nodes, taken, touching, gaps)
 }
 
-/// The nodes that lie beside sides of other bodies. Nodes are looked for about sides, and not the other way round: boxes
-/// around the sides of thin stones overlap by the hundred, and points do not.
-fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<Beside<'s>> {
+/// Finds all nodes within the gap of a side of another body.
+///
+/// The index contains the nodes, and each side is a query. The other way round would be slower: the boxes of the sides
+/// of thin stones overlap each other by the hundreds, whereas nodes are points.
+fn nodes_near_sides<'s>(
+    nodes: &Nodes,
+    sides: &'s [Side],
+    gaps: &[f64],
+    kept: &[bool],
+) -> Vec<NodeNearSide<'s>> {
     let nearby = BoxIndex::new((0..nodes.all.len()).collect(), |n: &usize| {
         let at = nodes.all[*n].at.into();
         Aabb { min: at, max: at }
@@ -217,6 +252,7 @@ fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> 
         if side.curved && kept[side.body] {
             continue;
         }
+        // Query the side's box, extended by the gap of its body.
         let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
         let along = to - from;
         let length = along.norm();
@@ -226,13 +262,14 @@ fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> 
             if nodes.bodies(node).contains(&side.body) {
                 continue;
             }
+            // The foot of the perpendicular must lie between the ends, and the distance within the smaller gap.
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
             let off = (node.at - foot).norm();
-            // Written so that a side of no length takes nothing.
+            // A side without length has NaN here and fails every comparison, so no node lies near it.
             let gap = node.gap.min(gaps[side.body]);
             if reach > 0.0 && reach < length && off <= gap {
-                found.push(Beside {
+                found.push(NodeNearSide {
                     node: number,
                     side,
                     reach,
@@ -244,6 +281,7 @@ fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> 
     found
 }
 
+/// The sides of all bodies, with the nodes at their ends.
 fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     let mut sides = Vec::with_capacity(bodies.iter().flatten().map(Vec::len).sum());
     for (body, rings) in bodies.iter().enumerate() {
@@ -264,8 +302,8 @@ fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     sides
 }
 
-/// The bodies with their corners where their nodes are.
-fn rebuilt(
+/// Rebuilds the outlines: every corner moves to its node, and the nodes in `taken` become corners of curved sides.
+fn rebuild_bodies(
     bodies: &[Rings],
     nodes: &Nodes,
     mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>>,
@@ -282,11 +320,11 @@ fn rebuilt(
             for (i, corner) in old.iter().enumerate() {
                 let at = nodes.all[nodes.number(body, ring, i)].at;
                 let by = (at - corner.at).norm();
-                // Less than a millionth of the gap is the rounding of numbers.
-                if by > 1e-6 * gaps[body] {
+                if by > MIN_MOVE * gaps[body] {
                     corners += 1;
                     distance = distance.max(by);
                 }
+                // The corner itself, then the nodes on its curved side in their order along the side.
                 new.push(Corner { at, ..*corner });
                 if let Some(mut more) = taken.remove(&(body, ring, i)) {
                     more.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -317,15 +355,17 @@ fn rebuilt(
     }
 }
 
-/// Bodies that came out worse than they were drawn.
-fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
+/// The bodies that snapping damaged: invalid polygons, those that shrank too much, and pairs that overlap more than
+/// before.
+fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();
     for (body, (old, new)) in before.iter().zip(after).enumerate() {
+        // A body is damaged if a ring lost its shape or the new outline is not a valid polygon.
         let sound = old.iter().zip(new).all(|(old, new)| {
             let (old, new) = (area(old), area(new));
-            // Not turned over, nor nearly gone.
-            new * old.signum() > 0.5 * old.abs()
+            // The ring keeps its direction of rotation and more than half of its area.
+            new * old.signum() > MIN_AREA_SHARE * old.abs()
         });
         let made = polygon(new).ok().filter(|_| sound);
         if made.is_none() {
@@ -333,6 +373,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         }
         polygons.push(made);
     }
+    // Compare the depth of each overlap after snapping with the depth before.
     let pieces: Vec<Option<ConvexPieces>> = polygons
         .iter()
         .map(|p| p.as_ref().map(ConvexPieces::new))
@@ -352,6 +393,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
                 continue;
             };
             let noise = noise * gaps[*a].min(gaps[*b]);
+            // The depth before snapping is computed only for pairs that overlap after it.
             let Some(now) = overlap(one, two, noise) else {
                 continue;
             };

@@ -1,43 +1,51 @@
-//! [`Nodes`]: places that corners of several bodies share.
+//! [`Nodes`]: points that are shared by corners of several bodies.
+//!
+//! Corners are clustered bottom up with complete linkage: pairs are merged in the order of their distance, and two
+//! clusters are merged only if every corner of one lies within the gap of every corner of the other. Chains of close
+//! corners therefore cannot drift together. Reference: Everitt et al., Cluster Analysis, 2011, §4.2.
 
 use std::ops::Range;
 
 use super::{Corner, Gaps, Rings};
 use crate::geometry::{Aabb, BoxIndex, Point};
 
-/// A place and the corners there.
+/// A point that replaces one or more corners.
 pub(super) struct Node {
     pub(super) at: Point,
-    /// Where its bodies stand in the list of all nodes' bodies.
+    /// The range of its bodies in [`Nodes::bodies`], the list for all nodes.
     bodies: Range<usize>,
-    /// The smallest gap of the corners here, metres.
+    /// The smallest gap of its corners, metres.
     pub(super) gap: f64,
-    /// Whether it may not move, because a body has to stay as it was drawn.
+    /// Whether the node must not move, because one of its bodies must stay as drawn.
     pub(super) fixed: bool,
 }
 
 /// All nodes, and the node of every corner.
 pub(super) struct Nodes {
     pub(super) all: Vec<Node>,
-    /// The bodies of one node after the other.
+    /// The bodies of all nodes in one list: those of the first node, then those of the second, and so on.
     bodies: Vec<usize>,
-    /// First ring of each body among all rings, and first corner of each ring among all corners.
+    /// Index of each body's first ring in the list of all rings.
     first_ring: Vec<usize>,
+    /// Index of each ring's first corner in the list of all corners.
     first_corner: Vec<usize>,
+    /// The number of the node of each corner.
     of_corner: Vec<usize>,
-    /// Whether every corner lies exactly where its node does.
+    /// Whether every corner lies exactly at its node.
     pub(super) exact: bool,
 }
 
-/// A corner before it has a node.
-struct Loose {
+/// A corner that is not yet assigned to a node.
+struct UnplacedCorner {
     at: Point,
     body: usize,
-    /// How far it may move, metres.
+    /// The largest distance by which it may move, metres.
     gap: f64,
 }
 
-/// How far the corners of a ring may move, metres, in a body of some gap: no farther than `share` of the shorter edge.
+/// The largest distance, in metres, by which each corner of a ring may move.
+///
+/// It is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
 fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item = f64> + '_ {
     let length = |a: &Corner, b: &Corner| (b.at - a.at).norm();
     ring.iter().enumerate().map(move |(i, corner)| {
@@ -49,11 +57,14 @@ fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item 
 }
 
 impl Nodes {
-    /// Corners of different bodies, no farther than their gaps from each other, become one node, the nearest first. It lies
-    /// at the corner of the earliest body, or of one that has to stay.
+    /// Merges corners of different bodies that lie within their gaps of each other into nodes, the closest pairs first.
+    ///
+    /// A node lies at the corner of a body marked in `kept`, or else at the corner of its earliest body.
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
+        // List all corners, with the distance by which each may move.
         let rings = bodies.iter().flatten();
-        let mut corners: Vec<Loose> = Vec::with_capacity(rings.clone().map(Vec::len).sum());
+        let mut corners: Vec<UnplacedCorner> =
+            Vec::with_capacity(rings.clone().map(Vec::len).sum());
         let mut first_ring = Vec::with_capacity(bodies.len());
         let mut first_corner = Vec::with_capacity(rings.count());
         for (body, rings) in bodies.iter().enumerate() {
@@ -61,7 +72,7 @@ impl Nodes {
             for ring in rings {
                 first_corner.push(corners.len());
                 let gaps = gaps_of_corners(ring, gaps.of_body[body], gaps.share_of_edge);
-                let loose = |(c, gap): (&Corner, f64)| Loose {
+                let loose = |(c, gap): (&Corner, f64)| UnplacedCorner {
                     at: c.at,
                     body,
                     gap,
@@ -69,42 +80,9 @@ impl Nodes {
                 corners.extend(ring.iter().zip(gaps).map(loose));
             }
         }
-        let joined = joined(&corners, kept);
-        let mut members = Vec::new();
-        let mut number = vec![0; corners.len()];
-        let mut all: Vec<Node> = Vec::with_capacity(corners.len());
-        let mut bodies = Vec::with_capacity(corners.len());
-        for (first, corner) in corners.iter().enumerate() {
-            if joined.first[first] != first {
-                continue;
-            }
-            members.clear();
-            members.extend(joined.members(first));
-            members.sort_unstable();
-            let begin = bodies.len();
-            let mut at = corner.at;
-            let mut gap = f64::INFINITY;
-            let mut fixed = false;
-            for k in &members {
-                let Loose {
-                    at: own,
-                    body,
-                    gap: own_gap,
-                } = corners[*k];
-                if kept[body] && !fixed {
-                    (at, fixed) = (own, true);
-                }
-                gap = gap.min(own_gap);
-                bodies.push(body);
-            }
-            number[first] = all.len();
-            all.push(Node {
-                at,
-                bodies: begin..bodies.len(),
-                gap,
-                fixed,
-            });
-        }
+        let joined = clustered(&corners, kept);
+        let (all, bodies, number) = merge(&corners, &joined, kept);
+        // The node of a corner is the node of its cluster's first corner.
         let of_corner: Vec<usize> = joined.first.iter().map(|first| number[*first]).collect();
         let places = of_corner.iter().map(|n| all[*n].at);
         let exact = places.zip(&corners).all(|(at, corner)| at == corner.at);
@@ -118,34 +96,35 @@ impl Nodes {
         }
     }
 
-    /// Bodies with a corner at a node, each once, in their order.
+    /// The bodies with a corner at a node, each once, in ascending order.
     pub(super) fn bodies(&self, node: &Node) -> &[usize] {
         &self.bodies[node.bodies.clone()]
     }
 
-    /// The node of a corner.
+    /// The number of a corner's node.
     pub(super) fn number(&self, body: usize, ring: usize, corner: usize) -> usize {
         self.of_corner[self.first_corner[self.first_ring[body] + ring] + corner]
     }
 }
 
-/// Corners parted into clusters. Those of one form a ring, so that none needs a list of its own.
+/// A partition of the corners into clusters. The corners of a cluster form a circular linked list.
 struct Clusters {
-    /// The first corner of each corner's cluster.
+    /// For each corner, the first corner of its cluster.
     first: Vec<usize>,
-    /// Another corner of each corner's cluster, in no order; itself where it is alone.
+    /// For each corner, the next corner in its cluster's circular list; the corner itself if it is alone.
     next: Vec<usize>,
 }
 
 impl Clusters {
-    /// The corners of a cluster, the given one first.
+    /// The corners of the cluster that contains the corner `of`, beginning with `of`.
     fn members(&self, of: usize) -> impl Iterator<Item = usize> + '_ {
         let following = move |k: &usize| Some(self.next[*k]).filter(|next| *next != of);
         std::iter::successors(Some(of), following)
     }
 
-    /// Makes two clusters one, by their first corners, the lower one first.
+    /// Merges the clusters whose first corners are `a` and `b`; `a` must be the lower number.
     fn join(&mut self, a: usize, b: usize) {
+        // Walk around the list of `b`, then link the two circular lists by exchanging their successors.
         let mut k = b;
         while self.first[k] != a {
             self.first[k] = a;
@@ -155,18 +134,66 @@ impl Clusters {
     }
 }
 
-/// Joins corners of different bodies that lie within their gaps of each other, the nearest first.
-fn joined(corners: &[Loose], kept: &[bool]) -> Clusters {
+/// The nodes of clusters of corners, their bodies, and for the first corner of each cluster the number of its node.
+fn merge(
+    corners: &[UnplacedCorner],
+    joined: &Clusters,
+    kept: &[bool],
+) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
+    // Each cluster becomes a node. It is created at the first of its corners.
+    let mut members = Vec::new();
+    let mut number = vec![0; corners.len()];
+    let mut all: Vec<Node> = Vec::with_capacity(corners.len());
+    let mut bodies = Vec::with_capacity(corners.len());
+    for (first, corner) in corners.iter().enumerate() {
+        if joined.first[first] != first {
+            continue;
+        }
+        members.clear();
+        members.extend(joined.members(first));
+        members.sort_unstable();
+        let begin = bodies.len();
+        // The position is that of the first kept body, or else of the first corner; the gap is the smallest of all.
+        let mut at = corner.at;
+        let mut gap = f64::INFINITY;
+        let mut fixed = false;
+        for k in &members {
+            let UnplacedCorner {
+                at: own,
+                body,
+                gap: own_gap,
+            } = corners[*k];
+            if kept[body] && !fixed {
+                (at, fixed) = (own, true);
+            }
+            gap = gap.min(own_gap);
+            bodies.push(body);
+        }
+        number[first] = all.len();
+        all.push(Node {
+            at,
+            bodies: begin..bodies.len(),
+            gap,
+            fixed,
+        });
+    }
+    (all, bodies, number)
+}
+
+/// Clusters corners of different bodies that lie within their gaps of each other, the closest pairs first.
+fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
     let mut clusters = Clusters {
         first: (0..corners.len()).collect(),
         next: (0..corners.len()).collect(),
     };
-    for (_, i, j) in near(corners) {
+    for (_, i, j) in close_pairs(corners) {
         let (i, j) = (clusters.first[i], clusters.first[j]);
         let (a, b) = (i.min(j), i.max(j));
         if a == b {
             continue;
         }
+        // Complete linkage: every pair of corners must lie within the gap, belong to different bodies, and not be two
+        // kept corners at different points.
         let fits = clusters.members(a).all(|k| {
             clusters.members(b).all(|l| {
                 let (k, l) = (&corners[k], &corners[l]);
@@ -182,14 +209,17 @@ fn joined(corners: &[Loose], kept: &[bool]) -> Clusters {
     clusters
 }
 
-/// Pairs of corners of different bodies within their gaps of each other, the nearest first.
-fn near(corners: &[Loose]) -> Vec<(f64, usize, usize)> {
+/// The pairs of corners of different bodies within their gaps of each other: (distance in metres, corner, corner).
+///
+/// They are sorted by distance, then by number, so that the result does not depend on the order of the index.
+fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
         Aabb { min: at, max: at }
     });
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
+        // Search a square around each corner. Each pair within the smaller of the two gaps is listed once.
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = corner.gap;
         let around = Aabb {

@@ -96,7 +96,7 @@ fn a_wall_with_every_corner_off_by_a_little_closes_its_joints() {
         misfit(&outcome.bodies, 0.02)
     );
     assert_eq!(
-        spoilt(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
+        damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
         BTreeSet::new()
     );
     for moved in &outcome.moved {
@@ -180,7 +180,7 @@ fn a_body_thinner_than_the_gap_is_not_flattened() {
         assert!(area(&new[0]) > 0.5 * area(&old[0]));
     }
     assert_eq!(
-        spoilt(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
+        damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
         BTreeSet::new()
     );
 }

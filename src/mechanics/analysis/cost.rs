@@ -1,4 +1,4 @@
-//! [`SolveReport`]: how a frame was solved, and where its time went.
+//! [`SolveReport`]: the methods, programs and times that the solution of a frame took.
 
 use super::Method;
 

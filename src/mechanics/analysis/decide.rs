@@ -49,7 +49,7 @@ pub(super) use wedging::only_by_wedging;
 
 use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::assembly::Assembly;
-use crate::program::{Program, Scale, UnknownCounts, columns, sticking_columns};
+use crate::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
 use crate::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
 use crate::solve::{Amounts, Effort, SolverSettings, determinate};
 use programs::Decision;
@@ -104,8 +104,9 @@ struct Component<'a> {
 pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Findings {
     let component = Component::new(assembly, options);
     let program = Program::new(assembly, component.scale);
+    // Reported for each effect, also for those without a program to solve.
     let count = UnknownCounts::new(&program, &columns(&program))
-        .plus(&UnknownCounts::new(&program, &sticking_columns(&program)));
+        .plus(&UnknownCounts::new(&program, &adhesion_columns(&program)));
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
@@ -188,9 +189,10 @@ impl<'a> Component<'a> {
 
     /// A decision in metres and newtons.
     fn findings(&self, decision: Decision) -> Findings {
+        // What is missing: each adhesion above the noise, in newtons.
         let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
-        if let (Some(sticking), Verdict::Unstable) = (&decision.sticking, decision.verdict) {
-            failures = self.failures(sticking);
+        if let (Some(adhesion), Verdict::Unstable) = (&decision.adhesion, decision.verdict) {
+            failures = self.failures(adhesion);
             total_sticking = failure::total(&failures, self.assembly.length);
         }
         let mut mechanism = decision.mechanism;
@@ -205,15 +207,16 @@ impl<'a> Component<'a> {
                 .is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED)
         });
         for motion in &mut mechanism {
+            // Velocities of the solver's rounding become 0. The spin is compared as the speed of a point at distance L.
             let plain = |v: f64| if v.abs() < SPEED_NOISE { 0.0 } else { v };
             motion.velocity = motion.velocity.map(plain);
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
         // The forces of a falling component balance together with the adhesion that is missing.
-        let forces = match (decision.verdict, &decision.sticking) {
+        let forces = match (decision.verdict, &decision.adhesion) {
             (Verdict::Unstable, _) if !self.complete_result => Forces::none(self.assembly),
-            (Verdict::Unstable, Some(sticking)) => {
-                self.prove_with_adhesion(&decision.amounts, sticking).0
+            (Verdict::Unstable, Some(adhesion)) => {
+                self.prove_with_adhesion(&decision.amounts, adhesion).0
             }
             _ => self.prove_forces(&decision.amounts).forces,
         };
@@ -225,7 +228,7 @@ impl<'a> Component<'a> {
             least_force: decision.least_force,
             failures,
             total_sticking,
-            unsupported: decision.beyond_sticking && decision.verdict == Verdict::Unstable,
+            unsupported: decision.beyond_adhesion && decision.verdict == Verdict::Unstable,
             mechanism,
             proof: decision.proof,
             method: decision.method,

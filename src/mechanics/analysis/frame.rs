@@ -1,4 +1,4 @@
-//! What a frame's components say together.
+//! Combines the results of the components of a frame.
 
 use super::{FrameAnalysis, Verdict};
 use crate::effect::sticking::Sought;
@@ -6,7 +6,7 @@ use crate::effect::{EffectName, FrameContext, mechanism, sticking};
 use crate::program::UnknownCounts;
 use crate::proof::Proof;
 
-/// The worst of the numbers of two proofs; of two kinds, the mechanism.
+/// The worse numbers of two proofs of the same kind. Of two kinds, the proof by a mechanism.
 pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     match (a, b) {
         (
@@ -46,7 +46,7 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     }
 }
 
-/// Writes what only the outcome tells: the unknowns posed, and the effects that it called for.
+/// Adds the results that are known at the end: the number of unknowns, and the effects that were simulated.
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,
@@ -57,10 +57,12 @@ pub(super) fn settle(
     if analysis.verdict != Verdict::Undecided {
         analysis.doubts.clear();
     }
+    // The unknowns are those of the programs that were solved.
     for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
         report.unknowns = counts.get(report.effect);
     }
     let blocks = situation.frame.placed.len();
+    // Adhesion was sought only in a frame that falls and whose failures were wanted.
     let sought = match verdict_only {
         true if unstable => Sought::NotAsked,
         _ if analysis.failures.is_empty() => Sought::NotNeeded,
@@ -72,6 +74,11 @@ pub(super) fn settle(
         counts.get(EffectName::Sticking),
     ));
     analysis.effects.push(mechanism::report(unstable));
+    add_notices(analysis, situation, verdict_only);
+}
+
+/// Adds what a reader should know about the result: what was not searched, and what no adhesion can hold.
+fn add_notices(analysis: &mut FrameAnalysis, situation: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(
             "only the verdict was asked for: where more than one set of forces balances, any of them is shown"

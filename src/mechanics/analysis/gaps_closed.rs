@@ -5,23 +5,24 @@
 //! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed, if need be as far as
 //! the corners beside them may be off. If the verdicts
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
-//! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
+//! it. If they agree an overlap is reported next to the verdict. A tolerance that somebody gave settles it already.
 
-use super::{FrameAnalysis, Options, UndecidedReason, Verdict, analyse, analyse_frames};
+use super::analyse::{analyse, analyse_frames};
+use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::geometry::Point;
 use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
-use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
+use crate::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 
-/// Places named in a message.
+/// The largest number of places that a message names.
 const MAX_NAMED_PLACES: usize = 3;
-/// Gaps that are nearly contacts and are noted one by one.
+/// The largest number of gaps that are nearly contacts and have a note of their own.
 const MAX_NOTED_GAPS: usize = 10;
-/// What may have been meant to touch is closed by so many times the widest of it.
+/// The widest gap or overlap times this closes all of them: one percent more than needed, so that rounding opens none.
 const ENOUGH: f64 = 1.01;
-/// A corner that is off by rounding lies farther from where it belongs than from either of its edges, along which gaps and
-/// overlaps are measured: closing may take so many times the widest of them.
+/// A corner that is off by rounding is farther from its place than from either of its edges, along which gaps and overlaps
+/// are measured. Closing may need this times the widest of them.
 const CORNERS: f64 = 2.5;
-/// What is meant to touch is no farther apart than this part of the smallest block's size.
+/// Bodies that are meant to touch are at most this part of the smallest block's size apart.
 const NARROW: f64 = 0.01;
 
 /// Where two bodies may have been meant to touch.
@@ -66,81 +67,142 @@ pub(super) fn recheck(
     if scene.healed.source == ToleranceSource::Given {
         return;
     }
+    // A verdict that is missing cannot change.
+    if frames.iter().all(|frame| is_undecided(frame.verdict)) {
+        return;
+    }
+    if options.is_late() {
+        leave_overlaps_undecided(scene, frames);
+        return;
+    }
     recheck_with_slivers(scene, found, frames, options);
     if found.near_misses.is_empty() && scene.penetrations.is_empty() {
         return;
     }
-    let touching = ContactsByBody::new(&found.all);
-    let places: Vec<Vec<Place>> = (scene.frames.iter())
-        .map(|frame| {
-            let mut placed = vec![false; scene.blocks.len()];
-            for block in &frame.placed {
-                placed[block.0] = true;
-            }
-            let stands = |body: &BodyId| match body {
-                BodyId::Ground(_) => true,
-                BodyId::Block(id) => placed[id.0],
-            };
-            let gaps = (found.near_misses.iter())
-                .filter(|gap| gap.bodies.iter().all(stands))
-                .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
-            let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
-            gaps.map(Place::from)
-                .chain(overlaps.map(Place::from))
-                .collect()
-        })
-        .collect();
+    let places = ambiguous_places(scene, found);
+    // One length closes all places of all frames.
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };
-    let options = Options {
-        margins: false,
-        wedging: false,
-        ..*options
+    let closed = closed_verdicts(scene, frames, &places, widest, options);
+    for (number, (frame, mut places)) in frames.iter_mut().zip(places).enumerate() {
+        if places.is_empty() {
+            continue;
+        }
+        places.sort_by(|a, b| b.size.total_cmp(&a.size));
+        let closed = closed.iter().map(|(by, all)| (*by, all[number].verdict));
+        compare_verdicts(scene, frame, &places, &closed.collect::<Vec<_>>());
+    }
+}
+
+/// For each frame the places where two of its bodies may have been meant to touch.
+fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
+    let touching = ContactsByBody::new(&found.all);
+    let in_frame = |frame: &Frame| {
+        let mut placed = vec![false; scene.blocks.len()];
+        for block in &frame.placed {
+            placed[block.0] = true;
+        }
+        let stands = |body: &BodyId| match body {
+            BodyId::Ground(_) => true,
+            BodyId::Block(id) => placed[id.0],
+        };
+        // A gap that a stone between the two bodies keeps open is meant to be there.
+        let gaps = (found.near_misses.iter())
+            .filter(|gap| gap.bodies.iter().all(stands))
+            .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
+        let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
+        gaps.map(Place::from)
+            .chain(overlaps.map(Place::from))
+            .collect()
     };
+    scene.frames.iter().map(in_frame).collect()
+}
+
+/// The frames with everything closed: by a little more than the widest place and, if some frame then has the same verdict as
+/// before, once more by as much as corners may be off. Each with the length by which it was closed, metres.
+fn closed_verdicts(
+    scene: &Scene,
+    frames: &[FrameAnalysis],
+    places: &[Vec<Place>],
+    widest: f64,
+    options: &Options,
+) -> Vec<(f64, Vec<FrameAnalysis>)> {
+    let options = without_extras(options);
     let closed = |closing: f64| (closing, analyse(&scene.closed(closing), &options).1);
-    let mut others = vec![closed(ENOUGH * widest)];
+    let mut all = vec![closed(ENOUGH * widest)];
     let same = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<Place>)| {
         !places.is_empty() && frame.verdict == other.verdict
     };
-    if frames.iter().zip(&others[0].1).zip(&places).any(same) {
+    if frames.iter().zip(&all[0].1).zip(places).any(same) {
         let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
         let smallest = sizes.fold(f64::INFINITY, f64::min);
         let wider = (CORNERS * widest).min(NARROW * smallest);
         if wider > ENOUGH * widest {
-            others.push(closed(wider));
+            all.push(closed(wider));
         }
     }
-    for (number, (frame, mut places)) in frames.iter_mut().zip(places).enumerate() {
-        places.sort_by(|a, b| b.size.total_cmp(&a.size));
-        let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
-        let open = |verdict: Verdict| verdict == Verdict::Undecided;
-        let closed = others
-            .iter()
-            .map(|(closing, all)| (*closing, all[number].verdict));
-        let decided = |(_, other): &(f64, Verdict)| !open(*other) && *other != frame.verdict;
-        let (closing, other) = (closed.clone().find(decided))
-            .or(closed.clone().next())
-            .unwrap_or((ENOUGH * widest, frame.verdict));
-        // Beside an overlap no verdict is given that was not reached both ways.
-        let unsure = open(frame.verdict) || (open(other) && overlaps.is_empty());
-        if places.is_empty() {
-            continue;
-        }
-        if frame.verdict != other && !unsure {
-            frame.doubts = vec![gaps(scene, [frame.verdict, other], &places, closing)];
+    all
+}
+
+/// Makes a frame undecided if its verdict is another with the places closed; else reports overlaps. `closed` has the lengths
+/// by which the places were closed, and the verdicts; the places are sorted by size, the largest first.
+fn compare_verdicts(
+    scene: &Scene,
+    frame: &mut FrameAnalysis,
+    places: &[Place],
+    closed: &[(f64, Verdict)],
+) {
+    let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
+    // The first closing with a verdict that differs, else the first of all.
+    let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
+    let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
+        return;
+    };
+    // Where bodies overlap, a verdict has to be reached both ways.
+    let unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
+    if frame.verdict != other && !unsure {
+        frame.doubts = vec![gaps(scene, [frame.verdict, other], places, closing)];
+        frame.verdict = Verdict::Undecided;
+    } else if !overlaps.is_empty() && !is_undecided(frame.verdict) {
+        frame.notices.push(format!(
+            "bodies overlap; the verdict is the same whether they touch there or not, the forces are those without \
+             touching: {}",
+            listed(scene, &overlaps)
+        ));
+    }
+}
+
+/// The options for a second verdict, which has neither margins nor wedging.
+fn without_extras(options: &Options) -> Options {
+    Options {
+        margins: false,
+        wedging: false,
+        ..*options
+    }
+}
+
+fn is_undecided(verdict: Verdict) -> bool {
+    verdict == Verdict::Undecided
+}
+
+/// No time is left to judge overlaps both ways. A verdict next to an overlap needs both.
+fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
+    for (frame, played) in frames.iter_mut().zip(&scene.frames) {
+        let placed = |body: &BodyId| match body {
+            BodyId::Ground(_) => true,
+            BodyId::Block(id) => played.placed.contains(id),
+        };
+        let mut overlaps = scene.penetrations.iter();
+        if !is_undecided(frame.verdict) && overlaps.any(|o| o.bodies.iter().all(placed)) {
+            frame.doubts = vec![UndecidedReason::Late];
             frame.verdict = Verdict::Undecided;
-        } else if !overlaps.is_empty() && !open(frame.verdict) {
-            frame.notices.push(format!(
-                "bodies overlap; the verdict is the same whether they touch there or not, the forces are those without \
-                 touching: {}",
-                listed(scene, &overlaps)
-            ));
         }
     }
 }
 
-/// Analyses the scene again with contacts that were too short to count. Frames that fall without and stand with them become undecided.
+/// Analyses the scene again with contacts that are shorter than the minimum length. Frames that fall without these contacts
+/// and stand with them become undecided.
 fn recheck_with_slivers(
     scene: &Scene,
     found: &Interfaces,
@@ -151,11 +213,7 @@ fn recheck_with_slivers(
     if found.slivers.is_empty() || !falls {
         return;
     }
-    let options = Options {
-        margins: false,
-        wedging: false,
-        ..*options
-    };
+    let options = without_extras(options);
     let others = analyse_frames(scene, &found.with_slivers(), &options);
     for ((frame, other), played) in frames.iter_mut().zip(&others).zip(&scene.frames) {
         if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {
@@ -204,7 +262,7 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     }
 }
 
-/// The scene's own notes, and one for each of the first few gaps that are nearly contacts.
+/// The notes of the scene, and a note for each of the first few near misses.
 pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     let mut notes = scene.notes.clone();
     let code = NoteCode::NearMiss;
@@ -241,7 +299,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
             "close it, or give \"contact_tolerance\": {:.1e} to count it as a contact",
             1.06 * gap.distance
         );
-        // A block rather than the ground, of two blocks the later one.
+        // Name a block, not the ground; of two blocks the later one.
         let body = gap.bodies[0].max(gap.bodies[1]);
         notes.push(scene.note(code, body, &message, &hint));
     }
@@ -278,7 +336,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
     )
 }
 
-/// The first of some places, and how many more there are.
+/// The first places of a list, and the number of the others.
 fn listed(scene: &Scene, places: &[Place]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };

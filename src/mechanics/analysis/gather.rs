@@ -1,4 +1,4 @@
-//! A frame put together from what was found of its components.
+//! Combines the results of the components into one frame.
 
 use super::decide::{Findings, Method};
 use super::frame::worst;
@@ -6,39 +6,20 @@ use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verd
 use crate::assembly::Assembly;
 use crate::effect::{EffectReport, FrameContext};
 use crate::geometry::Vector;
+use crate::interface::Interface;
 use crate::resultant::{friction_used, from_corner_forces};
+use crate::scene::Hold;
 
-/// The frame before any component is added: every contact and grip without force.
+/// The frame before the first component is added: every contact and grip, with zero force.
 pub(super) fn gathered(
     situation: &FrameContext,
     assembly: &Assembly,
     effects: Vec<EffectReport>,
 ) -> FrameAnalysis {
     let (scene, frame) = (situation.scene, situation.frame);
-    let contacts = situation
-        .interfaces
-        .iter()
-        .map(|interface| Contact {
-            interface: (*interface).clone(),
-            application_points: interface.application_points(scene.kernel),
-            normal_forces: [0.0; 2],
-            friction_force: 0.0,
-            resultant: from_corner_forces(interface, scene.kernel, [0.0; 2], 0.0),
-            friction_used: 0.0,
-        })
-        .collect();
-    let robots = frame
-        .holds
-        .iter()
-        .map(|h| RobotForce {
-            robot: h.robot,
-            block: h.block,
-            at: h.at,
-            force: Vector::zeros(),
-            torque: 0.0,
-            limit_used: 0.0,
-        })
-        .collect();
+    let contacts = situation.interfaces.iter();
+    let contacts = contacts.map(|interface| unloaded_contact(interface, scene.kernel));
+    let robots = frame.holds.iter().map(unloaded_robot);
     FrameAnalysis {
         verdict: Verdict::Stable,
         doubts: Vec::new(),
@@ -48,8 +29,8 @@ pub(super) fn gathered(
         least_force: true,
         total_sticking: 0.0,
         weight: frame.placed.iter().map(|b| scene.blocks[b.0].weight).sum(),
-        contacts,
-        robots,
+        contacts: contacts.collect(),
+        robots: robots.collect(),
         failures: Vec::new(),
         unsupported: Vec::new(),
         mechanism: Vec::new(),
@@ -76,13 +57,66 @@ pub(super) fn gathered(
     }
 }
 
-/// Enters what was found for one component.
+/// An interface without force.
+fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
+    Contact {
+        interface: interface.clone(),
+        application_points: interface.application_points(kernel),
+        normal_forces: [0.0; 2],
+        friction_force: 0.0,
+        resultant: from_corner_forces(interface, kernel, [0.0; 2], 0.0),
+        friction_used: 0.0,
+    }
+}
+
+/// A robot without force.
+fn unloaded_robot(hold: &Hold) -> RobotForce {
+    RobotForce {
+        robot: hold.robot,
+        block: hold.block,
+        at: hold.at,
+        force: Vector::zeros(),
+        torque: 0.0,
+        limit_used: 0.0,
+    }
+}
+
+/// Adds the results of one component to the frame.
 pub(super) fn add(
     analysis: &mut FrameAnalysis,
     component: &Assembly,
     found: &Findings,
     kernel: f64,
 ) {
+    add_forces(analysis, component, found, kernel);
+    // The bounds of the components add up, because no force acts on two components. One bound that is unknown leaves the sum
+    // unknown.
+    analysis.force_bound = match (analysis.force_bound, found.force_bound) {
+        (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
+        _ => None,
+    };
+    analysis.least_force &= found.least_force;
+    analysis.total_sticking += found.total_sticking;
+    analysis.failures.extend(found.failures.iter().copied());
+    analysis.mechanism.extend(found.mechanism.iter().copied());
+    if found.unsupported {
+        let blocks = component.bodies.iter().map(|body| body.block);
+        analysis.unsupported.extend(blocks);
+    }
+    analysis.doubts.extend(found.doubt.clone());
+    analysis.proof = match (analysis.verdict, found.verdict) {
+        // Two components with the same verdict: use the worse numbers of both proofs. Otherwise the worse verdict has its
+        // own proof.
+        (a, b) if a == b => worst(analysis.proof, found.proof),
+        (a, b) if a < b => found.proof,
+        _ => analysis.proof,
+    };
+    analysis.verdict = analysis.verdict.max(found.verdict);
+}
+
+/// Enters the forces at the contacts and grips of one component, and adds them to the total.
+fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
+    // Contacts: normal forces, friction and their resultant.
     for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
         let contact = &mut analysis.contacts[at.interface];
         let (normal, friction) = (pressed.normal, pressed.friction);
@@ -92,6 +126,7 @@ pub(super) fn add(
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
+    // Robots: force, torque, and the largest share of a limit.
     for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {
@@ -109,24 +144,4 @@ pub(super) fn add(
             .max(share(torque, limits.torque));
         analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
     }
-    analysis.force_bound = match (analysis.force_bound, found.force_bound) {
-        (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
-        _ => None,
-    };
-    analysis.least_force &= found.least_force;
-    analysis.total_sticking += found.total_sticking;
-    analysis.failures.extend(found.failures.iter().copied());
-    analysis.mechanism.extend(found.mechanism.iter().copied());
-    if found.unsupported {
-        let blocks = component.bodies.iter().map(|body| body.block);
-        analysis.unsupported.extend(blocks);
-    }
-    analysis.doubts.extend(found.doubt.clone());
-    analysis.proof = match (analysis.verdict, found.verdict) {
-        // Components of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
-        (a, b) if a == b => worst(analysis.proof, found.proof),
-        (a, b) if a < b => found.proof,
-        _ => analysis.proof,
-    };
-    analysis.verdict = analysis.verdict.max(found.verdict);
 }

@@ -1,4 +1,4 @@
-//! [`Analysis::elementary`]: of the ways in which a frame falls, one elementary mechanism for each part that falls.
+//! [`Analysis::elementary`]: replaces the collapse mechanism of each falling part by one elementary mechanism.
 //!
 //! The motion that proves a fall opens every contact where that is possible: it is the surest proof, but a sum of many
 //! mechanisms. A thin arch then shows eight hinges on seven bodies where four are enough. An elementary mechanism is an
@@ -54,15 +54,15 @@ impl Analysis {
         analysis
     }
 
-    /// How far gravity may turn before a frame (from 0) falls, as [`Analysis::edge`] has it.
+    /// The tilt of gravity at which a frame (from 0) falls, and its mechanism. See [`Analysis::edge`].
     ///
     /// Units: degrees. Signs: positive where gravity's tip moves to the right.
     pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
         self.edge(frame, Toward::Tilt)
     }
 
-    /// How far a frame (from 0) is from falling, to the side on which that is less, and the elementary mechanism by which
-    /// it then falls; `None` where margins were not asked for or nothing in this direction makes it fall.
+    /// The distance of a frame (from 0) from collapse, in the direction in which it is smaller, and the elementary
+    /// mechanism. `None` if margins were not computed or the frame does not fall in this direction.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -80,11 +80,12 @@ impl Analysis {
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
             Toward::LoadFactor => [side(&margins.load_factor, 1.0), None],
         };
+        // The nearer of the two sides.
         let (at, motions) = edges
             .into_iter()
             .flatten()
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-        // Just at the edge the loads do no work along the mechanism: a hair beyond they do.
+        // Exactly at the limit the loads have no power along the mechanism. Slightly beyond they do.
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         match toward {
             Toward::Tilt => {
@@ -114,7 +115,7 @@ impl Analysis {
         self.mechanisms_of(&self.scene, found, &found.mechanism)
     }
 
-    /// One elementary mechanism of each part that falls by these motions, under this scene's loads.
+    /// One elementary mechanism for each part that falls by these motions under the loads of this scene.
     fn mechanisms_of(
         &self,
         scene: &Scene,
@@ -122,10 +123,12 @@ impl Analysis {
         motions: &[Motion],
     ) -> Vec<Motion> {
         let mut all = Vec::new();
+        // Each part that falls by itself has its own mechanism. A part that is too large keeps the motion of the proof.
         for part in parts(found, motions) {
             let fall = Fall::new(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
+        // All parts together: the fastest point has speed 1.
         let fastest = all
             .iter()
             .map(|m| m.fastest(&self.scene))
@@ -141,7 +144,7 @@ impl Analysis {
     }
 }
 
-/// The motions of each part of a frame that is joined by contacts; what stays holds nothing together.
+/// The motions of each connected part of a frame. Blocks at rest connect nothing.
 fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
     let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
@@ -151,6 +154,7 @@ fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
             next.entry(b).or_default().push(a);
         }
     }
+    // Depth-first search over the blocks that move, along contacts between blocks.
     let mut seen: BTreeSet<BlockId> = BTreeSet::new();
     let mut parts = Vec::new();
     for first in motions.keys() {
@@ -205,7 +209,7 @@ impl<'a> Fall<'a> {
         }
     }
 
-    /// One elementary mechanism, sliding along its joints where it can; `None` where none is found.
+    /// One elementary mechanism, with sliding along the joints if possible; `None` if none is found.
     fn elementary(&self) -> Option<Vec<Motion>> {
         if self.motions.len() > MOST_BLOCKS {
             return None;
@@ -215,13 +219,15 @@ impl<'a> Fall<'a> {
             .iter()
             .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
             .collect();
+        // From the proof's motion to an extreme ray of the cone: every step makes one more contact tight.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
+        // If a motion along the slipping joints exists, it is drawn in place of the lifting one.
         let sliding = self.along_joints(&y);
         let motions = self.motions_of(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)
     }
 
-    /// Velocity of a point of a body along a direction, as a row times `sign`.
+    /// The velocity of a point of a body in a direction as a row of coefficients, multiplied by `sign`.
     fn speed(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
         let BodyId::Block(block) = body else {
             return Row::new();
@@ -237,14 +243,15 @@ impl<'a> Fall<'a> {
         ]
     }
 
-    /// How fast the two bodies of an interface part along a direction at a point.
+    /// The velocity at which the two bodies of an interface separate in a direction at a point.
     fn parting(&self, bodies: [BodyId; 2], at: Point, along: Vector) -> Row {
         let mut row = self.speed(bodies[0], at, along, 1.0);
         row.extend(self.speed(bodies[1], at, along, -1.0));
         row
     }
 
-    /// What no admissible force may object to: each is at least 0. Robots hold as the start has them hold.
+    /// The rows that must not be negative, because an admissible force would act against the motion otherwise. Robots hold
+    /// as in `start`.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.found.contacts {
@@ -254,10 +261,12 @@ impl<'a> Fall<'a> {
                 if opening.is_empty() {
                     continue;
                 }
+                // Without friction the contact only must not close.
                 if interface.friction <= 0.0 {
                     rows.push(opening);
                     continue;
                 }
+                // With friction no edge of the friction cone may do work: two rows at each application point.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
@@ -269,7 +278,7 @@ impl<'a> Fall<'a> {
         for (row, limit) in self.grips() {
             let now: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
             let turned: Row = row.iter().map(|(k, v)| (*k, -v)).collect();
-            // An unlimited robot holds still; a limited one gives way to the side to which it does.
+            // A robot without limits holds its block at rest. A robot at its limit yields in the direction of `start`.
             if limit.is_finite() {
                 rows.push(if now < 0.0 { turned } else { row });
             } else {
@@ -280,7 +289,7 @@ impl<'a> Fall<'a> {
         rows
     }
 
-    /// The speeds of grips that robots resist, in x, y and turning, with the largest force or torque per L they give.
+    /// The velocities of grips that robots resist (x, y and rotation), each with the largest force, or torque divided by L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
         for robot in &self.found.robots {
@@ -303,12 +312,13 @@ impl<'a> Fall<'a> {
         grips
     }
 
-    /// What the loads do along a motion, less what robots at their limits take up.
+    /// The power of the loads along a motion, less the power that robots at their limits absorb.
     fn power(&self, start: &[f64]) -> Row {
         let mut power = Row::new();
         for motion in &self.motions {
             let block = &self.scene.blocks[motion.block.0];
             let body = BodyId::Block(motion.block);
+            // Weight and listed loads.
             let weight = self.scene.down() * block.weight;
             power.extend(self.speed(body, block.centroid, weight, 1.0));
             let loads = self.scene.loads.iter().filter(|l| l.block == motion.block);
@@ -328,8 +338,8 @@ impl<'a> Fall<'a> {
         power
     }
 
-    /// The motion nearest to `y` that keeps every closed contact closed and slides along its joint; `None` where there
-    /// is none that is much like it.
+    /// The motion nearest to `y` that keeps every closed contact closed and slides along its joint; `None` if no such
+    /// motion is similar to `y`.
     fn along_joints(&self, y: &[f64]) -> Option<Vec<f64>> {
         let value = |row: &Row, y: &[f64]| row.iter().map(|(k, v)| v * y[*k]).sum::<f64>();
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
@@ -371,7 +381,7 @@ impl<'a> Fall<'a> {
         (like && falls && clear).then_some(flat)
     }
 
-    /// The motions of the blocks that move.
+    /// The motions of the blocks that are not at rest.
     fn motions_of(&self, y: &[f64]) -> Vec<Motion> {
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
         let motion = |(place, motion): (usize, &Motion)| {

@@ -1,12 +1,15 @@
-//! [`Analysis`]: a scene and all that was found out about it, frame by frame.
+//! [`Analysis`]: a scene with the results of all its frames.
 //!
 //! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
 //! this and nothing deeper. Components of a frame's assembly, which cannot influence each other, are solved apart, and a
-//! component that has been solved in an earlier frame is not solved again; `decide` decides one component, and this
-//! file combines them.
+//! component that has been solved in an earlier frame is not solved again; `decide` decides one component, and `analyse`
+//! combines them.
 
+mod analyse;
 mod decide;
 mod cost;
+mod force;
+mod key;
 mod undecided;
 mod frame;
 mod gather;
@@ -17,38 +20,24 @@ mod gaps_closed;
 mod option;
 mod pair;
 mod wedged;
+mod thrust_states;
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
-use std::time::Instant;
 
-#[cfg(feature = "parallel")]
-use rayon::prelude::*;
-
-use crate::assembly::Assembly;
-use crate::effect::wedging::{self, Wedging};
-use crate::effect::{self, FrameContext};
 #[doc(inline)]
 pub use crate::effect::{EffectName, EffectReport};
-use crate::geometry::{Point, Vector};
-use crate::interface::Interfaces;
 #[doc(inline)]
 pub use crate::interface::{ContactKind, Interface};
-use crate::program::UnknownCounts;
 #[doc(inline)]
 pub use crate::proof::{Motion, Proof, ProofThreshold};
 #[doc(inline)]
 pub use crate::resultant::Resultant;
-use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
+use crate::scene::{BlockId, Note, Scene};
 pub use crate::solve::Slide;
-use crate::solve::{DeadlineGuard, Effort};
 pub use cost::{SolveReport, Stages};
 pub use decide::Method;
-use decide::{Findings, decide_component};
-use frame::settle;
-use gather::{add, gathered};
-use margin::{ComponentIntervals, Part};
+pub use force::{Contact, Failure, RobotForce};
 pub use margin::{
     End, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
     RobotMargins, Sides, trials,
@@ -56,6 +45,7 @@ pub use margin::{
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
+pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
 pub use warm_start::{Source, verdicts};
 pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
@@ -73,7 +63,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Its word in results, for programs.
+    /// The word in JSON results.
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Stable => "stable",
@@ -152,156 +142,9 @@ pub struct FrameAnalysis {
     pub notices: Vec<String>,
 }
 
-/// An interface and the admissible force it carries.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Contact {
-    /// Where the two bodies touch; forces are those on `interface.bodies[0]`.
-    pub interface: Interface,
-    /// The two application points, metres.
-    pub application_points: [Point; 2],
-    /// Normal forces N1, N2 at them, N, at least 0.
-    pub normal_forces: [f64; 2],
-    /// Friction force, N, signed along (−n_y, n_x).
-    pub friction_force: f64,
-    /// The interface's one force.
-    pub resultant: Resultant,
-    /// |T| / (μ ΣN), 0 without force.
-    pub friction_used: f64,
-}
-
-/// What a robot gives to the block it holds.
-#[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub struct RobotForce {
-    /// The robot.
-    pub robot: RobotId,
-    /// The block it holds.
-    pub block: BlockId,
-    /// The grip point, metres.
-    pub at: Point,
-    /// Force on the block, N.
-    pub force: Vector,
-    /// Torque on the block, N·m.
-    pub torque: f64,
-    /// Largest share of a limit that is used, 0 where nothing is limited.
-    pub limit_used: f64,
-}
-
-/// One thing that would have to stick, or one thing a robot would have to give beyond its limits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Failure {
-    /// A pull across an interface, at one of its application points.
-    Tension {
-        /// The two bodies; `force` acts on the first.
-        bodies: [BodyId; 2],
-        /// Where.
-        at: Point,
-        /// The pull on `bodies[0]`, N.
-        force: Vector,
-    },
-    /// Friction beyond what the pressure allows, drawn at the middle of the interface.
-    Friction {
-        /// The two bodies; `force` acts on the first.
-        bodies: [BodyId; 2],
-        /// Where.
-        at: Point,
-        /// The force on `bodies[0]`, N.
-        force: Vector,
-    },
-    /// A force the robot's limits do not allow.
-    RobotForce {
-        /// The robot.
-        robot: RobotId,
-        /// The block it holds.
-        block: BlockId,
-        /// The grip point.
-        at: Point,
-        /// The missing force on the block, N.
-        force: Vector,
-    },
-    /// A torque the robot's limit does not allow.
-    RobotTorque {
-        /// The robot.
-        robot: RobotId,
-        /// The block it holds.
-        block: BlockId,
-        /// The grip point.
-        at: Point,
-        /// The missing torque on the block, N·m.
-        torque: f64,
-    },
-}
-
-impl Failure {
-    /// The point where it acts, metres.
-    pub fn at(&self) -> Point {
-        match *self {
-            Failure::Tension { at, .. }
-            | Failure::Friction { at, .. }
-            | Failure::RobotForce { at, .. }
-            | Failure::RobotTorque { at, .. } => at,
-        }
-    }
-
-    /// The missing force, N, on the first body of a joint or on the block that a robot holds; zero for a torque.
-    pub fn force(&self) -> Vector {
-        match *self {
-            Failure::Tension { force, .. }
-            | Failure::Friction { force, .. }
-            | Failure::RobotForce { force, .. } => force,
-            Failure::RobotTorque { .. } => Vector::zeros(),
-        }
-    }
-
-    /// The missing torque on the block that a robot holds, N·m; zero for a force.
-    pub fn torque(&self) -> f64 {
-        match *self {
-            Failure::RobotTorque { torque, .. } => torque,
-            _ => 0.0,
-        }
-    }
-
-    /// The missing force on a body, N, and the missing torque, N·m; `None` if it does not act on that body.
-    pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
-        let sign = match *self {
-            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
-                [a, _] if a == body => 1.0,
-                [_, b] if b == body => -1.0,
-                _ => return None,
-            },
-            Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
-                if BodyId::Block(block) != body {
-                    return None;
-                }
-                1.0
-            }
-        };
-        Some((self.force() * sign, self.torque()))
-    }
-
-    /// The robot whose limits are exceeded; `None` for a joint.
-    pub fn robot(&self) -> Option<RobotId> {
-        match *self {
-            Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. } => Some(robot),
-            Failure::Tension { .. } | Failure::Friction { .. } => None,
-        }
-    }
-}
-
-/// What is known of the components of earlier frames.
-#[derive(Default)]
-struct Known {
-    findings: BTreeMap<Key, Findings>,
-    intervals: BTreeMap<Key, ComponentIntervals>,
-}
-
-/// What makes one component the same as one of an earlier frame: its blocks, who holds them where, and L.
-type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
-
 impl Analysis {
-    /// Examines every frame of a scene, which it keeps: a scene is moved in, an `Arc` shared, and a reference cloned.
+    /// Analyses every frame of a scene. The analysis keeps the scene: a scene is moved, an `Arc` is shared, and a reference
+    /// is cloned.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict};
@@ -320,10 +163,10 @@ impl Analysis {
         Analysis::with(scene, &Options::default())
     }
 
-    /// Examines every frame of a scene, and what else is asked for.
+    /// Analyses every frame of a scene with options, such as margins.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
         let scene = scene.into();
-        let (found, mut frames) = analyse(&scene, options);
+        let (found, mut frames) = analyse::analyse(&scene, options);
         gaps_closed::recheck(&scene, &found, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &found);
         Analysis {
@@ -355,143 +198,3 @@ const _: () = {
     shared::<Analysis>();
     shared::<Scene>();
 };
-
-/// Analyses every frame of a scene, with gaps and overlaps as they are.
-fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
-    let found = Interfaces::new(scene);
-    let frames = analyse_frames(scene, &found, options);
-    (found, frames)
-}
-
-/// Analyses every frame of a scene with given interfaces.
-fn analyse_frames(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
-    let mut known = Known::default();
-    let frames = scene.frames.iter();
-    frames
-        .map(|frame| {
-            let interfaces = found.in_frame(scene, frame);
-            let context = FrameContext {
-                scene,
-                frame,
-                interfaces: &interfaces,
-            };
-            let mut analysis = analyse_frame(&context, *options, &mut known);
-            analysis.notices.extend(found.notices.iter().cloned());
-            analysis
-        })
-        .collect()
-}
-
-/// Analyses one frame.
-fn analyse_frame(context: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
-    let start = Instant::now();
-    let (assembly, reports) = effect::assemble(context);
-    let components = assembly.components();
-    let keys: Vec<Key> = components.iter().map(key).collect();
-    let mut stages = Stages {
-        assembly: start.elapsed().as_secs_f64(),
-        ..Stages::default()
-    };
-    let fresh: Vec<usize> = (0..components.len())
-        .filter(|k| !known.findings.contains_key(&keys[*k]))
-        .collect();
-    let one = |k: &usize| {
-        let _until = DeadlineGuard::new(options.deadline);
-        decide_component(&components[*k], options)
-    };
-    // Many small components are worth the threads; the order of the results is that of the components either way.
-    #[cfg(feature = "parallel")]
-    let findings: Vec<Findings> = if fresh.len() > 16 {
-        fresh.par_iter().map(one).collect()
-    } else {
-        fresh.iter().map(one).collect()
-    };
-    #[cfg(not(feature = "parallel"))]
-    let findings: Vec<Findings> = fresh.iter().map(one).collect();
-    let effort = findings
-        .iter()
-        .fold(Effort::default(), |sum, f| sum.and(f.effort));
-    for (k, found) in fresh.iter().zip(findings) {
-        known.findings.insert(keys[*k].clone(), found);
-    }
-    let found: Vec<(&Assembly, &Findings)> = components
-        .iter()
-        .zip(&keys)
-        .filter_map(|(component, key)| Some((component, known.findings.get(key)?)))
-        .collect();
-    let mut analysis = gathered(context, &assembly, reports);
-    for (component, found) in &found {
-        add(&mut analysis, component, found, context.scene.kernel);
-    }
-    let count = found
-        .iter()
-        .fold(UnknownCounts::default(), |sum, f| sum.plus(&f.1.count));
-    settle(&mut analysis, context, &count, options.verdict_only);
-    if analysis.verdict == Verdict::Undecided && options.is_late() {
-        analysis.doubts.insert(0, UndecidedReason::Late);
-    }
-    stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
-    let _until = DeadlineGuard::new(options.deadline);
-    let methods = found.iter().map(|f| f.1.method);
-    analysis.solve = SolveReport {
-        method: methods.max().unwrap_or(Method::ClosedForm),
-        iterations: effort.iterations,
-        programs: effort.programs,
-        groups: components.len(),
-        reused: components.len() - fresh.len(),
-        seconds: 0.0,
-        stages,
-    };
-    let before = start.elapsed().as_secs_f64();
-    let wedging = match (options.wedging, analysis.verdict) {
-        (false, _) => Wedging::NotAsked,
-        (true, Verdict::Stable) => {
-            let components = found.iter().copied();
-            let (only, shown, wedged) = decide::only_by_wedging(context.scene, components);
-            (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
-            shown
-        }
-        (true, _) => Wedging::Falls,
-    };
-    let after = start.elapsed().as_secs_f64();
-    analysis.solve.stages.wedging = after - before;
-    let mut judged = None;
-    if options.margins {
-        let parts = found
-            .iter()
-            .zip(&keys)
-            .map(|((component, found), key)| Part {
-                component,
-                key,
-                found,
-            });
-        let parts: Vec<Part> = parts.collect();
-        let (margins, tries) = margin::of(&parts, options.margin_kinds, &mut known.intervals);
-        let name = |robot: RobotId| context.scene.robots[robot.0].id.clone();
-        analysis.notices.extend(margins.intervals.withheld(name));
-        analysis.margins = Some(margins);
-        judged = Some(tries);
-    }
-    analysis.solve.stages.margins = start.elapsed().as_secs_f64() - after;
-    analysis.effects.push(effect::margin::report(judged));
-    analysis.effects.push(wedging::report(wedging));
-    analysis.solve.seconds = start.elapsed().as_secs_f64();
-    analysis
-}
-
-fn key(component: &Assembly) -> Key {
-    let blocks = component.bodies.iter().map(|body| body.block);
-    let holds = component.grips.iter().map(|grip| {
-        let block = component.bodies[grip.body].block;
-        (
-            grip.robot,
-            block,
-            [grip.at.x.to_bits(), grip.at.y.to_bits()],
-        )
-    });
-    (
-        blocks.collect(),
-        holds.collect(),
-        component.length.to_bits(),
-    )
-}

@@ -1,4 +1,4 @@
-//! [`Options`]: how accurate an analysis is, and what it is asked beside the verdict.
+//! [`Options`]: the accuracy of an analysis, and the results that are computed in addition to the verdict.
 //!
 //! A level changes what an answer costs and how well it must be proved, never what it may say without a proof.
 
@@ -42,7 +42,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// What a proof must come to.
+    /// The threshold that a proof must reach.
     pub fn demand(self) -> ProofThreshold {
         match self {
             Accuracy::Standard => ProofThreshold::STANDARD,
@@ -76,16 +76,16 @@ impl Options {
         deadline: None,
     };
 
-    /// Whether the time is up.
+    /// Whether the deadline has passed.
     pub(super) fn is_late(self) -> bool {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// The settings with which a program is tried, one after the other until a proof convinces.
+    /// The solver settings in the order in which they are tried, until a proof is strong enough.
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
-            // A motion's violation is the solver's own: only a closer look makes it smaller.
+            // The violation of a motion comes from the solver. Only a more exact solution makes it smaller.
             Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,
                 ..Conditioning::Full.into()

@@ -1,4 +1,4 @@
-//! [`pair`]: frames of two scenes as two frames of one, so that they can be compared.
+//! [`pair`]: joins two frames of two scenes into one scene with two frames, to compare them.
 //!
 //! A block of one name, outline, weight and loads in both is one block. One that differs in any of these is two: the
 //! former is gone in the second frame, the latter new.
@@ -10,9 +10,9 @@ use crate::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
 /// Outlines whose corners are nearer than this share of their size are one.
 const ALIKE: f64 = 1e-9;
 
-/// One scene with two frames, the frame `before` (analysis and number from 0) and the frame `after`, and what was found out
-/// about them. The frames are titled `titles`, the second with what else differs between the scenes: gravity's strength,
-/// kernel, friction, thickness, corner contacts.
+/// A scene with two frames, `before` and `after` (each an analysis and the number of a frame, from 0), and their results.
+/// `titles` are the titles of the frames. The second title also lists other differences of the scenes: gravity, kernel,
+/// friction, thickness, corner contacts.
 ///
 /// # Errors
 /// In words, why the two cannot stand in one scene: another ground, or another direction of gravity.
@@ -22,56 +22,24 @@ pub fn pair(
     titles: [String; 2],
 ) -> Result<(Scene, Vec<FrameAnalysis>), String> {
     let (first, second) = (&*before.0.scene, &*after.0.scene);
-    if (first.down() - second.down()).norm() > ALIKE {
-        return Err("gravity points another way in the second; turn one of the two".into());
-    }
-    let grounds = first.ground.len() == second.ground.len()
-        && first
-            .ground
-            .iter()
-            .zip(&second.ground)
-            .all(|(a, b)| alike(&a.body.polygon, &b.body.polygon));
-    if !grounds {
-        return Err(
-            "the ground of the second is another; give both the same ground, part by part".into(),
-        );
-    }
+    // One scene has one ground and one direction of gravity.
+    check_ground_and_gravity(first, second)?;
     let mut scene = first.clone();
-    scene.title = match (first.title.is_empty(), first.title == second.title) {
-        (false, true) => first.title.clone(),
-        _ => String::new(),
+    if first.title != second.title {
+        scene.title.clear();
+    }
+    let moved = Moved {
+        blocks: add_blocks(&mut scene, first, second),
+        robots: add_robots(&mut scene, second),
     };
-    let mut blocks = Vec::new();
-    for (number, block) in second.blocks.iter().enumerate() {
-        let known = first.blocks.iter().position(|b| b.id == block.id);
-        let known = known.filter(|k| {
-            same(&first.blocks[*k], block)
-                && loads(first, BlockId(*k)) == loads(second, BlockId(number))
-        });
-        let number = known.unwrap_or(scene.blocks.len());
-        if known.is_none() {
-            scene.blocks.push(block.clone());
-        }
-        blocks.push(BlockId(number));
-    }
-    let mut robots = Vec::new();
-    for robot in &second.robots {
-        let known = first.robots.iter().position(|r| r.id == robot.id);
-        let number = known.unwrap_or(scene.robots.len());
-        if known.is_none() {
-            let mut robot = robot.clone();
-            robot.holds = None;
-            scene.robots.push(robot);
-        }
-        robots.push(RobotId(number));
-    }
-    let moved = Moved { blocks, robots };
+    // Loads on blocks that both scenes share are the same; those on new blocks are added.
     let new = |load: &&Load| moved.block(load.block).0 >= first.blocks.len();
     let more = second.loads.iter().filter(new).map(|load| Load {
         block: moved.block(load.block),
         ..*load
     });
     scene.loads.extend(more);
+    // The two frames, with what else differs in the title of the second.
     let [title, later] = titles;
     let differences = differences(first, second);
     let mut frames = vec![
@@ -91,7 +59,56 @@ pub fn pair(
     Ok((scene, found))
 }
 
-/// What differs beside blocks, loads and robots, in words.
+/// Refuses two scenes with different ground or another direction of gravity.
+fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
+    if (first.down() - second.down()).norm() > ALIKE {
+        return Err("gravity points another way in the second; turn one of the two".into());
+    }
+    let mut parts = first.ground.iter().zip(&second.ground);
+    let same = first.ground.len() == second.ground.len()
+        && parts.all(|(a, b)| alike(&a.body.polygon, &b.body.polygon));
+    if !same {
+        return Err(
+            "the ground of the second is another; give both the same ground, part by part".into(),
+        );
+    }
+    Ok(())
+}
+
+/// Adds the blocks of the second scene that differ from those of the first; returns the place of each in the common scene.
+fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> {
+    let mut places = Vec::new();
+    for (number, block) in second.blocks.iter().enumerate() {
+        let known = first.blocks.iter().position(|b| b.id == block.id);
+        let known = known.filter(|k| {
+            same(&first.blocks[*k], block)
+                && loads(first, BlockId(*k)) == loads(second, BlockId(number))
+        });
+        places.push(BlockId(known.unwrap_or(scene.blocks.len())));
+        if known.is_none() {
+            scene.blocks.push(block.clone());
+        }
+    }
+    places
+}
+
+/// Adds the robots of the second scene with names that the first has not; returns the place of each in the common scene.
+fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
+    let first = scene.robots.len();
+    let mut places = Vec::new();
+    for robot in &second.robots {
+        let known = scene.robots[..first].iter().position(|r| r.id == robot.id);
+        places.push(RobotId(known.unwrap_or(scene.robots.len())));
+        if known.is_none() {
+            let mut robot = robot.clone();
+            robot.holds = None;
+            scene.robots.push(robot);
+        }
+    }
+    places
+}
+
+/// The differences of two scenes in words, except those of blocks, loads and robots.
 fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     let mut words = Vec::new();
     let mut compare = |what: &str, a: f64, b: f64| {
@@ -99,7 +116,9 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
             words.push(format!("{what} {b} in place of {a}"));
         }
     };
+    // Numbers of the whole scene.
     compare("kernel", first.kernel, second.kernel);
+    // The friction coefficients of all bodies, each once.
     let rubs = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
         let mut all: Vec<f64> = bodies
@@ -141,7 +160,7 @@ fn same(a: &Block, b: &Block) -> bool {
         && (a.weight - b.weight).abs() <= ALIKE * a.weight.max(b.weight)
 }
 
-/// The loads on a block, as numbers.
+/// The loads on a block as numbers.
 fn loads(scene: &Scene, block: BlockId) -> Vec<[f64; 5]> {
     let own = scene.loads.iter().filter(|l| l.block == block);
     own.map(|l| [l.force.x, l.force.y, l.at.x, l.at.y, l.torque])
@@ -215,7 +234,7 @@ impl Moved {
         for motion in &mut found.mechanism {
             motion.block = self.block(motion.block);
         }
-        // Of the changed numbers only what a comparison shows is carried over.
+        // The result contains only the numbers that a comparison shows.
         found.margins = None;
         found
     }

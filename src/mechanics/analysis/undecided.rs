@@ -1,4 +1,4 @@
-//! [`UndecidedReason`]: why a frame is undecided.
+//! [`UndecidedReason`]: the reason why a frame is undecided.
 
 use std::fmt;
 
@@ -75,11 +75,11 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
-    /// Why it is undecided, in a sentence with the numbers of both proofs; empty otherwise.
+    /// The reason as a sentence with the numbers of both proofs; empty for a frame that is decided.
     pub fn doubt(&self) -> String {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {
-            // What was found until then belongs to it.
+            // Add what was found before the deadline.
             [UndecidedReason::Late, _, ..] => {
                 format!("{}: {}", reasons[0], reasons[1..].join("; "))
             }

@@ -1,12 +1,13 @@
-//! Route 0: the verdict of a frame from the active set of the frame before.
+//! Route 0: finds the verdict of a frame from the active set of the previous frame.
 //!
 //! The nonnegative least squares of the balance ([`BoundedNnls`]) has residual 0, and then its solution balances the frame; or its
 //! residual is a motion by which the frame falls. The active set of one frame is the start for the next, so a step that changes
 //! little costs little. Forces and motion are proved as always. Without a proof the frame is analysed as [`Analysis`](super::Analysis)
 //! does, so a warm start saves time and cannot change a verdict.
 
+use super::analyse::{Known, analyse_frame};
 use super::decide::Candidate;
-use super::{Analysis, Known, Options, Verdict, analyse_frame};
+use super::{Analysis, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::effect::{self, FrameContext};
 use crate::interface::{Interface, Interfaces};
@@ -22,7 +23,7 @@ const MAX_BODIES: usize = 500;
 /// Units are chosen again if lengths or loads become this many times larger or smaller.
 const MAX_SCALE_RATIO: f64 = 100.0;
 
-/// The verdict of each frame: those of [`Analysis::with`], without what else it finds out.
+/// The verdict of each frame, as in [`Analysis::with`], without any other results.
 ///
 /// ```
 /// use drystone::{Scene, analysis::{Options, Verdict, verdicts}};
@@ -51,7 +52,7 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// Whether narrow gaps, overlaps or contacts too short to count may decide, so that every frame is to be judged both ways.
+/// Whether narrow gaps, overlaps or very short contacts may decide, so that every frame must be analysed both ways.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
     let none =
         found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
@@ -86,7 +87,7 @@ enum Origin {
 }
 
 impl WarmStart {
-    /// The verdict of a frame, and what it came from.
+    /// The verdict of a frame, and its source.
     pub(crate) fn verdict(
         &mut self,
         scene: &Scene,
@@ -110,8 +111,9 @@ impl WarmStart {
         (verdict, Source::Examined)
     }
 
-    /// The verdict on an assembly, where the guess leads to one.
+    /// The verdict on an assembly, if the warm start leads to one.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
+        // Without a set to start from every body is new.
         let most = match self.columns.is_empty() {
             true => MAX_NEW_BODIES,
             false => MAX_BODIES,
@@ -120,10 +122,12 @@ impl WarmStart {
             *self = WarmStart::default();
             return None;
         }
+        // The balance in pure numbers, in the scale of the earlier frames.
         let scale = self.scale(assembly);
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
+        // Forces with the least residual: 0 where the frame stands, else a motion.
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
@@ -132,7 +136,7 @@ impl WarmStart {
         Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
     }
 
-    /// The scale of the guess, or a new one and no guess where it is too far off.
+    /// The scale of the warm start. If it is too different, a new scale without a warm start.
     fn scale(&mut self, assembly: &Assembly) -> Scale {
         let own = Scale::from_assembly(assembly);
         let near = |a: f64, b: f64| a <= MAX_SCALE_RATIO * b && b <= MAX_SCALE_RATIO * a;
@@ -148,7 +152,7 @@ impl WarmStart {
         }
     }
 
-    /// Carries the used set over to the columns of another frame. A column of other values is another column.
+    /// Transfers the active set to the columns of another frame. A column with other values counts as another column.
     fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
         let begins = begins(assembly, &columns);
         let mut new: Vec<(Origin, usize)> =
@@ -156,6 +160,7 @@ impl WarmStart {
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.nearest.renumber(|k| {
+            // The contact or grip of the old column, then the column with the same place within it.
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);
             let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
             let place = new.binary_search_by(|(other, _)| other.cmp(origin)).ok()?;
@@ -168,7 +173,7 @@ impl WarmStart {
     }
 }
 
-/// Where the columns of each contact and grip begin.
+/// The first column of each contact and grip.
 fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
     let bits = |p: crate::geometry::Point| [p.x.to_bits(), p.y.to_bits()];
     let mut begins: Vec<(usize, Origin)> = Vec::new();
@@ -182,7 +187,7 @@ fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
                 let grip = &assembly.grips[grip];
                 Origin::Grip(grip.robot, assembly.bodies[grip.body].block, bits(grip.at))
             }
-            // Admissible forces are of these two kinds.
+            // Admissible forces have one of these two kinds.
             _ => continue,
         };
         if begins.last().is_none_or(|(_, last)| *last != origin) {

@@ -1,4 +1,4 @@
-//! [`Wedged`]: what shows that a frame stands only by a self-stress, in metres and newtons.
+//! [`Wedged`]: the proof that a frame stands only by a self-stress, in metres and newtons.
 
 use super::Motion;
 use crate::assembly::Assembly;
@@ -65,7 +65,7 @@ pub struct FaceCase {
 }
 
 impl Wedged {
-    /// What a solver found of one component.
+    /// Converts the result of the solver for one component.
     pub(super) fn new(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
         let motion = |pure: &[f64]| {
             let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
@@ -91,7 +91,7 @@ impl Wedged {
     }
 }
 
-/// A case in the frame's numbers of contacts.
+/// A case with the numbers of the contacts in the frame.
 fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();

@@ -52,7 +52,7 @@ impl fmt::Debug for Input {
 }
 
 impl Input {
-    /// The lines of an open stream.
+    /// An input that reads scenes from the lines of an open stream.
     pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
         Input::Lines {
             file,

@@ -1,9 +1,9 @@
 //! [`Column`]: a force with an amount ≥ 0, and its entries in the balance rows.
 //!
-//! The forces of a contact are the generators of the friction cone at each application point: the normal n̂ alone, and the
-//! normal with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each costs 1 per unit. Every admissible contact force
-//! is a sum of generators with amounts ≥ 0, so that the program needs no inequality for friction. The optimum is that of
-//! [Vallat23](crate::doc::references) §2.0.3, which has other unknowns.
+//! The columns of a contact are the generators of the friction cone at each application point: the pure normal force
+//! n̂, and the normal force with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each costs 1 per unit. Every
+//! admissible contact force is a sum of generators with amounts ≥ 0, so the program needs no inequality for friction.
+//! The optimum is the same as in [Vallat23](crate::doc::references) §2.0.3, which uses other unknowns.
 
 use super::{ContactTerm, GripTerm, Program};
 use crate::effect::EffectName;
@@ -34,21 +34,21 @@ pub enum Force {
         sign: f64,
     },
     /// A tensile force at an application point.
-    StickNormal {
+    AdhesionNormal {
         /// The contact.
         contact: usize,
         /// The application point.
         point: usize,
     },
     /// Friction that needs no normal force, along `sign` times the tangent.
-    StickFriction {
+    AdhesionFriction {
         /// The contact.
         contact: usize,
         /// +1 or −1.
         sign: f64,
     },
     /// A component of a robot's force or torque, regardless of its limit.
-    StickGrip {
+    AdhesionGrip {
         /// The grip.
         grip: usize,
         /// 0: force x, 1: force y, 2: torque/L.
@@ -59,11 +59,13 @@ pub enum Force {
 }
 
 impl Force {
-    /// Whether the force is sticking: not admissible, and only used to show what is missing.
-    pub fn is_sticking(&self) -> bool {
+    /// Whether the force is sticking: a contact or robot cannot exert it, and it only shows which force is missing.
+    pub fn is_adhesion(&self) -> bool {
         matches!(
             self,
-            Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. }
+            Force::AdhesionNormal { .. }
+                | Force::AdhesionFriction { .. }
+                | Force::AdhesionGrip { .. }
         )
     }
 
@@ -79,9 +81,9 @@ impl Force {
             },
             Force::Grip { component: 2, .. } => EffectName::RobotTorque,
             Force::Grip { .. } => EffectName::Robots,
-            Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. } => {
-                EffectName::Sticking
-            }
+            Force::AdhesionNormal { .. }
+            | Force::AdhesionFriction { .. }
+            | Force::AdhesionGrip { .. } => EffectName::Sticking,
         }
     }
 }
@@ -92,7 +94,7 @@ pub struct Column {
     /// Rows and values; the first `count` are used.
     places: [(usize, f64); 6],
     count: usize,
-    /// The cost per unit of amount: 1 for every normal, friction or robot force, as in the source.
+    /// The cost per unit of amount: 1 for every normal, friction or robot force, as in Vallat (2023).
     pub cost: f64,
     /// The largest amount; infinite if there is no limit.
     pub limit: f64,
@@ -143,7 +145,7 @@ impl Column {
         sum
     }
 
-    /// Whether both columns have entries of the same body. The entries of each body are consecutive.
+    /// Whether both columns have entries in the rows of a common body. The entries of each body are consecutive.
     fn shares_block(&self, other: &Column) -> bool {
         let blocks = |column: &Column| {
             let last = column.count.saturating_sub(1);
@@ -187,7 +189,7 @@ impl Column {
         }
     }
 
-    /// Adds the entries of a force on a body and of its moment about the body's centroid.
+    /// Appends the entries of a force on a body and of its moment about the body's centroid.
     fn enter(&mut self, block: usize, force: Vector, moment: f64) {
         for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
             if value != 0.0 {
@@ -198,10 +200,10 @@ impl Column {
     }
 }
 
-/// The number of unknowns that each effect has in a program.
+/// The number of unknowns (columns) of each effect in a program.
 #[derive(Clone, Debug, Default)]
 pub struct UnknownCounts {
-    /// The effects that have unknowns. The list is so short that a linear search is quickest.
+    /// The effects that have unknowns. The list is so short that a linear search is fastest.
     counts: Vec<(EffectName, usize)>,
 }
 
@@ -218,7 +220,7 @@ impl UnknownCounts {
         counts
     }
 
-    /// The number of unknowns of an effect; 0 for an effect without columns of its own.
+    /// The number of unknowns of an effect; 0 if the effect has no columns.
     pub fn get(&self, effect: EffectName) -> usize {
         let entry = self.counts.iter().find(|entry| entry.0 == effect);
         entry.map_or(0, |entry| entry.1)
@@ -251,7 +253,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // Scaled to |N| + |T| = 1 per unit, so that the columns of rough and smooth contacts have similar sizes.
+                // Scale to |N| + |T| = 1 per unit, so that columns have similar sizes for every friction coefficient.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
                 } else {
@@ -291,20 +293,20 @@ pub fn columns(program: &Program) -> Vec<Column> {
 
 /// The columns of all sticking forces of a program, without limits.
 ///
-/// They are the opposite partners of the source's columns ([Vallat23](crate::doc::references) §2.0.8). Sticking friction is
-/// one force per interface, because the friction forces at both ends act along the same line.
-pub fn sticking_columns(program: &Program) -> Vec<Column> {
+/// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. Sticking friction is one force
+/// per interface, because the friction forces at both ends act along the same line.
+pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
-            let force = Force::StickNormal {
+            let force = Force::AdhesionNormal {
                 contact: number,
                 point,
             };
             columns.push(contact_column(contact, point, -contact.normal, force, 1.0));
         }
         for sign in [1.0, -1.0] {
-            let force = Force::StickFriction {
+            let force = Force::AdhesionFriction {
                 contact: number,
                 sign,
             };
@@ -320,7 +322,7 @@ pub fn sticking_columns(program: &Program) -> Vec<Column> {
     for (number, grip) in program.grips.iter().enumerate() {
         for component in 0..3 {
             for sign in [1.0, -1.0] {
-                let force = Force::StickGrip {
+                let force = Force::AdhesionGrip {
                     grip: number,
                     component,
                     sign,

@@ -1,16 +1,17 @@
 //! [`Program`]: the equilibrium of one component of an assembly, in numbers without units.
 //!
-//! Each block has three rows: force x, force y, and moment about its own centroid over L. Each force has a column
-//! ([`Column`]). Invariant: lengths are in parts of the median interface length L, and forces are scaled so that the
-//! heaviest load is [`Scale::HEAVIEST`]. Neither position nor units therefore reach the solver.
+//! Each block has three rows: force x, force y, and moment about its centroid divided by L. Each force has a column
+//! ([`Column`]). Invariant: lengths are divided by the median interface length L, and forces are scaled so that the
+//! heaviest load is [`Scale::HEAVIEST`]. The solver's data therefore do not depend on the position and units of the
+//! scene.
 //!
 //! | file | content |
 //! |---|---|
-//! | `column` | the balance rows that each force enters |
+//! | `column` | the entries of each force in the balance rows |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `parallel_joints` | a program with nearly parallel joints made parallel |
-//! | `vallat` | the program of the source, for comparison |
+//! | `parallel_joints` | a program in which nearly parallel joints are made parallel |
+//! | `vallat` | the program of Vallat (2023), for comparison |
 
 mod column;
 mod pose;
@@ -20,7 +21,7 @@ mod parallel_joints;
 #[cfg(test)]
 mod tests;
 
-pub use column::{Column, Force, UnknownCounts, columns, sticking_columns};
+pub use column::{Column, Force, UnknownCounts, adhesion_columns, columns};
 pub(crate) use pose::product;
 pub use pose::{
     Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm,
@@ -55,13 +56,13 @@ pub struct ContactTerm {
     pub kind: ContactKind,
     /// The first body, and the arms of the application points about its centroid.
     pub on: (usize, [Vector; 2]),
-    /// The other body likewise, `None` for the ground.
+    /// The other body and the arms about its centroid; `None` for the ground.
     pub from: Option<(usize, [Vector; 2])>,
     /// Unit normal into `on`.
     pub normal: Vector,
-    /// Friction coefficient, 0 where friction is not simulated.
+    /// Friction coefficient; 0 if friction is not simulated.
     pub friction: f64,
-    /// 2 application points, 1 for a corner contact.
+    /// The number of application points: 2 for an edge, 1 for a corner contact.
     pub points: usize,
 }
 
@@ -72,7 +73,7 @@ pub struct GripTerm {
     pub block: usize,
     /// Arm of the grip point about the block's centroid.
     pub arm: Vector,
-    /// Limits of force x, force y, torque/L; infinite without limit, 0 where the component is not simulated.
+    /// Limits of force x, force y and torque/L; infinite without a limit, 0 if the component is not simulated.
     pub limits: [f64; 3],
 }
 
@@ -120,10 +121,11 @@ impl Program {
     /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
     const NON_BINDING: f64 = 10.0;
 
-    /// The program without the limits that hardly ever bind; `None` if there are no such limits.
+    /// The program without limits that are far above the loads and hardly ever bind; `None` if there are no such
+    /// limits.
     ///
-    /// A limit costs a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. If an answer
-    /// violates a limit that was left out, its proof fails and the program is solved again with all limits.
+    /// A limit adds a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. If a result
+    /// violates an omitted limit, its proof fails, and the program is solved again with all limits.
     pub fn without_non_binding_limits(&self) -> Option<Program> {
         let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
         let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING * sum;

@@ -1,4 +1,4 @@
-//! [`Program::with_parallel_joints`]: makes joints exactly parallel or perpendicular that are so up to rounding.
+//! [`Program::with_parallel_joints`]: makes joints that are parallel or perpendicular up to rounding exactly so.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -7,8 +7,8 @@ use crate::geometry::{Vector, cross};
 
 /// Joints whose angles differ by less than this (radians, modulo 90°) are meant to be parallel or perpendicular.
 ///
-/// Coordinates with six digits turn a joint by 10⁻⁶. Ten times as much would straighten wedges that were drawn on purpose; a
-/// tenth would miss joints of drawings with six digits.
+/// Rounding coordinates to six digits turns a joint by about 10⁻⁶. Ten times this value would straighten wedges that
+/// were drawn on purpose; a tenth would miss joints of drawings with six digits.
 const SAME_DIRECTION: f64 = 1e-5;
 /// Rotations below this, in radians, are the rounding of the angles themselves.
 const ROUNDING: f64 = 1e-12;
@@ -16,8 +16,9 @@ const ROUNDING: f64 = 1e-12;
 impl Program {
     /// The program with nearly parallel joints made parallel; `None` if this changes nothing.
     ///
-    /// A block between faces that are parallel up to 10⁻⁶ is a very slender wedge, which opens with velocities of 10⁶. The
-    /// solver then ends without a status. It does not if the faces are exactly parallel, or less nearly so.
+    /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only with
+    /// velocities of 10⁶, and the solver ends without a status. It solves the program if the faces are exactly
+    /// parallel.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let turns = turns(&normals);
@@ -34,12 +35,13 @@ impl Program {
 
 /// The rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly so.
 ///
-/// Angles modulo 90° are sorted and cut into clusters at gaps; each cluster is turned to its mean angle.
+/// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). Each cluster is turned to its mean
+/// angle.
 fn turns(directions: &[Vector]) -> Vec<f64> {
     let angles = directions.iter().map(|d| beyond_axis(*d));
     let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();
     angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Angles are periodic: a cluster at 45° lies at both ends of the list. Start the list after its first gap instead.
+    // Angles are periodic: a cluster at 45° is at both ends of the list. Rotate the list so that it starts after a gap.
     let gap = angles
         .windows(2)
         .position(|w| w[1].0 - w[0].0 > SAME_DIRECTION);

@@ -1,10 +1,10 @@
-//! The optimisation problems that are posed about a program, in the form that the solvers accept.
+//! Builds the optimisation problems of a program in the form that the solvers accept.
 //!
 //! [`QuadraticProgram`]: minimise ½ xᵀPx + qᵀx subject to Ax = b in the first `equalities` rows and Ax ≤ b in the others.
 //!
-//! Most problems are posed in their dual, the kinematic form: the unknowns are the velocities of the bodies, and the forces
-//! are the multipliers of the rows. It has three unknowns per body where the static form has six per contact. Reference:
-//! Livesley, Limit analysis of structures formed from rigid blocks, 1978, for the pair of linear programs.
+//! Most problems are built in their dual, the kinematic form: the unknowns are the velocities of the bodies, and the
+//! forces are the multipliers of the rows. It has three unknowns per body; the static form has six per contact.
+//! Reference: Livesley, Limit analysis of structures formed from rigid blocks, 1978, for the pair of linear programs.
 
 use super::{Column, Force};
 
@@ -21,7 +21,7 @@ pub struct QuadraticProgram {
     pub matrix: Vec<(usize, usize, f64)>,
     /// The right-hand sides b.
     pub bound: Vec<f64>,
-    /// The first rows, this many, are equalities.
+    /// The number of equalities, which are the first rows.
     pub equalities: usize,
 }
 
@@ -41,9 +41,9 @@ impl QuadraticProgram {
 /// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component with cost 0 and without limit
 /// become one equality, because a pair of opposite inequalities has no interior.
 ///
-/// Returns the problem and, for each column, its row: the multiplier of that row is the amount of the force. The
-/// multiplier of an equality is the amount of the first direction minus that of the second, which has no row of its own
-/// (`usize::MAX`).
+/// Returns the problem and the row of each column: the multiplier of that row is the amount of the force. The
+/// multiplier of an equality is the amount of the first direction minus that of the second. The second direction has no
+/// row, which is returned as `usize::MAX`.
 pub fn kinematic_dual(
     loads: &[f64],
     columns: &[Column],
@@ -63,7 +63,7 @@ pub fn kinematic_dual(
             && columns[k].limit.is_infinite()
             && cost(&columns[k]) == 0.0
     };
-    // Equalities come first.
+    // The equalities first: one for each pair of opposite columns without cost and limit.
     let mut k = 0;
     while k < columns.len() {
         if is_free_pair(k) {
@@ -74,6 +74,7 @@ pub fn kinematic_dual(
         k += 1;
     }
     dual.equalities = dual.bound.len();
+    // The inequalities of all other columns.
     let mut k = 0;
     while k < columns.len() {
         if row_of[k] != usize::MAX {
@@ -84,6 +85,7 @@ pub fn kinematic_dual(
         dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
+    // The unknowns w of the limits, with their rows w ≥ 0.
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
             let w = dual.unknowns;
@@ -135,7 +137,7 @@ pub fn load_factor_dual(
 
 /// The dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
 ///
-/// The last two rows are those of λ: the dual of the first less that of the second is λ.
+/// λ is the multiplier of the second-last row minus the multiplier of the last row.
 pub fn nearest_factor_dual(
     loads: &[f64],
     toward: &[f64],
@@ -184,7 +186,7 @@ pub fn least_change(
         equalities,
     };
     for (row, (column, value)) in columns.iter().enumerate() {
-        // The solver's inequalities are Ax ≤ b, so that the sign of columnᵀd ≥ value is reversed.
+        // The solver's inequalities are Ax ≤ b, so the signs of columnᵀd ≥ value are reversed.
         let sign = if row < equalities { 1.0 } else { -1.0 };
         let entries = column.entries();
         problem
@@ -195,7 +197,7 @@ pub fn least_change(
     problem
 }
 
-/// The amounts, of either sign, with the least Σ amount² that balance `loads`.
+/// The problem of the amounts, of either sign, with the least Σ amount² that balance `loads`.
 pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     QuadraticProgram {
@@ -210,7 +212,7 @@ pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     }
 }
 
-/// Given amounts to which the unknowns, times `size`, are added.
+/// Given amounts that a least-squares problem corrects: the result is amount + `size` · unknown.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<'a> {
     /// The given amounts.
@@ -219,14 +221,14 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// The amounts ≥ 0 with the least sum of squared forces that balance `loads`.
+/// The problem of the amounts ≥ 0 with the least sum of squared forces that balance `loads`.
 ///
-/// Without a `correction` the squares are those of N1, N2 and T of each contact and of each component of a grip. The answer
-/// therefore does not depend on how the friction cone is written as columns.
+/// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
+/// The result therefore does not depend on how the friction cone is divided into columns.
 ///
-/// With a `correction` the unknowns are changes of given amounts, and the squares are those of the changes of each column.
-/// The squares of forces would leave opposite columns, such as the push and pull of a robot, without bound, and the solver
-/// would end without a status.
+/// With a `correction`, the unknowns are changes of given amounts, and the sum is over the squared change of each
+/// column. Squares of forces would not bound opposite columns, such as the two directions of a robot's force, and the
+/// solver would end without a status.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],
@@ -236,7 +238,7 @@ pub fn least_squares(
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
     }
-    // The columns of one contact are neighbours: products are nonzero only back to the first column of the contact.
+    // The columns of one contact are consecutive, so the products end at the first column of the contact.
     let squared = if correction.is_some() { &[] } else { columns };
     for (j, column) in squared.iter().enumerate() {
         for (i, other) in columns[..=j].iter().enumerate().rev() {
@@ -270,13 +272,14 @@ pub fn least_squares(
     }
 }
 
-/// A second cost per column, and the largest value of its sum.
+/// A second cost for each column, and the largest allowed value of Σ cost·amount.
 pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
-/// The primal form with the forces as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
+/// The static (primal) form, in which the forces are the unknowns: min Σ cost·amount  s.t.  Σ amount·column = `loads`,
+/// 0 ≤ amount ≤ limit.
 ///
-/// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max: the second stage of a lexicographic program.
-/// Used, like `vallat_program`, only to measure what the kinematic dual saves.
+/// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max: the second stage of a lexicographic program. Near
+/// the limit of standing this form takes fewer iterations than the kinematic dual.
 pub fn force_primal(
     loads: &[f64],
     columns: &[Column],
@@ -299,70 +302,59 @@ pub fn force_primal(
 ///
 /// `None` if they belong to different contacts or grips, or to different kinds of columns.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
-    match (*a, *b) {
-        (
-            Force::Ray {
-                contact: c,
-                point: p,
-                normal: m,
-                friction: s,
-            },
-            Force::Ray {
-                contact: d,
-                point: q,
-                normal: n,
-                friction: t,
-            },
-        ) if c == d => Some(if p == q { m * n } else { 0.0 } + s * t),
-        (
-            Force::Grip {
-                grip: g,
-                component: c,
-                sign: s,
-            },
-            Force::Grip {
-                grip: h,
-                component: d,
-                sign: t,
-            },
-        )
-        | (
-            Force::StickGrip {
-                grip: g,
-                component: c,
-                sign: s,
-            },
-            Force::StickGrip {
-                grip: h,
-                component: d,
-                sign: t,
-            },
-        ) if g == h => Some(if c == d { s * t } else { 0.0 }),
-        (
-            Force::StickNormal {
-                contact: c,
-                point: p,
-            },
-            Force::StickNormal {
-                contact: d,
-                point: q,
-            },
-        ) if c == d => Some(f64::from(u8::from(p == q))),
-        (
-            Force::StickFriction {
-                contact: c,
-                sign: s,
-            },
-            Force::StickFriction {
-                contact: d,
-                sign: t,
-            },
-        ) if c == d => Some(s * t),
-        (Force::StickNormal { contact: c, .. }, Force::StickFriction { contact: d, .. })
-            if c == d =>
-        {
-            Some(0.0)
+    let ((place, u), (other, v)) = (components(a), components(b));
+    (place == other).then(|| u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
+}
+
+/// Where a unit force acts, with the kind of its columns.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Site {
+    Contact(usize),
+    Grip(usize),
+    /// Adhesion of a contact.
+    ContactAdhesion(usize),
+    /// The force of a grip beyond its limits.
+    GripAdhesion(usize),
+}
+
+/// Where a unit force acts, and its components there: (N1, N2, T) of a contact, (F_x, F_y, M) of a grip.
+fn components(force: &Force) -> (Site, [f64; 3]) {
+    let mut own = [0.0; 3];
+    let site = match *force {
+        Force::Ray {
+            contact,
+            point,
+            normal,
+            friction,
+        } => {
+            own[point] = normal;
+            own[2] = friction;
+            Site::Contact(contact)
         }
-        _ => None,
-    }
+        Force::Grip {
+            grip,
+            component,
+            sign,
+        } => {
+            own[component] = sign;
+            Site::Grip(grip)
+        }
+        Force::AdhesionNormal { contact, point } => {
+            own[point] = 1.0;
+            Site::ContactAdhesion(contact)
+        }
+        Force::AdhesionFriction { contact, sign } => {
+            own[2] = sign;
+            Site::ContactAdhesion(contact)
+        }
+        Force::AdhesionGrip {
+            grip,
+            component,
+            sign,
+        } => {
+            own[component] = sign;
+            Site::GripAdhesion(grip)
+        }
+    };
+    (site, own)
 }

@@ -1,9 +1,9 @@
 //! [`Scale`]: the metres and newtons per unit of a program.
 //!
-//! The tolerances of an interior-point solver are absolute numbers, so that data must have a suitable size. On 3 000 towers
-//! with lengths of about 1, heaviest loads from 0.1 to 10⁴ gave every verdict right. With SI units of large structures, half
-//! of the towers were called infeasible. Lengths are therefore measured in median interface lengths, and forces are scaled
-//! so that the heaviest load is 300.
+//! The tolerances of an interior-point solver are absolute numbers, so its data must have a suitable size. For 3 000
+//! towers with lengths of about 1, every verdict was right if the heaviest load was between 0.1 and 10⁴. In SI units,
+//! as for large structures, half of the towers were reported as infeasible. The unit of length is therefore the median
+//! interface length, and forces are scaled so that the heaviest load is 300.
 
 use crate::assembly::Assembly;
 
@@ -22,7 +22,7 @@ impl Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
 
-    /// The heaviest load of a frame in scaled units. Ten times and a tenth of it are within the range that was tested.
+    /// The heaviest load of a frame in scaled units. A tenth of it and ten times its value also gave right verdicts.
     pub const HEAVIEST: f64 = 300.0;
 
     /// The scale for a median interface length (m) and a heaviest load (N). A frame without loads is scaled by 1 N.

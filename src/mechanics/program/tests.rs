@@ -101,7 +101,7 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
     assert!(
         columns
             .iter()
-            .all(|c| c.cost == 1.0 && !c.force.is_sticking())
+            .all(|c| c.cost == 1.0 && !c.force.is_adhesion())
     );
     let limits: Vec<f64> = columns[6..].iter().map(|c| c.limit).collect();
     let free = f64::INFINITY;
@@ -114,9 +114,9 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
 }
 
 #[test]
-fn sticking_columns_pull_hold_on_and_go_beyond_limits() {
+fn adhesion_columns_pull_hold_on_and_go_beyond_limits() {
     let program = example();
-    let columns = sticking_columns(&program);
+    let columns = adhesion_columns(&program);
     let expected: [&[(usize, f64)]; 10] = [
         &[(1, -1.0), (2, -0.5)],
         &[(1, -1.0), (2, 0.5)],
@@ -130,7 +130,7 @@ fn sticking_columns_pull_hold_on_and_go_beyond_limits() {
         &[(2, -1.0)],
     ];
     assert_columns(&columns, &expected);
-    assert!((columns.iter()).all(|c| c.force.is_sticking() && c.limit.is_infinite()));
+    assert!((columns.iter()).all(|c| c.force.is_adhesion() && c.limit.is_infinite()));
     let admissible = UnknownCounts::new(&program, &super::columns(&program));
     let all = admissible
         .clone()
@@ -179,7 +179,7 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
 fn columns_multiply_as_rows_of_numbers_do() {
     let program = example();
     let mut all = columns(&program);
-    all.extend(sticking_columns(&program));
+    all.extend(adhesion_columns(&program));
     let y = [0.25, -3.0, 7.0];
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     for a in &all {
@@ -206,7 +206,7 @@ fn columns_multiply_as_rows_of_numbers_do() {
 #[test]
 fn the_quadratic_form_sums_squares_of_forces() {
     let program = example();
-    for columns in [columns(&program), sticking_columns(&program)] {
+    for columns in [columns(&program), adhesion_columns(&program)] {
         let amounts: Vec<f64> = (1..=columns.len()).map(|k| 0.3 * k as f64 + 0.1).collect();
         let (mut normal, mut friction, mut grip) = ([0.0; 2], 0.0, [0.0; 3]);
         for (column, amount) in columns.iter().zip(&amounts) {
@@ -220,12 +220,12 @@ fn the_quadratic_form_sums_squares_of_forces() {
                     normal[point] += n * amount;
                     friction += t * amount;
                 }
-                Force::StickNormal { point, .. } => normal[point] += amount,
-                Force::StickFriction { sign, .. } => friction += sign * amount,
+                Force::AdhesionNormal { point, .. } => normal[point] += amount,
+                Force::AdhesionFriction { sign, .. } => friction += sign * amount,
                 Force::Grip {
                     component, sign, ..
                 }
-                | Force::StickGrip {
+                | Force::AdhesionGrip {
                     component, sign, ..
                 } => grip[component] += sign * amount,
             }
@@ -252,9 +252,9 @@ fn the_quadratic_form_sums_squares_of_forces() {
     };
     assert_eq!(product(&place(0, 1, 1.0), &place(1, 1, 1.0)), None);
     assert_eq!(product(&place(0, 1, 1.0), &place(0, 2, 1.0)), Some(0.0));
-    let stick = |contact, point| Force::StickNormal { contact, point };
+    let stick = |contact, point| Force::AdhesionNormal { contact, point };
     assert_eq!(product(&stick(0, 1), &stick(1, 1)), None);
-    let hold = |contact, sign| Force::StickFriction { contact, sign };
+    let hold = |contact, sign| Force::AdhesionFriction { contact, sign };
     assert_eq!(product(&hold(0, 1.0), &hold(1, 1.0)), None);
     assert_eq!(product(&stick(0, 1), &hold(1, 1.0)), None);
     assert_eq!(product(&stick(0, 1), &place(0, 1, 1.0)), None);

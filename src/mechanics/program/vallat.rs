@@ -1,16 +1,16 @@
-//! [`vallat_program`]: the soft program of the source, exactly as it is posed there.
+//! [`vallat_program`]: the soft program of [Vallat23](crate::doc::references), exactly as it is stated there.
 
 use super::pose::QuadraticProgram;
 use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
 
 /// The soft program of [Vallat23](crate::doc::references) §2.0.7–8.
 ///
-/// Every interface and every grip has six unknowns, and each of these has an opposite partner at cost β; all are ≥ 0. The
-/// constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. It serves only to measure
-/// what β costs in time and digits.
+/// Every interface and every grip has six unknowns, and each of these has an opposite partner at cost β; all are ≥ 0.
+/// The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. This program is
+/// used only to measure the time and accuracy that a large β costs.
 ///
-/// The unknowns are, interface by interface, N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip Fx±, Fy±, M±, and then all
-/// partners in the same order.
+/// The order of the unknowns is N1, f1⁺, f1⁻, N2, f2⁺, f2⁻ for each interface, then Fx±, Fy±, M± for each grip, then
+/// all opposite partners in the same order.
 pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     let unknowns = source_unknowns(program);
     let n = unknowns.columns.len();
@@ -53,16 +53,16 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     }
 }
 
-/// The unknowns of the source's program without their partners.
+/// The unknowns of Vallat's program without their opposite partners.
 struct SourceUnknowns {
     columns: Vec<Column>,
-    /// For each application point the index of its normal force, which two friction unknowns follow, and μ.
+    /// For each application point: the index of its normal force, which is followed by two friction unknowns, and μ.
     cones: Vec<(usize, f64)>,
-    /// For each robot unknown its index and its limit.
+    /// For each robot unknown: its index and its limit.
     limits: Vec<(usize, f64)>,
 }
 
-/// The source's unknowns, from the columns of programs with μ = 1 and without limits.
+/// Vallat's unknowns, derived from the columns of programs with μ = 1 and without limits.
 fn source_unknowns(program: &Program) -> SourceUnknowns {
     let mut unknowns = SourceUnknowns {
         columns: Vec::new(),

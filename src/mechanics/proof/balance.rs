@@ -1,13 +1,14 @@
-//! The imbalance τ of each body, measured by the forces on that body alone.
+//! The imbalance τ of each body, relative to the forces on that body only.
 //!
-//! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its own amount and moved by
-//! at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), with its moment M about the centroid: each
-//! normal force, each friction force, each component of a robot, the weight, and the listed loads. Moving all forces by R
-//! changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the residual in the zonotope of these vectors
-//! ([`zonotope_gauge`]). It has no unit, and does not depend on other bodies.
+//! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its amount and moved
+//! by at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), where M is its moment about the
+//! centroid: each normal force, each friction force, each component of a robot, the weight, and the listed loads.
+//! Moving all forces by R changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the residual in the
+//! zonotope of these vectors ([`zonotope_gauge`]). It has no unit, and does not depend on other bodies.
 //!
-//! Forces are rounded numbers. The residual is summed with twice the digits. A rounding of about 10⁻¹⁵ Σ |F| is granted in
-//! every direction in which the body can take it up: by friction within its cone, or by a change of its load by τ.
+//! Forces are rounded numbers, so the residual is summed with twice the digits. A rounding of about 10⁻¹⁵ Σ |F| is
+//! allowed in every direction in which the body can compensate it: by friction within its cone, or by a change of its
+//! load by τ.
 
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
@@ -16,20 +17,21 @@ use crate::geometry::{
     zonotope_gauge_bound,
 };
 
-/// A bound of the relative rounding error of a few sums and products.
+/// An upper bound of the relative rounding error of a few sums and products.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The smallest τ that any threshold requires. Rounding is granted such that it stays below τ there.
+/// The strictest threshold of any proof. The allowed rounding is scaled so that it changes τ by no more than this.
 const MIN_THRESHOLD: f64 = 1e-9;
 
-/// An upper bound of τ below this is returned in place of τ, because it is quicker and a tenth of any threshold.
+/// If an upper bound of τ is at most this, it is returned instead of τ: it is faster to compute, and a tenth of any
+/// threshold.
 const GOOD_ENOUGH: f64 = 1e-10;
 
-/// The friction that a contact carries, and the friction that it could carry.
+/// The friction force at a contact, and the largest friction force that its normal forces allow.
 struct Cone {
-    /// One newton of it as a vector (F_x, F_y, M/R).
+    /// A friction force of 1 N as a vector (F_x, F_y, M/R).
     along: Vec3,
-    /// The friction that it carries, N.
+    /// The amount of the friction force, N.
     given: f64,
     /// The largest friction that its normal forces allow, N.
     available: f64,
@@ -43,9 +45,9 @@ struct BodyForces {
     residual: [CompensatedSum; 3],
     generators: Vec<Vec3>,
     cones: Vec<Cone>,
-    /// Σ |F|.
+    /// Σ |F| over all forces, N.
     total: f64,
-    /// Σ |F| of the loads alone.
+    /// Σ |F| over the loads only, N; moments are divided by the radius.
     load: f64,
 }
 
@@ -66,6 +68,7 @@ impl BodyForces {
         acting
     }
 
+    /// Adds a load, given as a force and a moment about the centroid.
     fn load(&mut self, force: Vector, moment: f64) {
         self.residual[0].add(force.x);
         self.residual[1].add(force.y);
@@ -76,6 +79,7 @@ impl BodyForces {
         self.load += force.norm() + moment.abs() / self.radius;
     }
 
+    /// Adds a force that acts at the point `at`.
     fn force(&mut self, at: Point, force: Vector) {
         let arm = at - self.centroid;
         self.residual[0].add(force.x);
@@ -87,6 +91,7 @@ impl BodyForces {
         self.total += force.norm();
     }
 
+    /// Adds a torque, N·m.
     fn torque(&mut self, torque: f64) {
         self.residual[2].add(torque);
         self.generators.push([0.0, 0.0, torque / self.radius]);
@@ -98,17 +103,19 @@ impl BodyForces {
         [x, y, moment / self.radius]
     }
 
-    /// Adds the generators that do not depend on a single force: moving all forces, and rounding.
+    /// Adds the generators that do not belong to one force: the displacement of all forces, and the allowed rounding.
     fn add_common_generators(&mut self) {
+        // Moving every force by τ R changes M/R by at most τ Σ |F|.
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
+            // The spare friction of the cone takes rounding along the contact.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
             }
         }
-        // A body without load takes up rounding anyway: nothing drives it.
+        // A body without a load is allowed the full rounding, because no load could make it move.
         let turned = match self.load {
             0.0 => rounding,
             load => rounding.min(load),
@@ -130,18 +137,20 @@ impl BodyForces {
     }
 }
 
-/// The smallest τ to which each body balances, in the order of the bodies; infinite if no change of its forces helps.
+/// The imbalance τ of each body, in the order of the bodies; infinite if no change of the forces makes the body
+/// balance.
 ///
-/// Values below 10⁻¹⁰ are upper bounds of τ.
+/// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
     let mut all = forces_by_body(assembly, forces);
     all.iter_mut().for_each(BodyForces::add_common_generators);
     all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// The largest imbalance τ of all bodies, and the largest residual of a body in parts of its own load.
+/// The largest imbalance τ of all bodies, and the largest residual of a body relative to its load.
 ///
-/// τ is computed only for bodies that can have the largest one, in the order of their upper bounds.
+/// τ is computed in the order of upper bounds, and only for bodies whose upper bound exceeds the largest τ found so
+/// far.
 pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;
@@ -152,6 +161,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
             continue;
         }
         let [x, y, moment] = residual;
+        // For information: residual relative to the load.
         if body.load > 0.0 {
             share = share.max(libm::hypot(x, y).max(moment.abs()) / body.load);
         }
@@ -159,6 +169,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
         let bound = quick_gauge_bound(&body.generators, residual).unwrap_or(f64::INFINITY);
         bounds.push((bound, number));
     }
+    // The largest bound first: once a bound is no larger than the τ found, no later body can exceed it.
     bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     let mut imbalance: f64 = 0.0;
     for (bound, number) in bounds {
@@ -178,11 +189,13 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
         .collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
+        // The two normal forces at their points. The friction force acts along the interface, so any of its points will do.
         let pushes = [
             (contact.points[0], contact.normal * first),
             (contact.points[1], contact.normal * second),
             (contact.ends[0], contact.tangent() * pressed.friction),
         ];
+        // Action on one body, reaction on the other; the ground needs no balance.
         let sides = [(Some(contact.on), 1.0), (contact.from, -1.0)];
         for (body, sign) in sides {
             let Some(number) = body else {
@@ -203,6 +216,7 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     }
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let acting = &mut acting[grip.body];
+        // Each component is a generator of its own, because each may be changed by τ of its own amount.
         acting.force(grip.at, Vector::new(held.force.x, 0.0));
         acting.force(grip.at, Vector::new(0.0, held.force.y));
         acting.torque(held.torque);

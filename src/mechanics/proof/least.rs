@@ -1,9 +1,9 @@
-//! A lower bound of the sum of forces that balance an assembly: weak duality, computed from the geometry.
+//! A lower bound of the sum of forces that balance an assembly, by weak duality; computed from the geometry.
 //!
-//! Forces that balance do no work along any motion: contacts and grips absorb the power P of the loads. A contact force
-//! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its amount
-//! times its speed. No forces with a sum below P/δ therefore balance. A robot with a limit may absorb more than δ per
-//! newton; the excess, limit · (speed − δ), is subtracted from P.
+//! If forces balance the loads, contacts and grips absorb the power P of the loads along every motion. A contact force
+//! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its
+//! amount times its speed. Forces with a sum below P/δ therefore cannot balance the loads. A robot with a limit may
+//! absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
 
 use super::{Forces, Motion, NON_BINDING, ROUNDING, moving_load, power_of_loads, worst_violation};
 use crate::assembly::Assembly;
@@ -21,14 +21,17 @@ impl Forces {
 
 /// A lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
-/// The motion must be scaled like the dual variables: a force may act against a speed of at most 1. The bound is 0 if the
-/// motion proves nothing. Torques count as forces over the assembly's L.
+/// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
+/// if the motion proves nothing. Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
+    // A limit above this counts as none.
     let binding = NON_BINDING * moving_load(assembly, motions);
+    // `worst` is δ. Grips without a binding limit increase it; the others are subtracted from the power.
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
+        // The speeds against which the robot's components act, rounding included.
         let at_grip = motion.about(body.centroid, grip.at);
         let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
@@ -46,6 +49,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
             }
         }
     }
+    // The bound: (power − excess of limited robots − rounding) / δ.
     let (power, summed) = power_of_loads(assembly, motions);
     let spent = limited
         .iter()

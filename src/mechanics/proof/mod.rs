@@ -1,19 +1,19 @@
 //! [`Proof`]: the certificate of a verdict, computed from geometry and forces alone.
 //!
-//! Nothing here uses programs, columns or solvers. The balance is summed again in metres and newtons from the assembly's
-//! bodies, contacts and grips, and the contact law is checked force by force, so that a mistake in the program cannot hide.
-//! A test that shares no code with the assembly compares the assembly with the outlines.
+//! This module uses no programs, columns or solvers. It sums the balance again in metres and newtons from the
+//! assembly's bodies, contacts and grips, and checks the contact law for each force, so that a mistake in the program
+//! is detected. A test that shares no code with the assembly compares the assembly with the outlines.
 //!
-//! *Stable* is proved by forces: every block balances, no contact pulls or slips, no robot exceeds its limits. Each error is
-//! measured where it occurs, in parts of the forces on that block or at that contact. Neither the heaviest block nor the
-//! typical length therefore decides about the smallest stone.
+//! *Stable* is proved by forces: every block balances, no contact pulls or slips, no robot exceeds its limits. Each
+//! error is relative to the forces on the same block or at the same contact. The test of the smallest stone therefore
+//! depends neither on the heaviest block nor on the typical length.
 //!
 //! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens or
-//! slides apart, so that no admissible force can resist. These are the static and the kinematic theorem of limit analysis
-//! (Livesley 1978), and weak duality of linear programs. If forces with
-//! the sum Σ(N + |T|) = F balanced, then power ≤ violation · F. A motion with violation δ therefore rules out every balance
-//! with less force than power/δ ([`Proof::excluded_force_sum`]). Power is given in parts of the loads of the moving bodies.
-//! The rounding errors of the sums count against the motion, so that a violation of 0 is exact.
+//! slides apart, so that no admissible force can resist. These are the static and the kinematic theorem of limit
+//! analysis (Livesley 1978), and weak duality of linear programs. If forces with the sum Σ(N + |T|) = F balanced the
+//! loads, then power ≤ violation · F. A motion with violation δ therefore rules out every balance with less force than
+//! power/δ ([`Proof::excluded_force_sum`]). Power is relative to the loads of the moving bodies. Rounding errors are
+//! added to the violation and subtracted from the power, so that the proof holds in spite of them.
 
 mod balance;
 mod least;
@@ -28,29 +28,30 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::interface::ContactKind;
 use crate::scene::{BlockId, Scene};
 
-/// How well a verdict is proved.
+/// The proof of a verdict: the largest errors of forces or of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
-    /// Forces that balance the loads. All numbers are without unit; 0 is exact.
+    /// Forces that balance the loads. All numbers are without unit; 0 means an exact balance.
     Forces {
-        /// The largest τ of all blocks. A block balances to τ if it balances exactly after each force on it is changed by at
-        /// most τ of its own amount and moved by at most τ of the block's radius ([`imbalances`]).
+        /// The largest imbalance τ of all blocks. A block balances to τ if it balances exactly after each force on it
+        /// is changed by at most τ of its amount and moved by at most τ of the block's radius ([`imbalances`]).
         worst_imbalance: f64,
-        /// The largest unbalanced force, or moment over the radius, of a block in parts of its own load: for information only.
+        /// The largest residual of a block (force, or moment over radius) relative to its load: for information only.
         worst_share: f64,
-        /// The largest tensile force at an application point, in parts of the forces at its contact.
+        /// The largest tensile force at an application point, relative to the forces at its contact.
         worst_pull: f64,
-        /// The largest friction beyond μN, in parts of the forces at its contact, or robot component beyond its limit, in
-        /// parts of that component.
+        /// The largest friction beyond μN, relative to the forces at its contact, or robot component beyond its limit,
+        /// relative to that component.
         worst_slip: f64,
     },
     /// A collapse mechanism. Velocities are relative to that of its fastest point.
     Mechanism {
-        /// A lower bound, rounding included, of the power of the loads minus the power that robots can resist. It is given
-        /// in parts of [`moving_load`], the loads of the moving bodies weighted by their speeds.
+        /// A lower bound, rounding included, of the power of the loads minus the power that robots can resist. It is
+        /// relative to [`moving_load`], the loads of the moving bodies weighted by their speeds.
         power: f64,
         /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts per
-        /// newton of N + |T|: at a contact that closes or slides within its friction cone, or at a grip that is torn off.
+        /// newton of N + |T|: at a contact that closes or slides within its friction cone, or at a grip that is torn
+        /// off.
         worst_violation: f64,
     },
 }
@@ -58,16 +59,17 @@ pub enum Proof {
 impl Proof {
     /// The largest imbalance, pull and slip of forces that prove a verdict.
     ///
-    /// It is also the band within which a structure that just falls counts as stable: a block is pushed by this fraction of
-    /// the forces that act on it, or its centre of gravity lies this fraction of its radius outside of its support. A tenth
-    /// is near the accuracy of the interior-point solver, so that more verdicts stay undecided. Ten times as much would
-    /// widen the band to a millionth, which a user can see in a six-digit margin.
+    /// A structure that falls by less than this counts as stable: for example, a block pushed by this fraction of the
+    /// forces on it, or a centre of gravity outside the support by this fraction of the block's radius. A tenth of this
+    /// value is close to the accuracy of the interior-point solver, so more verdicts would be undecided. Ten times this
+    /// value, a millionth, could be seen in a six-digit margin.
     pub const IMBALANCE_TOL: f64 = 1e-7;
 
-    /// A motion proves a verdict if it rules out every balance with forces below this many times the moving loads.
+    /// A motion proves a verdict if it rules out every balance with a sum of forces below this multiple of the moving
+    /// loads.
     ///
-    /// The solver's inaccuracy is removed from motions before they are checked. What remains at contacts that neither open
-    /// nor close is the rounding of speeds, about 10⁻¹⁵. A motion therefore proves the verdict as soon as its power exceeds
+    /// The solver's error is removed from motions before they are checked. At contacts that neither open nor close,
+    /// only the rounding of speeds remains, about 10⁻¹⁵. A motion therefore proves the verdict if its power exceeds
     /// [`Proof::IMBALANCE_TOL`].
     pub const MIN_POWER_RATIO: f64 = 1e7;
 
@@ -92,10 +94,10 @@ impl Proof {
         }
     }
 
-    /// The sum of forces Σ(N + |T|), in parts of the moving loads, below which a motion rules out every balance.
+    /// The sum of forces Σ(N + |T|), relative to the moving loads, below which a motion rules out every balance.
     ///
-    /// It is power / violation, and counts the forces of robots without limits too. It is infinite if nothing is violated:
-    /// then no forces balance, however large. It is 0 for a proof by forces.
+    /// It equals power / violation, and includes the forces of robots without limits. It is infinite if nothing is
+    /// violated: then no forces balance, however large. It is 0 for a proof by forces.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
@@ -195,20 +197,22 @@ impl Motion {
         self.fastest_of(block.centroid, block.body.polygon.outline())
     }
 
-    /// Velocity of a point of a body with this centroid.
+    /// Velocity of a point of a body with the given centroid.
     pub fn about(&self, centroid: Point, point: Point) -> Vector {
         self.velocity + quarter_turn(point - centroid) * self.spin
     }
 
-    /// Speed of the fastest of some points of a body with this centroid.
+    /// The largest speed of some points of a body with the given centroid.
     pub fn fastest_of(&self, centroid: Point, points: &[Point]) -> f64 {
         let speeds = points.iter().map(|p| self.about(centroid, *p).norm());
         speeds.fold(0.0, f64::max)
     }
 
-    /// The sum of the absolute terms of each component of a point's velocity: its rounding error is a fraction of that.
+    /// For each component of a point's velocity, the sum of the absolute values of its terms. The rounding error is a
+    /// fraction of this sum.
     ///
-    /// Each component has its own sum, so that the rounding of a horizontal sliding motion counts as no vertical motion.
+    /// The components are summed separately, so that the rounding of a horizontal motion does not count as a vertical
+    /// one.
     fn summed(&self, centroid: Point, point: Point) -> Vector {
         self.velocity.abs() + (quarter_turn(point - centroid) * self.spin).abs()
     }
@@ -219,20 +223,23 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
 
-/// A grip whose limit exceeds this many times the moving loads counts as unlimited: it must not give way at all.
+/// A grip whose limit exceeds this multiple of the moving loads counts as unlimited: in a valid motion its point must
+/// not move.
 ///
-/// A tenth would refuse motions that tear a robot off which holds a thousand times the load. Ten times as much would turn the
-/// rounding of a speed (10⁻¹⁵) times the limit into noticeable power.
+/// A tenth of this value would reject motions in which a robot that can hold a thousand times the load gives way. With
+/// ten times this value, the rounding of a speed (10⁻¹⁵) times the limit would be a noticeable power.
 const NON_BINDING: f64 = 1e4;
 
 /// Checks forces on an assembly: the balance of each body, tension, slip, and the limits of robots.
 pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
-    // A relative excess; 0 where the law is satisfied, so that it is never 0/0.
+    // The relative excess; 0 if the law is satisfied, which avoids 0/0.
     let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
+    // The contact law: no tension, and friction within the cone. Errors are relative to the forces at the same contact.
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
         let own = first.abs() + second.abs() + pressed.friction.abs();
+        // A corner has one application point: its second normal force must be 0.
         let pull = match contact.kind {
             ContactKind::Edge => (-first).max(-second),
             ContactKind::Corner => (-first).max(second.abs()),
@@ -241,6 +248,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
         worst_pull = worst_pull.max(share(pull, own));
         worst_slip = worst_slip.max(share(slip, own));
     }
+    // The limits of robots, component by component.
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let limits = grip.limits;
         for (given, limit) in [
@@ -251,6 +259,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
             worst_slip = worst_slip.max(share(given - limit, given));
         }
     }
+    // The balance of each body.
     let (worst_imbalance, worst_share) = balance::worst(assembly, forces);
     Proof::Forces {
         worst_imbalance,
@@ -262,7 +271,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
 
 /// The loads of the moving bodies, N: the sum of [`gross_load`] of each body, weighted by its speed.
 ///
-/// The speed of a body is that of its fastest point, in parts of the fastest point of all bodies.
+/// The speed of a body is that of its fastest point, relative to the fastest point of all bodies.
 pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let (mut sum, mut max_speed): (f64, f64) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
@@ -279,7 +288,7 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
 
 /// The sum of the amounts of a body's weight, listed force and listed moment over its radius, N.
 ///
-/// Loads that act against each other do not cancel in it.
+/// Loads in opposite directions do not cancel in this sum.
 pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
     let listed = body.listed.times(assembly.load_factor);
     let moment = listed.moment.abs() / body.radius();
@@ -292,7 +301,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// The largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if every contact
 /// opens.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // The velocity of a point, and the absolute terms of which it is the sum.
+    // The velocity of a point, and the sum of its absolute terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
         None => (Vector::zeros(), Vector::zeros()),
         Some(number) => {
@@ -309,6 +318,7 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             if summed == Vector::zeros() {
                 continue;
             }
+            // The relative velocity at the point, along the normal and along the tangent.
             let apart = one - other;
             let (normal, tangent) = (contact.normal, contact.tangent());
             let (opens, slides) = (normal.dot(&apart), tangent.dot(&apart));
@@ -344,14 +354,17 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         .zip(motions)
         .map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
+    // Without motion or loads there is nothing to prove: power 0 convinces nobody.
     if fastest == 0.0 || load == 0.0 {
         return Proof::Mechanism {
             power: 0.0,
             worst_violation: 0.0,
         };
     }
+    // Contacts: the worst violation. Loads: their power.
     let mut violation = worst_violation(assembly, motions);
     let (mut power, mut summed) = power_of_loads(assembly, motions);
+    // Robots: a limit resists with the power limit · speed. An unlimited grip must not move.
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         let limits = grip.limits;
@@ -363,7 +376,8 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (at_grip.y, limits.fy, unsure.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
-            // A limit far above the loads would turn the rounding of a speed into power: such a grip must not give way.
+            // With a limit far above the loads, the rounding of a speed would become a power. Such a grip must not
+            // move.
             if limit > NON_BINDING * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {

@@ -1,4 +1,4 @@
-//! What a scene is made of: bodies, blocks, ground, robots and loads.
+//! The parts of a scene: bodies, blocks, ground, robots and loads.
 
 use crate::geometry::{Cell, Point, Polygon, Vector};
 

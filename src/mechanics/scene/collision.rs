@@ -1,4 +1,5 @@
-//! Bodies that lie in each other: exact by shared cells on a lattice, deeper than their gaps elsewhere.
+//! Finds bodies that overlap: exactly, by shared cells, on a lattice; otherwise bodies that overlap by more than their
+//! gaps.
 //!
 //! Only bodies that stand together in some frame are compared, and never two parts of the ground.
 
@@ -61,8 +62,8 @@ pub struct Penetration {
     pub at: Point,
 }
 
-/// Notes every pair of bodies that lie in each other while both stand; those that may have been meant to touch are given
-/// back, unless the scene gives a contact tolerance.
+/// Reports each pair of bodies that overlap in some frame. Returns the pairs with a small overlap, which may be a drawing
+/// error, unless the scene gives a contact tolerance.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
@@ -149,7 +150,7 @@ impl Presence {
         }
     }
 
-    /// The first frame in which two bodies stand together; never for two parts of the ground.
+    /// The first frame in which both bodies stand; `None` for two parts of the ground.
     fn together(&self, a: BodyId, b: BodyId) -> Option<usize> {
         if matches!((a, b), (BodyId::Ground(_), BodyId::Ground(_))) {
             return None;
@@ -270,6 +271,7 @@ mod tests {
             placed: placed.iter().copied().map(BlockId).collect(),
             holds: Vec::new(),
             plans: Vec::new(),
+            expected: None,
         }
     }
 

@@ -1,4 +1,4 @@
-//! [`isolate`]: an internal fault of the program stays with the scene it happened on.
+//! [`isolate`]: limits an internal fault of the program to the scene on which it happened.
 //!
 //! Every command that answers several scenes runs each of them in here. A panic becomes a problem of that one scene, and the
 //! other scenes are answered.
@@ -12,7 +12,7 @@ use super::{Code, Problem, SceneError};
 #[cfg(debug_assertions)]
 const INJECTED: &str = "DRYSTONE_TEST_FAULT";
 
-/// Runs the work on one scene; a panic comes back as a problem of code [`Code::InternalFault`].
+/// Runs `work` for one scene. A panic becomes a problem with the code [`Code::InternalFault`].
 ///
 /// `name` is how a person knows the scene: its path. The work may leave its own data half done, so nothing that it changes may
 /// be used after a fault.

@@ -3,13 +3,13 @@
 //! A block whose polygon could not be read is not also reported to have no polygon, or to overlap its neighbour.
 
 use super::path::{Path, Segment, Trail};
-use super::problem::{self, Wording};
-use super::source::Mark;
+use super::problem::{self, Problem, SceneError, Wording};
+use super::source::{Mark, Source};
 
-/// So many findings of a file are kept; a file with more has one cause, and it is among the first.
-const MOST: usize = 2000;
-/// For at most this many unknown names the nearest known name is suggested, which compares with all names.
-const HINTED: usize = 50;
+/// The largest number of findings that are kept. A file with more has one cause, and it is among the first.
+const MAX_FINDINGS: usize = 2000;
+/// The largest number of findings with a suggestion of the nearest known name: each compares with all names.
+const MAX_SUGGESTIONS: usize = 50;
 
 /// One thing that is wrong, and where.
 pub(super) struct Finding {
@@ -31,7 +31,7 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Findings of a file some parts of which could not be read.
+    /// An empty list of problems for a file of which some parts could not be read.
     pub(super) fn doubting(doubt: UnreadParts) -> Findings {
         Findings {
             list: Vec::new(),
@@ -39,28 +39,28 @@ impl Findings {
         }
     }
 
-    /// Whether the entry that something stands in could not all be read.
+    /// Whether some part of the entry that contains this place could not be read.
     pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
-        // A file without doubts is the one that has to be quick.
+        // Test the common case first: a file that could be read completely.
         !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
     }
 
-    /// Whether no more findings are kept.
+    /// Whether the list is full, so that no more problems are kept.
     pub(super) fn is_full(&self) -> bool {
-        self.list.len() > MOST
+        self.list.len() > MAX_FINDINGS
     }
 
-    /// Whether a further finding is still to say what may have been meant.
+    /// Whether messages of further problems should still suggest a correction.
     pub(super) fn hints(&self) -> bool {
-        self.list.len() < HINTED
+        self.list.len() < MAX_SUGGESTIONS
     }
 
-    /// Notes what is wrong at a value, unless it stands in a part in doubt.
+    /// Reports a problem of a value, unless it lies in a part that could not be read.
     pub(super) fn add(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Value, wording);
     }
 
-    /// Notes what is wrong at a key.
+    /// Reports a problem of a key.
     pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Key, wording);
     }
@@ -79,17 +79,33 @@ impl Findings {
         }
     }
 
-    /// Takes a finding; the first one too many becomes the notice that there are more.
+    /// Adds a problem. If the list is full, it adds the note that there are more problems.
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
-            n if n < MOST => self.list.push(finding),
-            MOST => self.list.push(Finding {
+            n if n < MAX_FINDINGS => self.list.push(finding),
+            MAX_FINDINGS => self.list.push(Finding {
                 path: Path::default(),
                 mark: Mark::Value,
-                wording: problem::text::more_problems(MOST),
+                wording: problem::text::more_problems(MAX_FINDINGS),
             }),
             _ => {}
         }
+    }
+}
+
+/// Findings as problems with their places in a text, sorted by place.
+pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
+    let mut list: Vec<Problem> = findings
+        .into_iter()
+        .map(|finding| {
+            let span = source.and_then(|s| s.find(&finding.path, finding.mark));
+            Problem::new(finding.path.to_string(), span, source, finding.wording)
+        })
+        .collect();
+    list.sort_by_key(|p| p.span.as_ref().map(|s| s.start));
+    SceneError {
+        text: source.map(|s| s.text.to_string()),
+        list,
     }
 }
 
@@ -101,7 +117,8 @@ pub(super) struct UnreadParts {
 }
 
 impl UnreadParts {
-    /// Whether the entry (of `blocks`, `materials`, …) that a path lies in, or the path itself, could not all be read.
+    /// Whether some part of an entry (of `blocks`, `materials`, …) could not be read. The entry is the one that contains
+    /// `path`.
     pub(super) fn touches(&self, path: &Path) -> bool {
         let entry = &path.0[..path.0.len().min(2)];
         self.paths
@@ -109,7 +126,7 @@ impl UnreadParts {
             .any(|p| p.starts_with(entry) || path.starts_with(&p.0))
     }
 
-    /// Whether anything at all could not be read at or below a key of the file.
+    /// Whether something at or below a top-level key could not be read.
     pub(super) fn touches_key(&self, key: &str) -> bool {
         let key = [Segment::Key(key.to_string())];
         self.paths
@@ -117,7 +134,7 @@ impl UnreadParts {
             .any(|p| p.starts_with(&key) || p.0.is_empty())
     }
 
-    /// The first entry of a list that could not all be read; 0 where the list itself could not.
+    /// The first entry of a list that could not be read completely; 0 if the list itself could not be read.
     pub(super) fn first_entry(&self, list: &str) -> Option<usize> {
         let mut first = None;
         for path in &self.paths {
@@ -132,7 +149,8 @@ impl UnreadParts {
         first
     }
 
-    /// Set if a list or map of names could not be read completely; unknown names are then not reported.
+    /// Whether some names of a list or object may be missing because parts of it could not be read. Unknown names are then
+    /// not reported.
     ///
     /// `known` is how many there are. A misspelt top-level key may have been meant to hold them all.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {

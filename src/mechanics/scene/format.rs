@@ -1,9 +1,10 @@
 //! The scene file as it is written: one type per object of the JSON, and the JSON Schema made from them.
 //!
 //! Build a [`SceneFile`] in Rust, by methods with the keys' names, or read one; [`SceneFile::build`] checks it. Nothing here
-//! is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. This file and those below it are
-//! the only ones of the room that name serde, serde_json and schemars.
+//! is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. Only this file and its
+//! folder name serde, serde_json and schemars in the scene module.
 
+mod body;
 mod build;
 mod lines;
 mod map;
@@ -15,11 +16,12 @@ mod step;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use body::{BlockEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry};
 pub(crate) use lines::Lines;
 pub use map::Map;
 #[cfg(feature = "schema")]
 pub use schema::schema;
-pub use step::{GripEntry, HoldEntry, StepEntry};
+pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 
 /// A place or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
@@ -39,6 +41,15 @@ pub struct SceneFile {
     /// Title of the scene, for reports and captions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
+    /// Author of the calculation, for reports.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub author: Option<String>,
+    /// Project that the structure belongs to, for reports.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub project: Option<String>,
+    /// Date of the calculation, for reports: any text. Reports never read a clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub date: Option<String>,
     /// Gravity [x, y] in m/s²; weights act along it, or not at all where it is [0, 0]. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
@@ -94,9 +105,31 @@ pub struct SceneFile {
     /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<StepEntry>,
+    /// The verdict that is meant for every frame whose step does not say. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expect: Option<Expectation>,
     /// Codes of notes that are not wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silence: Vec<String>,
+}
+
+/// An entry of a scene file from JSON of its own, with nothing checked beyond its type; or why it is none.
+#[cfg(feature = "python")]
+pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
+    serde_json::from_str(text).map_err(|error| error.to_string())
+}
+
+/// A method for each plain key of the whole file.
+impl SceneFile {
+    optional_setters! {
+        gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
+        friction: f64, "Friction coefficient μ of whatever gives none itself, at least 0.";
+        kernel: f64, "Safety kernel, 0 to 1.";
+        density: f64, "Density in kg/m³ of whatever gives none itself, at least 0.";
+        thickness: f64, "Thickness of all blocks across the plane in metres, at least 0.";
+        contact_tolerance: f64, "Edges within this many metres of each other touch; at least 0.";
+        corner_contacts: bool, "Whether tips that touch edges or tips carry force.";
+    }
 }
 
 impl SceneFile {
@@ -232,170 +265,6 @@ pub struct ShapeEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
-}
-
-/// A part of the ground; one of `polygon`, `cells` and `shape` says where it lies.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct GroundEntry {
-    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
-    pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges, each listed once.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    pub cells: Option<Vec<CellEntry>>,
-    /// Name of a shape.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
-    pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
-    /// lattice, 90. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
-    pub angle: Option<f64>,
-    /// Name of its material.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
-    /// Its own friction coefficient, at least 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb".
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
-    pub fill: Option<String>,
-}
-
-/// A rigid block; one of `polygon`, `cells` and `shape` says what it is.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct BlockEntry {
-    /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
-    pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges, each listed once.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    pub cells: Option<Vec<CellEntry>>,
-    /// Name of a shape.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
-    pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
-    /// lattice, 90. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
-    pub angle: Option<f64>,
-    /// Name of its material.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
-    /// Weight in newtons along gravity, at least 0. Wins over `mass` and `density`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub weight: Option<f64>,
-    /// Mass in kg, at least 0. Wins over `density`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub mass: Option<f64>,
-    /// Its own density in kg/m³, at least 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub density: Option<f64>,
-    /// Its own friction coefficient, at least 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb".
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
-    pub fill: Option<String>,
-}
-
-/// A robot that can hold one block at a time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct RobotEntry {
-    /// Its name, used once. Default: "r" and its number in the list, from 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub id: Option<String>,
-    /// The block it holds in a scene without steps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub holds: Option<String>,
-    /// Where it grips the block it `holds`, [x, y] in metres; nothing without `holds`. Default: the block's centroid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at: Option<Pair>,
-    /// What it can give. Default: any force, no torque.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limits: Option<LimitsEntry>,
-}
-
-/// Largest amounts a robot can give, per component, each way.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct LimitsEntry {
-    /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub fx: Option<f64>,
-    /// Largest vertical force in newtons, at least 0. Default: `force`, else unlimited.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub fy: Option<f64>,
-    /// Largest torque in N·m, at least 0. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
-    pub torque: Option<f64>,
-    /// Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub force: Option<f64>,
-}
-
-/// A load on a block, in addition to its weight.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct LoadEntry {
-    /// The loaded block.
-    pub block: String,
-    /// Force [x, y] in newtons. Default [0, 0].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
-    pub force: Option<Pair>,
-    /// Where the force acts, [x, y] in metres. Default: the block's centroid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at: Option<Pair>,
-    /// Torque in N·m, anticlockwise positive. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
-    pub torque: Option<f64>,
 }
 
 #[cfg(feature = "schema")]

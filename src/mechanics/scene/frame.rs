@@ -1,5 +1,6 @@
-//! [`Frame`]: what stands, and who holds what, after one step.
+//! [`Frame`]: the placed blocks, and the blocks that robots hold, after one step.
 
+use super::format::Expectation;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
@@ -37,4 +38,6 @@ pub struct Frame {
     pub holds: Vec<Hold>,
     /// Planned blocks, by robot number.
     pub plans: Vec<Plan>,
+    /// The verdict that the author expects, if the file says so.
+    pub expected: Option<Expectation>,
 }

@@ -8,7 +8,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::{Block, Body, BodyId, Ground, Scene};
+use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
@@ -69,6 +69,8 @@ pub struct Healed {
     pub distance: f64,
     /// How many bodies would have lost their shape, or come to lie deeper in others, and stayed as they are written.
     pub kept: usize,
+    /// The first of these bodies, the ground's parts before the blocks.
+    pub first_kept: Option<BodyId>,
 }
 
 /// How close is close, and how far corners may move.
@@ -133,81 +135,45 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
     4.0 * polygon.area() / around
 }
 
-/// Brings together what lies within reach, and notes every body's own gap.
+/// The bodies as they are written.
+struct Drawn {
+    /// The number of parts of the ground.
+    parts: usize,
+    /// Their numbers among all bodies, sound or not; the parts of the ground come first.
+    numbers: Vec<usize>,
+    /// How large they are, metres.
+    sizes: Vec<f64>,
+    outlines: Vec<Rings>,
+    /// Whether they may not move, because they are cells of a lattice.
+    fixed: Vec<bool>,
+}
+
+/// The bodies after corners were brought together.
+struct Closed<'d> {
+    /// Borrowed where nothing was moved.
+    outlines: Cow<'d, [Rings]>,
+    /// The bodies that stayed as they are written, because moved they would lose their shape or lie deeper in others.
+    kept: Vec<usize>,
+    reach: HealingReach,
+}
+
+/// Brings together what lies within reach, and gives every body its own gap.
+///
+/// 1. Measure the bodies.
+/// 2. Bring corners and edges together within the tolerance that was given or that the digits of the coordinates show.
+/// 3. If then many corners still lie slightly off what they touch, the coordinates are noisy: bring these together too.
+/// 4. Replace the outlines that changed by more than rounding, and count what moved.
+/// 5. Give every body its gap, and every block its centroid.
 pub(super) fn heal(
     ground: &mut [Option<Ground>],
     blocks: &mut [Option<Block>],
-    mut reach: HealingReach,
+    reach: HealingReach,
 ) -> Healed {
-    let parts = ground.len();
-    let (mut numbers, mut sizes) = (Vec::new(), Vec::new());
-    let (mut drawn, mut fixed) = (Vec::new(), Vec::new());
-    for (number, body) in bodies(ground, blocks) {
-        numbers.push(number);
-        sizes.push(size(&body.polygon));
-        drawn.push(rings(&body.polygon));
-        fixed.push(body.cells.is_some());
-    }
-    // A part of the ground is as large as the largest block, however thin it is drawn.
-    let own = numbers.iter().zip(&sizes).filter(|(n, _)| **n >= parts);
-    let largest = own.map(|(_, size)| *size).fold(0.0, f64::max);
-    for (_, size) in numbers.iter().zip(&mut sizes).filter(|(n, _)| **n < parts) {
-        *size = largest;
-    }
-    let gaps =
-        |reach: HealingReach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
-    let limits = |of_body| Gaps {
-        of_body,
-        share_of_edge: reach.share_of_edge(),
-    };
-    let mut kept = 0;
-    let mut outlines = Cow::Borrowed(&drawn[..]);
-    if reach.healing > 0.0 {
-        let outcome = snapped(&drawn, limits(&gaps(reach)), &fixed, NOISE);
-        (outlines, kept) = (outcome.bodies, outcome.kept.len());
-    }
-    if reach.usual > reach.healing {
-        let noisy = HealingReach {
-            source: ToleranceSource::Noise,
-            usual: reach.usual,
-            healing: reach.usual,
-        };
-        let outcome = snapped(&outlines, Gaps::new(&gaps(noisy)), &fixed, NOISE);
-        let all: usize = drawn.iter().flatten().map(Vec::len).sum();
-        let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
-        let (share, least) = NOISY;
-        if moved >= least && moved as f64 >= share * all as f64 {
-            kept = outcome.kept.len();
-            outlines = Cow::Owned(outcome.bodies.into_owned());
-            reach = noisy;
-        }
-    }
-    let mut healed = Healed {
-        source: reach.source,
-        within: reach.healing,
-        kept,
-        ..Healed::default()
-    };
-    let mut changed = BTreeMap::new();
-    let new = match &outlines {
-        Cow::Borrowed(_) => &[][..],
-        Cow::Owned(new) => new,
-    };
-    for (((number, old), new), size) in numbers.into_iter().zip(&drawn).zip(new).zip(&sizes) {
-        let corners = old.iter().flatten().zip(new.iter().flatten());
-        // Less than a millionth of the gap is the rounding of numbers.
-        let rounding = 1e-6 * reach.healing_of(*size);
-        let moves = corners.map(|(a, b)| (b.at - a.at).norm());
-        let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
-        if moves.is_empty() {
-            continue;
-        }
-        healed.bodies += 1;
-        healed.corners += moves.len();
-        healed.distance = moves.into_iter().fold(healed.distance, f64::max);
-        changed.insert(number, new);
-    }
-    for ((number, body), size) in bodies(ground, blocks).zip(&sizes) {
+    let drawn = Drawn::new(ground, blocks);
+    let closed = drawn.without_noise(drawn.within_reach(reach));
+    let reach = closed.reach;
+    let (healed, changed) = drawn.changes(&closed);
+    for ((number, body), size) in bodies(ground, blocks).zip(&drawn.sizes) {
         if let Some(Ok(polygon)) = changed.get(&number).map(|new| polygon(new)) {
             body.polygon = polygon;
         }
@@ -220,6 +186,124 @@ pub(super) fn heal(
         block.centroid = block.body.polygon.centroid();
     }
     healed
+}
+
+impl Drawn {
+    /// Step 1: measures the bodies. A part of the ground is as large as the largest block, however thin it is drawn.
+    fn new(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>]) -> Drawn {
+        let parts = ground.len();
+        let mut drawn = Drawn {
+            parts,
+            numbers: Vec::new(),
+            sizes: Vec::new(),
+            outlines: Vec::new(),
+            fixed: Vec::new(),
+        };
+        for (number, body) in bodies(ground, blocks) {
+            drawn.numbers.push(number);
+            drawn.sizes.push(size(&body.polygon));
+            drawn.outlines.push(rings(&body.polygon));
+            drawn.fixed.push(body.cells.is_some());
+        }
+        let sizes = drawn.numbers.iter().zip(&mut drawn.sizes);
+        let (grounds, blocks): (Vec<_>, Vec<_>) = sizes.partition(|(n, _)| **n < parts);
+        let largest = blocks.iter().map(|(_, size)| **size).fold(0.0, f64::max);
+        for (_, size) in grounds {
+            *size = largest;
+        }
+        drawn
+    }
+
+    /// The id of a drawn body.
+    fn body(&self, drawn: usize) -> BodyId {
+        let number = self.numbers[drawn];
+        match number.checked_sub(self.parts) {
+            Some(block) => BodyId::Block(BlockId(block)),
+            None => BodyId::Ground(number),
+        }
+    }
+
+    /// How far each body may move, metres.
+    fn gaps(&self, reach: HealingReach) -> Vec<f64> {
+        self.sizes.iter().map(|s| reach.healing_of(*s)).collect()
+    }
+
+    /// Step 2: brings together what lies within the tolerance.
+    fn within_reach(&self, reach: HealingReach) -> Closed<'_> {
+        let mut closed = Closed {
+            outlines: Cow::Borrowed(&self.outlines[..]),
+            kept: Vec::new(),
+            reach,
+        };
+        if reach.healing > 0.0 {
+            let limits = Gaps {
+                of_body: &self.gaps(reach),
+                share_of_edge: reach.share_of_edge(),
+            };
+            let outcome = snapped(&self.outlines, limits, &self.fixed, NOISE);
+            (closed.outlines, closed.kept) = (outcome.bodies, outcome.kept);
+        }
+        closed
+    }
+
+    /// Step 3: brings together what noise holds apart, if [`NOISY`] says that there is noise.
+    fn without_noise<'d>(&self, closed: Closed<'d>) -> Closed<'d> {
+        let usual = closed.reach.usual;
+        if usual <= closed.reach.healing {
+            return closed;
+        }
+        let reach = HealingReach {
+            source: ToleranceSource::Noise,
+            usual,
+            healing: usual,
+        };
+        let gaps = self.gaps(reach);
+        let outcome = snapped(&closed.outlines, Gaps::new(&gaps), &self.fixed, NOISE);
+        let all: usize = self.outlines.iter().flatten().map(Vec::len).sum();
+        let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
+        let (share, least) = NOISY;
+        if moved < least || (moved as f64) < share * all as f64 {
+            return closed;
+        }
+        Closed {
+            kept: outcome.kept,
+            outlines: Cow::Owned(outcome.bodies.into_owned()),
+            reach,
+        }
+    }
+
+    /// Step 4: what moved, and the new outlines of the bodies that changed, by number.
+    fn changes<'c>(&self, closed: &'c Closed<'_>) -> (Healed, BTreeMap<usize, &'c Rings>) {
+        let reach = closed.reach;
+        let mut healed = Healed {
+            source: reach.source,
+            within: reach.healing,
+            kept: closed.kept.len(),
+            first_kept: closed.kept.first().map(|body| self.body(*body)),
+            ..Healed::default()
+        };
+        let mut changed = BTreeMap::new();
+        let new = match &closed.outlines {
+            Cow::Borrowed(_) => &[][..],
+            Cow::Owned(new) => new,
+        };
+        let bodies = self.numbers.iter().zip(&self.outlines).zip(&self.sizes);
+        for (((number, old), size), new) in bodies.zip(new) {
+            let corners = old.iter().flatten().zip(new.iter().flatten());
+            // Less than a millionth of the gap is the rounding of numbers.
+            let rounding = 1e-6 * reach.healing_of(*size);
+            let moves = corners.map(|(a, b)| (b.at - a.at).norm());
+            let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
+            if moves.is_empty() {
+                continue;
+            }
+            healed.bodies += 1;
+            healed.corners += moves.len();
+            healed.distance = moves.into_iter().fold(healed.distance, f64::max);
+            changed.insert(*number, new);
+        }
+        (healed, changed)
+    }
 }
 
 /// The sound bodies, the ground's parts first, with their numbers among all.
@@ -287,6 +371,7 @@ impl Scene {
             corners,
             distance,
             kept,
+            first_kept,
             ..
         } = self.healed;
         let gap = self.tolerance.gap;
@@ -306,9 +391,17 @@ impl Scene {
                 "; {corners} {corner} of {bodies} {of} moved onto what they touch, by up to {distance:.1e} m"
             );
         }
-        if kept > 0 {
+        if let Some(body) = first_kept {
+            let (name, bounds) = (self.name(body), self.body(body).polygon.bounds());
+            let (least, most) = (bounds.min, bounds.max);
+            let more = match kept {
+                1 => String::new(),
+                n => format!(" and {} more", n - 1),
+            };
             words += &format!(
-                "; {kept} stayed as written, because moved they would lie deeper in others"
+                "; {name} (from {:.4}, {:.4} to {:.4}, {:.4}){more} stayed as written: moved it would lose its shape or lie \
+                 deeper in others",
+                least.x, least.y, most.x, most.y
             );
         }
         Some(words)

@@ -39,8 +39,9 @@ pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
 pub use problem::{Code, Place, Problem, SceneError};
-pub use sketch::{Sketch, SketchedBody, Spot};
-pub use starter::starter;
+pub use resolution::SketchedBody;
+pub use sketch::{Sketch, Spot};
+pub use starter::{falling_starter, starter};
 
 #[doc(inline)]
 pub use crate::geometry::{
@@ -52,6 +53,12 @@ pub use crate::geometry::{
 pub struct Scene {
     /// Title, empty where the file gives none.
     pub(crate) title: String,
+    /// Author of the calculation, empty where the file gives none.
+    pub(crate) author: String,
+    /// Project that the structure belongs to, empty where the file gives none.
+    pub(crate) project: String,
+    /// Date of the calculation as written in the file, empty where the file gives none.
+    pub(crate) date: String,
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
     pub(crate) gravity: Vector,
     /// How thick the structure is, metres, across the plane.
@@ -99,6 +106,21 @@ impl Scene {
     /// Title, empty where the file gives none.
     pub fn title(&self) -> &str {
         &self.title
+    }
+
+    /// Author of the calculation, empty where the file gives none.
+    pub fn author(&self) -> &str {
+        &self.author
+    }
+
+    /// Project that the structure belongs to, empty where the file gives none.
+    pub fn project(&self) -> &str {
+        &self.project
+    }
+
+    /// Date of the calculation as written in the file, empty where the file gives none.
+    pub fn date(&self) -> &str {
+        &self.date
     }
 
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.

@@ -1,4 +1,4 @@
-//! [`Names`]: what goes by which name, and the nearest known name where one is unknown.
+//! [`Names`]: finds the number of a name, and the most similar name for an unknown one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use super::format::Map;
 use super::path::Trail;
 use super::problem;
 
-/// Notes the keys of an object that stand twice. A file's were noted when it was read, and are not there any more.
+/// Reports keys that occur twice in an object made in code. For a file, the reader has already reported them.
 pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
     let mut seen = BTreeSet::new();
     for (name, _) in &map.0 {
@@ -28,7 +28,7 @@ pub(super) struct Names<'f> {
 }
 
 impl<'f> Names<'f> {
-    /// Names in order; of a name given twice the first counts.
+    /// A table of names in the order of the list. If a name occurs twice, its first number counts.
     pub(super) fn new(sort: &'static str, list: Vec<&'f str>, incomplete: bool) -> Names<'f> {
         let mut numbers = BTreeMap::new();
         for (i, name) in list.iter().enumerate() {
@@ -42,42 +42,50 @@ impl<'f> Names<'f> {
         }
     }
 
-    /// The name with a number.
+    /// The name with this number.
     pub(super) fn name(&self, number: usize) -> &'f str {
         self.list[number]
     }
 
-    /// The number of a name, if it is known.
+    /// The number of a name; `None` if the name is unknown.
     pub(super) fn get(&self, name: &str) -> Option<usize> {
         self.numbers.get(name).copied()
     }
 
-    /// The number of a name that stands as a value; an unknown one is noted.
+    /// The number of a name that is a value. Reports an unknown name.
     pub(super) fn find(
         &self,
         findings: &mut Findings,
         at: &Trail<'_>,
         name: &str,
     ) -> Option<usize> {
-        let number = self.get(name);
-        if number.is_none() && !self.incomplete {
-            let wording = self.unknown(findings, name);
-            findings.add(at, wording);
-        }
-        number
+        self.find_or(findings, name, |findings, wording| {
+            findings.add(at, wording)
+        })
     }
 
-    /// The number of a name that stands as a key; an unknown one is noted.
+    /// The number of a name that is a key. Reports an unknown name.
     pub(super) fn find_key(
         &self,
         findings: &mut Findings,
         at: &Trail<'_>,
         name: &str,
     ) -> Option<usize> {
+        self.find_or(findings, name, |findings, wording| {
+            findings.add_key(at, wording)
+        })
+    }
+
+    fn find_or(
+        &self,
+        findings: &mut Findings,
+        name: &str,
+        report: impl FnOnce(&mut Findings, problem::Wording),
+    ) -> Option<usize> {
         let number = self.get(name);
         if number.is_none() && !self.incomplete {
             let wording = self.unknown(findings, name);
-            findings.add_key(at, wording);
+            report(findings, wording);
         }
         number
     }

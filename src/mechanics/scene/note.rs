@@ -1,4 +1,4 @@
-//! [`Note`]: what is allowed in a scene, and is seldom meant.
+//! [`Note`]: something that a scene may contain but that its author probably did not intend.
 //!
 //! A note is no problem: the scene is examined as it is written. Each can be silenced by its code, in the scene's
 //! `silence`.
@@ -24,7 +24,7 @@ codes! {
     LoadOutside "load_outside" "a load that acts outside its block",
     UnusedRobot "unused_robot" "a robot that never holds or plans a block",
     UnusedBlock "unused_block" "a block that no step places or plans",
-    DefaultDensity "default_density" "blocks of the default density, 1 kg/m³, beside loads or limits in newtons",
+    DefaultDensity "default_density" "blocks whose weight comes from the default density, 1 kg/m³",
     NoGround "no_ground" "a scene without ground",
     NearMiss "near_miss" "edges that nearly touch, with a gap of up to 1 % of a block",
     AngleRadians "angle_radians" "an angle that is a multiple of 15°, up to a full turn, in radians with three decimals or more",
@@ -47,14 +47,14 @@ pub struct Note {
 }
 
 impl NoteCode {
-    /// The code behind a word.
+    /// The code with this word; `None` for an unknown word.
     pub fn named(word: &str) -> Option<NoteCode> {
         NoteCode::ALL.iter().copied().find(|c| c.word() == word)
     }
 }
 
 impl Note {
-    /// A note, with the way to silence it added to its hint.
+    /// A note. The hint also says how to silence it.
     fn new(code: NoteCode, path: String, line: usize, message: &str, hint: &str) -> Note {
         Note {
             code,
@@ -69,7 +69,7 @@ impl Note {
 }
 
 impl Scene {
-    /// A note about a body, in its line of the file.
+    /// A note about a body, with its line in the file.
     pub(crate) fn note(&self, code: NoteCode, body: BodyId, message: &str, hint: &str) -> Note {
         let (list, lines, number) = match body {
             BodyId::Ground(i) => ("ground", &self.lines.ground, i),
@@ -79,7 +79,7 @@ impl Scene {
         Note::new(code, format!("{list}[{number}]"), line, message, hint)
     }
 
-    /// Whether the author does not want notes of a sort.
+    /// Whether the scene silences notes with this code.
     pub(crate) fn silences(&self, code: NoteCode) -> bool {
         self.silenced.contains(&code)
     }
@@ -93,7 +93,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Of the file that a scene was read from.
+    /// The line numbers of the entries of the scene file.
     pub(super) fn new(source: &Source<'_>) -> Lines {
         let list = |key| {
             let starts = source.starts(key);
@@ -106,7 +106,7 @@ impl Lines {
     }
 }
 
-/// The notes of a scene that was read without problems; near misses are found where contacts are.
+/// The notes on a scene that was read without problems. Near misses are added later, when contacts are found.
 pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
     let mut notes = Notes {
         list: Vec::new(),
@@ -276,14 +276,15 @@ impl Notes<'_> {
         let is_limited = |limits: &super::Limits| {
             limits.fx.is_finite() || limits.fy.is_finite() || limits.torque > 0.0
         };
-        let beside = match (&self.scene.loads[..], &self.scene.robots) {
-            ([_, ..], _) => "loads",
-            (_, robots) if robots.iter().any(|r| is_limited(&r.limits)) => "limits",
-            _ => return,
-        };
-        if file.density.is_some() {
+        let gravity = file.gravity.unwrap_or([0.0, -9.81]);
+        if file.density.is_some() || gravity == [0.0, 0.0] {
             return;
         }
+        let beside = match (&self.scene.loads[..], &self.scene.robots) {
+            ([_, ..], _) => Some("loads"),
+            (_, robots) if robots.iter().any(|r| is_limited(&r.limits)) => Some("limits"),
+            _ => None,
+        };
         let has_density =
             |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
         let light: Vec<usize> = (file.blocks.iter().enumerate())
@@ -303,8 +304,8 @@ impl Notes<'_> {
     }
 }
 
-/// The multiple of 15° that an angle is if it was meant in radians: one of at most a full turn, off by no more than its third
-/// decimal, that is not written in whole hundredths as degrees are.
+/// The multiple of 15° to which an angle was probably converted in radians. The angle is at most a full turn, agrees to
+/// three decimals, and is not written in whole hundredths, as angles in degrees are.
 fn in_degrees(angle: f64) -> Option<f64> {
     let step = std::f64::consts::PI / 12.0;
     let count = (angle / step).round();
@@ -313,7 +314,7 @@ fn in_degrees(angle: f64) -> Option<f64> {
     (fits && !in_hundredths).then_some(15.0 * count)
 }
 
-/// How far a point lies outside an outline, metres; `None` where it lies inside, or within the gap of it.
+/// The distance of a point from an outline, in metres; `None` if the point is inside, or outside by at most `gap`.
 fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
     let point = Point::new(at[0], at[1]);
     if polygon.contains(point) {
@@ -326,7 +327,7 @@ fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
             (point - (edge.from + along * share.clamp(0.0, 1.0))).norm()
         })
         .fold(f64::INFINITY, f64::min);
-    // A point on the boundary, written with the digits of a float, is not outside.
+    // A point on the boundary may be outside by the rounding error of a float.
     let noise = 1e-9 * polygon.bounds().diagonal();
     (distance > gap.max(noise)).then_some(distance)
 }

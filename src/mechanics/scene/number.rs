@@ -1,4 +1,5 @@
-//! Which numbers a scene may hold: finite, neither absurdly large nor absurdly small, and not negative where that makes no sense.
+//! The allowed numbers of a scene: finite, within ±10¹², not tiny without being 0, and not negative where a negative number
+//! makes no sense.
 
 use super::finding::Findings;
 use super::path::Trail;
@@ -14,7 +15,7 @@ pub(super) const SMALLEST: f64 = 1e-30;
 /// Smallest extent of a body or a cell, in metres: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
-/// Whether all of some numbers are finite and within reason; notes the first that is not.
+/// Whether all numbers are finite and within ±10¹². Reports the first one that is not.
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {
@@ -29,7 +30,8 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
     true
 }
 
-/// Whether an amount, or the components of one, are sane and either 0 or not too small to reckon with.
+/// Whether an amount, or each component of a vector, is in the allowed range, and either 0 or not too small to calculate
+/// with. Reports the first one that is not.
 pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     if !is_sane(findings, at, numbers) {
         return false;
@@ -42,7 +44,7 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     true
 }
 
-/// An optional number of an entry that has to be sane and at least 0; `None` where it is absent or wrong.
+/// An optional number of an entry that must be at least 0; `None` if it is absent or not allowed.
 pub(super) fn at_least_zero(
     findings: &mut Findings,
     entry: &Trail<'_>,

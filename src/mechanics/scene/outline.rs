@@ -1,4 +1,4 @@
-//! [`Outline`]: what a body or a shape is, about its own origin, and where it goes.
+//! [`Outline`]: the shape of a body about its own origin, and its position in the scene.
 
 use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
@@ -21,7 +21,7 @@ pub(super) enum Outline {
     Cells(Vec<Cell>),
 }
 
-/// A sound polygon from an entry's corners, or every flaw noted.
+/// A valid polygon from the corners of an entry. Reports all its problems and returns `None` if it is not valid.
 pub(super) fn polygon(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -60,7 +60,7 @@ pub(super) fn polygon(
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));
             }
-            // An area so small that a float cannot hold it.
+            // The area is too small for a float.
             vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,
@@ -123,7 +123,7 @@ fn note(
     }
 }
 
-/// A sound set of cells from an entry, or everything that is wrong with it noted.
+/// A valid set of cells from an entry. Reports all its problems and returns `None` if it is not valid.
 pub(super) fn cells(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -184,7 +184,7 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
-/// Whole lattice coordinates within reach, or what is wrong with them noted.
+/// A lattice point with whole coordinates in the allowed range. Reports any problem.
 fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;
@@ -200,7 +200,7 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
     Some((pair[0] as i64, pair[1] as i64))
 }
 
-/// A body in its place: turned about its origin, then moved.
+/// The outline in its position: turned about its origin, then moved.
 ///
 /// `at` is a lattice point where the scene has a lattice, and has to be whole, and the turn one of the lattice's own,
 /// where the body is made of cells.

@@ -1,4 +1,4 @@
-//! [`Path`]: where in a scene file something stands, as `blocks[3].polygon[1]`.
+//! [`Path`]: the place of a value in a scene file, such as `blocks[3].polygon[1]`.
 //!
 //! A [`Trail`] is the same while walking: it borrows its way up, so that a sound file costs no allocation.
 
@@ -29,24 +29,29 @@ pub(super) enum Trail<'a> {
 }
 
 impl Path {
-    /// Whether this path is `other` or lies inside it.
+    /// Whether this path equals `other` or lies inside it.
     pub(super) fn starts_with(&self, other: &[Segment]) -> bool {
         self.0.starts_with(other)
     }
 }
 
 impl<'a> Trail<'a> {
-    /// One step down, to a key.
+    /// The path of a key inside this object.
     pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
         Trail::Key(self, name)
     }
 
-    /// One step down, to an entry.
+    /// The path of an entry inside this list.
     pub(super) fn index(&'a self, number: usize) -> Trail<'a> {
         Trail::Index(self, number)
     }
 
-    /// The same place, kept.
+    /// Whether the place is the value of a key with this name.
+    pub(super) fn ends_in(&self, name: &str) -> bool {
+        matches!(self, Trail::Key(_, key) if *key == name)
+    }
+
+    /// The path as an owned value.
     pub(super) fn path(&self) -> Path {
         let mut segments = Vec::new();
         let mut here = self;
@@ -82,7 +87,7 @@ impl fmt::Display for Path {
     }
 }
 
-/// Whether a key can follow a dot without being mistaken for something else.
+/// Whether a key can be written after a dot without ambiguity.
 fn is_plain(key: &str) -> bool {
     !key.is_empty()
         && key

@@ -41,17 +41,18 @@ impl StepContext<'_> {
     }
 }
 
-/// The one frame of a scene without steps: every block stands, each robot holds its own.
+/// The only frame of a scene without steps: all blocks stand, and each robot holds its block.
 pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),
         placed: (0..blocks).map(BlockId).collect(),
         holds,
         plans: Vec::new(),
+        expected: None,
     }
 }
 
-/// One frame per step.
+/// The frames of some steps, one for each step.
 pub(super) fn frames(
     findings: &mut Findings,
     steps: &[StepEntry],
@@ -144,6 +145,7 @@ impl Standing {
                 })
                 .collect(),
             plans,
+            expected: step.expect,
         }
     }
 

@@ -1,6 +1,6 @@
-//! [`Problem`]: every way a scene is wrong, in words.
+//! [`Problem`]: a problem of a scene file with its message.
 //!
-//! All sentences of the room stand in the files below this one, one function each: what was found, and what to do
+//! All sentences of the scene module are in the files of this folder, one function for each: what was found, and what to do
 //! about it.
 
 mod code;
@@ -19,7 +19,6 @@ pub use code::Code;
 pub(super) use code::codes;
 
 use super::BodyId;
-use super::finding::Finding;
 use super::source::Source;
 use crate::geometry::Point;
 
@@ -66,23 +65,7 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// Findings with their places in a text, sorted by place.
-    pub(super) fn place(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
-        let mut list: Vec<Problem> = findings
-            .into_iter()
-            .map(|finding| {
-                let span = source.and_then(|s| s.find(&finding.path, finding.mark));
-                Problem::new(finding.path.to_string(), span, source, finding.wording)
-            })
-            .collect();
-        list.sort_by_key(|p| p.span.as_ref().map(|s| s.start));
-        SceneError {
-            text: source.map(|s| s.text.to_string()),
-            list,
-        }
-    }
-
-    /// A single problem of the text itself.
+    /// An error with a single problem of the text itself.
     pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
         let problem = Problem::new(String::new(), Some(span), Some(source), wording);
         SceneError {
@@ -93,7 +76,8 @@ impl SceneError {
 }
 
 impl Problem {
-    fn new(
+    /// A problem at a place of the text, or without one.
+    pub(super) fn new(
         path: String,
         span: Option<Range<usize>>,
         source: Option<&Source<'_>>,
@@ -158,7 +142,7 @@ pub(super) struct Wording {
 }
 
 impl Wording {
-    /// The same, with its place in the structure.
+    /// The same message with a place in the structure, in metres.
     pub(super) fn at(self, place: Place) -> Wording {
         Wording {
             place: Some(place),
@@ -166,14 +150,14 @@ impl Wording {
         }
     }
 
-    /// What is wrong, and what to do about it.
+    /// The message and the hint.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
     }
 }
 
 fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
-    // Names and pieces of the file are quoted in these sentences; a line break in one would begin a sentence of its own.
+    // Names and parts of the file are quoted in messages. A line break in them must not begin a new line.
     Wording {
         code,
         message: crate::text::line(&message.into()),
@@ -182,7 +166,7 @@ fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wordi
     }
 }
 
-/// A number as a person writes it: six digits, powers of ten where it is very large or small.
+/// A number for messages: six digits, with a power of ten if it is very large or small.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
@@ -211,7 +195,7 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
-/// A text cut to what fits into a sentence.
+/// A text that is shortened to fit into a sentence.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_string()

@@ -10,7 +10,7 @@ mod value;
 pub(super) use self::object::KEYS;
 use self::value::Reader;
 use super::Scene;
-use super::finding::{Finding, UnreadParts};
+use super::finding::{self, Finding, UnreadParts};
 use super::format::SceneFile;
 use super::note::{self, Lines};
 use super::problem::SceneError;
@@ -40,7 +40,7 @@ impl Scene {
         Scene::from_json_within(text, None)
     }
 
-    /// Reads and checks a scene file, with a contact tolerance (metres, at least 0) in place of the file's own.
+    /// Reads and checks a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of the file.
     ///
     /// # Errors
     /// As [`Scene::from_json`].
@@ -58,10 +58,10 @@ impl Scene {
             Ok(_) => findings,
             Err(more) => findings.into_iter().chain(more).collect(),
         };
-        Err(SceneError::place(all, Some(&source)))
+        Err(finding::located(all, Some(&source)))
     }
 
-    /// Reads and checks a scene file as it lies on a disk.
+    /// Reads and checks the bytes of a scene file.
     ///
     /// # Errors
     /// As [`Scene::from_json`], and bytes that are no UTF-8.
@@ -69,8 +69,8 @@ impl Scene {
         Scene::from_slice_within(bytes, None)
     }
 
-    /// Reads and checks a scene file as it lies on a disk, with a contact tolerance (metres, at least 0) in place of the
-    /// file's own.
+    /// Reads and checks the bytes of a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of the
+    /// file.
     ///
     /// # Errors
     /// As [`Scene::from_slice`].
@@ -82,8 +82,8 @@ impl Scene {
         }
     }
 
-    /// A scene made in code begins here: methods with the names of the file's keys, and
-    /// [`build`](SceneFile::build) at the end.
+    /// Starts a scene in code. The methods have the names of the keys of the scene file, and [`build`](SceneFile::build)
+    /// finishes the scene.
     ///
     /// # Example
     /// ```
@@ -113,7 +113,7 @@ impl Scene {
         SceneFile::default()
     }
 
-    /// Checks a scene made in code.
+    /// Checks a scene that was made in code.
     ///
     /// # Errors
     /// Everything that is wrong with it, each with its path.
@@ -127,13 +127,13 @@ impl Scene {
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, SceneError> {
         let mut scene = resolve(&file, UnreadParts::default())
-            .map_err(|findings| SceneError::place(findings, None))?;
+            .map_err(|findings| finding::located(findings, None))?;
         scene.notes = note::of(&file, &scene, None);
         Ok(scene)
     }
 }
 
-/// The scene file that a syntax tree holds, all that does not fit, and where that is.
+/// Reads the scene file from a syntax tree. Also returns all problems, and the parts that could not be read.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
     let mut reader = Reader::new(source);
     let file = match &source.tree {
@@ -160,7 +160,7 @@ mod tests {
         findings.is_empty().then_some(file)
     }
 
-    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "gravity": [1, -2], "friction": 0.5, "kernel": 0,
+    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "author": "A. Mason", "project": "Mill Lane", "date": "2026-11-23", "gravity": [1, -2], "friction": 0.5, "kernel": 0,
         "density": 2, "thickness": 3, "materials": { "oak": { "density": 700, "friction": 0.1, "fill": "#123" }, "b": {} },
         "friction_pairs": [{ "between": ["oak", "b"], "friction": 1e-3 }], "grid": { "kind": "square", "side": 2 },
         "shapes": { "s": { "polygon": [[0, 0], [1, 0], [1, 1]], "holes": [[[0.1, 0.1]]] }, "t": { "cells": [[0, 1]] } },

@@ -1,4 +1,4 @@
-//! How far the coordinates of a file may be off, judged by how they are written.
+//! Estimates the rounding error of coordinates from the digits in the file.
 //!
 //! Only the digits count here: a file whose coordinates mostly end at the same decimal was rounded there, one whose
 //! numbers are all 32-bit floats came through such floats. Where nothing of the kind shows, nothing is claimed.
@@ -26,7 +26,7 @@ pub(super) struct Rounding {
     pub(super) error: f64,
 }
 
-/// The rounding a file's coordinates show, `None` where they are given in full.
+/// The rounding of the coordinates in a file; `None` if they seem to have all their digits.
 pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     let mut digits = Digits::default();
     let mut reach = 0.0_f64;
@@ -44,14 +44,15 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     for (polygon, holes, at, angle) in entries {
         ring(polygon.as_deref().unwrap_or_default());
         holes.iter().for_each(|hole| ring(hole));
-        // Places on a lattice are counted in steps and seldom rounded.
+        // Lattice positions are whole steps and seldom rounded.
         if file.grid.is_none() {
             ring(at.as_slice());
         }
         turns.take(angle.unwrap_or(0.0));
     }
     let mut found = digits.rounding()?;
-    // Coordinates with three decimals may come with angles in whole degrees; an angle with more decimals was rounded itself.
+    // Coordinates with three decimals may come with angles in whole degrees. An angle with more decimals was rounded
+    // itself.
     if let Some(k) = (turns.decimals.last(SHARE, turns.count)).filter(|k| *k >= 3) {
         found.error += (0.5 * power(k)).to_radians() * reach;
     }
@@ -74,8 +75,8 @@ struct Digits {
     narrow: String,
 }
 
-/// How many significant digits a number has when it is written as shortly as may be, and how many of them stand behind the
-/// point; negative where zeros stand before it. `None` where that takes writing it.
+/// The number of significant digits in the shortest notation of a number, and the number of digits after the decimal point
+/// (negative for trailing zeros before the point). `None` if the number has to be printed to find out.
 ///
 /// Of all decimals of at most 15 digits no two are next to the same double. So the one that is found is the shortest.
 fn few_digits(x: f64) -> Option<(usize, i64)> {
@@ -101,7 +102,7 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
 /// Writes a number with the fewest digits that identify it.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
-    // A string takes everything.
+    // Writing to a `String` cannot fail.
     let _ = write!(text, "{x:e}");
 }
 
@@ -118,7 +119,7 @@ impl Table {
         self.0[digits.min(MOST - 1)] += 1;
     }
 
-    /// The largest number of digits, where at least a share of `count` numbers have as many.
+    /// The largest number of digits that at least a share of `count` numbers have.
     fn last(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;
@@ -131,7 +132,7 @@ impl Table {
 }
 
 impl Digits {
-    /// Zeros are left out: they are exact in every notation.
+    /// Skip zeros: they are exact in every notation.
     fn take(&mut self, x: f64) {
         if x == 0.0 || !x.is_finite() {
             return;
@@ -147,7 +148,7 @@ impl Digits {
             .add(usize::try_from(behind.max(0)).unwrap_or(MOST));
         self.significant.add(digits);
         let narrow = x as f32;
-        // Every number of six digits is the shortest way to write some 32-bit float.
+        // Every number with at most six digits is the shortest notation of some 32-bit float.
         if !self.wide && digits > 6 && f64::from(narrow) != x {
             write_shortly(&mut self.text, x);
             write_shortly(&mut self.narrow, narrow);
@@ -170,12 +171,13 @@ impl Digits {
             }
             return Some(found);
         }
-        // Any number of seven digits is a 32-bit float written shortly; numbers of eight hardly ever all are by chance.
+        // Every number with seven digits is the shortest notation of some 32-bit float. Numbers with eight digits are very
+        // unlikely to be so by chance.
         let long = self.significant.at_least(7) as f64 >= SHARE * self.count as f64;
         if !self.wide && long && self.significant.at_least(8) > 0 {
             return Some(Rounding {
                 source: ToleranceSource::Float32,
-                // As much again for what was computed in such floats before.
+                // Twice the error: the coordinates may have been computed from other 32-bit floats.
                 error: 2.0 * float,
             });
         }
@@ -193,7 +195,7 @@ impl Digits {
     }
 }
 
-/// 10 to the power −k.
+/// The power 10⁻ᵏ.
 fn power(k: usize) -> f64 {
     libm::pow(10.0, -(k as f64))
 }

@@ -1,4 +1,4 @@
-//! The shapes the triangular lattice knows by name, as sets of cells.
+//! The built-in shapes of the triangular lattice as sets of cells.
 //!
 //! Each is a set of whole cells about an origin that is a lattice point, so that it can be turned by 60° and moved by
 //! lattice steps without leaving the lattice. The links' centroids are no lattice points; their origins are corners.
@@ -20,7 +20,7 @@ const DOWN: CellShape = CellShape::Down;
 /// The names of the built-in shapes.
 pub const BUILT_IN: [&str; 6] = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
 
-/// The cells of a built-in shape of the triangular lattice, about its origin.
+/// The cells of a built-in shape about its origin; `None` for an unknown name.
 ///
 /// `None` for any other name.
 ///

@@ -1,12 +1,12 @@
-//! [`Sketch`]: what can be drawn of a scene file, sound or refused, and where its problems lie.
+//! [`Sketch`]: the drawable parts of a valid or refused scene file, and the places of its problems.
 //!
 //! Nothing here may be examined: outlines may cross, and bodies may lie in each other.
 
 use super::problem::{Place, SceneError};
-use super::resolution::sketch;
+use super::resolution::{self, SketchedBody};
 use super::source::Source;
 use super::{BlockId, BodyId, Scene, reading};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point};
 
 /// The outlines of a scene file, and its problems.
 #[derive(Clone, Debug)]
@@ -24,19 +24,6 @@ pub struct Sketch {
     pub(crate) scene: Option<Scene>,
 }
 
-/// A body as it is written, in its place.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct SketchedBody {
-    /// Which body.
-    pub id: BodyId,
-    /// A block's id, or `ground[2]`.
-    pub name: String,
-    /// Its outline and holes in metres; they may cross, and have any number of corners.
-    pub rings: Vec<Vec<Point>>,
-    pub(super) placement: Placement,
-}
-
 /// Where a problem lies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -47,26 +34,8 @@ pub struct Spot {
     pub bodies: Vec<BodyId>,
 }
 
-/// How a body is put into its place: turned about its origin, then moved.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
-    pub(super) by: Vector,
-    pub(super) sin: f64,
-    pub(super) cos: f64,
-}
-
-impl Placement {
-    pub(super) fn place(&self, p: Point) -> Point {
-        let turned = Vector::new(
-            p.x * self.cos - p.y * self.sin,
-            p.x * self.sin + p.y * self.cos,
-        );
-        Point::from(turned + self.by)
-    }
-}
-
 impl Sketch {
-    /// Sketches a scene file as it lies on a disk, with a contact tolerance (metres) in place of its own.
+    /// Sketches the bytes of a scene file. A contact tolerance (metres) replaces the tolerance of the file.
     ///
     /// # Example
     /// ```
@@ -91,7 +60,7 @@ impl Sketch {
         if let Ok(source) = Source::parse(&text) {
             let (mut file, _, doubt) = reading::read(&source);
             file.contact_tolerance = tolerance.or(file.contact_tolerance);
-            (sketch.bodies, sketch.scene) = sketch::sketch(&file, doubt);
+            (sketch.bodies, sketch.scene) = resolution::sketch(&file, doubt);
             sketch.title = file.title.unwrap_or_default();
         }
         sketch.places = (sketch.problems.list.iter())
@@ -100,7 +69,7 @@ impl Sketch {
         sketch
     }
 
-    /// The body of an id, where it can be drawn.
+    /// The body with an id, if it can be drawn.
     pub fn body(&self, id: BodyId) -> Option<&SketchedBody> {
         self.bodies.iter().find(|body| body.id == id)
     }
@@ -127,7 +96,7 @@ impl Sketch {
     }
 }
 
-/// The body that a path such as `blocks[3].polygon[1]` leads into.
+/// The body that contains the value at a path such as `blocks[3].polygon[1]`.
 fn body_of(path: &str) -> Option<BodyId> {
     let (list, rest) = path.split_once('[')?;
     let number = rest.split_once(']')?.0.parse().ok()?;

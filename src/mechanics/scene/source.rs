@@ -1,4 +1,4 @@
-//! [`Source`]: the text of a scene file with every value's place in it.
+//! [`Source`]: the text of a scene file with the place of every value.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// A text with its values' places, or where it is no JSON.
+    /// Parses a text. The error gives the place at which the text is not JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {
@@ -34,7 +34,7 @@ impl<'t> Source<'t> {
         })
     }
 
-    /// Any text, without values.
+    /// A text without values, for messages about text that is not JSON.
     pub(super) fn plain(text: &'t str) -> Source<'t> {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1)).collect();
@@ -45,7 +45,7 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// Line and column of a byte, both from 1, the column in characters.
+    /// The line and column of a byte, counted from 1. The column counts characters.
     pub(super) fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.line(byte);
         let start = self.lines[line - 1];
@@ -53,12 +53,12 @@ impl<'t> Source<'t> {
         (line, before.chars().count() + 1)
     }
 
-    /// Line of a byte, from 1.
+    /// The line of a byte, counted from 1.
     pub(super) fn line(&self, byte: usize) -> usize {
         self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
-    /// The first bytes of the entries of a list at the top.
+    /// The first byte of each entry of a top-level list.
     pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
         let items = self.tree.as_ref().and_then(|tree| {
             let NodeKind::Object(top) = &tree.root.kind else {
@@ -73,7 +73,8 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// Where a path leads, or as far along it as the text goes; the first line of it.
+    /// The place of the value with this path: its first line. If the text does not contain the whole path, the place of the
+    /// deepest part that it contains.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
@@ -82,7 +83,7 @@ impl<'t> Source<'t> {
                 (Segment::Index(number), NodeKind::List(list)) => tree.items(list).get(*number),
                 (Segment::Key(key), NodeKind::Object(object)) => {
                     let entries = tree.entries(object);
-                    // Of a key given twice the second is the one to point at.
+                    // Of two equal keys mark the second.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
                     let entry = if last {
@@ -105,7 +106,7 @@ impl<'t> Source<'t> {
         Some(self.first_line(node.range.clone()))
     }
 
-    /// What of a range stands on its first line: a whole block over twenty lines would drown what is said about it.
+    /// The part of a range on its first line. Marking a block of twenty lines would hide the message.
     fn first_line(&self, range: Range<usize>) -> Range<usize> {
         let text = self.text.get(range.clone()).unwrap_or("");
         let line = text.split('\n').next().unwrap_or("").trim_end();

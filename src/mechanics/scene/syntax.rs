@@ -1,4 +1,4 @@
-//! What is wrong with a text that is no JSON, in words that help.
+//! Messages about text that is not JSON.
 
 use std::ops::Range;
 
@@ -6,20 +6,20 @@ use super::problem::{self, SceneError, Wording};
 use super::source::Source;
 use super::tree::{SyntaxError, Why};
 
-/// The one problem of a text that is no JSON.
+/// The error for text that is not JSON.
 pub(super) fn problem(text: &str, fault: SyntaxError) -> SceneError {
     let source = Source::plain(text);
     let (span, wording) = explain(&source, fault);
     SceneError::of_text(&source, span, wording)
 }
 
-/// The one problem of bytes that are no text.
+/// The error for bytes that are not UTF-8.
 pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let text = String::from_utf8_lossy(bytes);
     let source = Source::plain(&text);
     let utf16 = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let byte = bytes.get(valid).copied().unwrap_or(0);
-    // The replacement character stands where the text breaks off; up to there text and bytes agree.
+    // The text ends with a replacement character at the invalid byte. Before it, text and bytes agree.
     SceneError::of_text(
         &source,
         one(&text, valid),
@@ -27,7 +27,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     )
 }
 
-/// The character at a byte.
+/// The range of the character at a byte.
 fn one(text: &str, byte: usize) -> Range<usize> {
     let length = text[byte..].chars().next().map_or(0, char::len_utf8);
     byte..byte + length
@@ -37,6 +37,9 @@ fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
     let text = source.text;
     if text.trim().is_empty() {
         return (0..0, problem::text::empty_text());
+    }
+    if let Some(line) = conflict(text) {
+        return (line, problem::text::conflict());
     }
     if let Some((line, format)) = other_format(text) {
         return (line, problem::text::other_format(format));
@@ -65,7 +68,7 @@ fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
     }
 }
 
-/// What to say where something else stands than JSON has there.
+/// The place and the message for an unexpected character.
 fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usize>, Wording) {
     let token = token(text, fault.at);
     if let Some(wording) = known_token(&text[token.clone()]) {
@@ -86,7 +89,15 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usiz
     (here, wording)
 }
 
-/// The first line that says something, where it is written as YAML, TOML or XML have it, and which of them.
+/// The first line that a version control system wrote to mark a conflict. Seven equal signs alone mark none.
+fn conflict(text: &str) -> Option<Range<usize>> {
+    let is_mark = |line: &&str| line.starts_with(['<', '>']) && crate::text::is_conflict_mark(line);
+    let line = text.lines().find(is_mark)?;
+    let start = line.as_ptr() as usize - text.as_ptr() as usize;
+    Some(start..start + line.len())
+}
+
+/// The first line that looks like YAML, TOML or XML, and the name of that format.
 fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     let line = text
         .split('\n')
@@ -124,7 +135,7 @@ fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     found.map(|range| (range, format))
 }
 
-/// What to say of words and numbers that other languages know.
+/// The message for a word or number of another language, such as `None` or `NaN`.
 fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {
@@ -146,7 +157,7 @@ fn known_token(found: &str) -> Option<Wording> {
     (digits && !sound).then(|| problem::text::odd_number(found))
 }
 
-/// The word or number that touches a byte.
+/// The range of the word or number around a byte.
 fn token(text: &str, byte: usize) -> Range<usize> {
     let part = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
     let length = |all: &mut dyn Iterator<Item = char>| all.map(char::len_utf8).sum::<usize>();

@@ -6,6 +6,8 @@
 //! Strict JSON (RFC 8259) and no more: what this file takes, serde_json takes, and the other way round; a test holds the
 //! two against each other. Reading ends at the first fault, of which [`SyntaxError`] says what was expected there.
 
+mod string;
+
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -23,7 +25,7 @@ pub(super) struct Tree<'t> {
 }
 
 impl<'t> Tree<'t> {
-    /// What stands in a list.
+    /// The entries of a list.
     pub(super) fn items(&self, list: &List) -> &[Node<'t>] {
         &self.items[list.0.clone()]
     }
@@ -324,96 +326,6 @@ impl<'t> Parser<'t> {
         let first = self.entries.len();
         self.entries.extend(self.loose_entries.drain(outer..));
         Ok(Object(first..self.entries.len()))
-    }
-
-    fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
-        let quote = self.at;
-        self.at += 1;
-        let mut start = self.at;
-        let mut resolved: Option<String> = None;
-        loop {
-            match self.peek() {
-                Some(b'"') => break,
-                Some(b'\\') => {
-                    let before = &self.text[start..self.at];
-                    let c = self.escape(quote)?;
-                    let text = resolved.get_or_insert_default();
-                    text.push_str(before);
-                    text.push(c);
-                    start = self.at;
-                }
-                Some(0..0x20) => return Err(self.fault(Why::Control(quote))),
-                Some(_) => self.at += 1,
-                None => return Err(self.cut(quote)),
-            }
-        }
-        let rest = &self.text[start..self.at];
-        self.at += 1;
-        Ok(match resolved {
-            None => Cow::Borrowed(rest),
-            Some(text) => Cow::Owned(text + rest),
-        })
-    }
-
-    /// The text ends within a string.
-    fn cut(&self, quote: usize) -> SyntaxError {
-        SyntaxError {
-            at: self.at,
-            why: Why::End(Some(('"', quote))),
-        }
-    }
-
-    fn escape(&mut self, quote: usize) -> Result<char, SyntaxError> {
-        let start = self.at;
-        let wrong = |why| SyntaxError { at: start, why };
-        self.at += 1;
-        let c = match self.peek() {
-            Some(b'"') => '"',
-            Some(b'\\') => '\\',
-            Some(b'/') => '/',
-            Some(b'b') => '\u{8}',
-            Some(b'f') => '\u{c}',
-            Some(b'n') => '\n',
-            Some(b'r') => '\r',
-            Some(b't') => '\t',
-            Some(b'u') => {
-                self.at += 1;
-                let first = self.hex(quote, start)?;
-                let is_first = (0xD800..0xDC00).contains(&first);
-                if is_first && self.bytes[self.at..].starts_with(b"\\u") {
-                    self.at += 2;
-                    let second = self.hex(quote, start)?;
-                    if !(0xDC00..0xE000).contains(&second) {
-                        return Err(wrong(Why::Surrogate));
-                    }
-                    let code = 0x10000 + ((first - 0xD800) << 10) + (second - 0xDC00);
-                    return char::from_u32(code).ok_or(wrong(Why::Surrogate));
-                }
-                return char::from_u32(first).ok_or(wrong(Why::Surrogate));
-            }
-            Some(_) => return Err(wrong(Why::Escape)),
-            None => return Err(self.cut(quote)),
-        };
-        self.at += 1;
-        Ok(c)
-    }
-
-    /// Four hexadecimal digits.
-    fn hex(&mut self, quote: usize, start: usize) -> Result<u32, SyntaxError> {
-        let mut code = 0;
-        for _ in 0..4 {
-            let digit = match self.peek() {
-                None => return Err(self.cut(quote)),
-                Some(c) => char::from(c).to_digit(16),
-            };
-            code = 16 * code
-                + digit.ok_or(SyntaxError {
-                    at: start,
-                    why: Why::Escape,
-                })?;
-            self.at += 1;
-        }
-        Ok(code)
     }
 }
 

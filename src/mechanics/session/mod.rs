@@ -69,7 +69,7 @@ struct Lookup {
 }
 
 impl Session {
-    /// Starts with a scene: ground, robots, shapes, materials, and the blocks that are placed already.
+    /// Starts a session with a scene: ground, robots, shapes, materials and the blocks that are already placed.
     ///
     /// # Errors
     /// If the scene is not valid, or has steps.

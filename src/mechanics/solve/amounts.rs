@@ -1,4 +1,5 @@
-//! [`Amounts`]: the forces of a program, by contact and grip; and [`Effort`].
+//! [`Amounts`], the forces of a program for each contact and grip; and [`Effort`], which counts programs and
+//! iterations.
 
 use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -7,7 +8,7 @@ use crate::program::{Force, Program};
 /// Amounts of the forces of a program, pure numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amounts {
-    /// Per contact: normal forces ≥ 0 at the two application points. Among sticking forces: pulls.
+    /// Per contact: the normal forces at its two application points, ≥ 0. In a list of sticking forces they are pulls.
     pub normal: Vec<[f64; 2]>,
     /// Per contact: friction along (−n_y, n_x).
     pub friction: Vec<f64>,
@@ -16,7 +17,7 @@ pub struct Amounts {
 }
 
 impl Amounts {
-    /// No force anywhere.
+    /// Zero for every force of a program.
     pub fn none(program: &Program) -> Amounts {
         Amounts {
             normal: vec![[0.0; 2]; program.contacts.len()],
@@ -25,7 +26,7 @@ impl Amounts {
         }
     }
 
-    /// Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L), the cost of the source.
+    /// The sum of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective of Vallat (2023).
     pub fn total(&self) -> f64 {
         let contacts: f64 = self
             .normal
@@ -37,9 +38,10 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
-    /// The largest entry of loads − Σ force, pure numbers: 0 where every block is balanced.
+    /// The largest entry of the residual loads − Σ force, a pure number: 0 if every block is balanced.
     pub fn unbalanced(&self, program: &Program) -> f64 {
         let mut residual = program.loads.clone();
+        // Subtracts a force and its moment from the three rows of a block.
         let mut act = |block: usize, force: Vector, moment: f64| {
             for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
                 residual[3 * block + row] -= value;
@@ -49,6 +51,7 @@ impl Amounts {
             let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
             let [first, second] = self.normal[k].map(|amount| normal * amount);
             let first = first + tangent * self.friction[k];
+            // The contact acts on one block and, with the opposite sign, on the other.
             let both = [(contact.on, 1.0)].into_iter();
             for ((block, arms), sign) in both.chain(contact.from.map(|from| (from, -1.0))) {
                 let moment = cross(arms[0], first) + cross(arms[1], second);
@@ -82,14 +85,14 @@ impl Amounts {
                 self.normal[contact][point] += normal * amount;
                 self.friction[contact] += friction * amount;
             }
-            Force::StickNormal { contact, point } => self.normal[contact][point] += amount,
-            Force::StickFriction { contact, sign } => self.friction[contact] += sign * amount,
+            Force::AdhesionNormal { contact, point } => self.normal[contact][point] += amount,
+            Force::AdhesionFriction { contact, sign } => self.friction[contact] += sign * amount,
             Force::Grip {
                 grip,
                 component,
                 sign,
             }
-            | Force::StickGrip {
+            | Force::AdhesionGrip {
                 grip,
                 component,
                 sign,
@@ -100,12 +103,12 @@ impl Amounts {
     }
 }
 
-/// How much work a result took.
+/// The amount of computation that a result needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// Interior-point iterations.
+    /// The number of interior-point iterations, over all programs.
     pub iterations: usize,
-    /// Programs solved.
+    /// The number of programs that were solved.
     pub programs: usize,
 }
 

@@ -1,26 +1,26 @@
-//! [`Answer`]: what a solver returns for a [`QuadraticProgram`] problem.
+//! [`Answer`]: the result that a solver returns for a [`QuadraticProgram`].
 
 use crate::program::QuadraticProgram;
 
-/// How a conic problem ended.
+/// The status with which a solver ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// x, s and z are an optimum.
     Solved,
     /// The rows contradict each other; z is a certificate (Aᵀz = 0, bᵀz < 0).
     Infeasible,
-    /// The objective has no bound; x is a direction along which it falls for ever.
+    /// The objective has no lower bound; x is a direction along which it decreases without end.
     Unbounded,
-    /// The solver gave up.
+    /// The solver ended without a result: too many iterations, the deadline, or numerical trouble.
     Unsolved,
 }
 
 /// The result of a solver.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// How it ended.
+    /// The status.
     pub status: Status,
-    /// The unknowns, or the direction of a certificate.
+    /// The unknowns; for an unbounded problem the direction of decrease.
     pub x: Vec<f64>,
     /// The multipliers of the rows.
     pub z: Vec<f64>,
@@ -31,7 +31,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The answer of a solver that gave up: zeros.
+    /// The answer of a solver that ended without a result: the status `Unsolved`, and zeros.
     pub(super) fn without_status(problem: &QuadraticProgram) -> Answer {
         Answer {
             status: Status::Unsolved,
@@ -42,7 +42,7 @@ impl Answer {
         }
     }
 
-    /// The same answer, as unsolved if a number in it is infinite or NaN.
+    /// The same answer, but with the status `Unsolved` if it contains an infinite number or NaN.
     pub(super) fn if_finite(self) -> Answer {
         let is_sound = [&self.x, &self.z, &self.s].map(|list| is_finite(list));
         Answer {

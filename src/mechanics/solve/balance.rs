@@ -1,13 +1,14 @@
-//! The program of least force: admissible forces of least sum that balance every block, or a motion that nothing opposes.
+//! The program of least force: finds admissible forces of least sum that balance every block, or a motion that no
+//! contact opposes.
 //!
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
 //! 1. solve the dual ([`Dual`]); an unbounded dual is the motion;
 //! 2. find the face of optima from the basic columns ([`Face::narrowed`]);
 //! 3. on the face, find the forces of least Σ force², which are unique;
-//! 4. accept them if they balance and cost as much as the optimum; else try the face of another margin.
+//! 4. accept them if they balance every block and cost as much as the optimum; otherwise try another margin for step 2.
 
-use super::level::{WIDE, lightest, refined_optimum, with_least_squares};
+use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
     Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
     balance_by_least_change, largest, least_squares_amounts, of_velocities, once_within,
@@ -18,59 +19,69 @@ use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 /// The result of the program of least force.
 #[derive(Clone, Debug)]
 pub struct Balance {
-    /// Forces that balance, if there are any.
+    /// Forces that balance every block, if there are any.
     pub forces: Option<Amounts>,
-    /// Else a motion along which the loads work and no contact does: three velocities for each block.
+    /// If there are none: a motion along which the loads do work and no contact does, three velocities for each block.
     pub motion: Option<Vec<f64>>,
-    /// With forces: a motion along which no force takes more work than it costs. Its power is a lower bound of their sum.
+    /// If there are forces: a motion along which no unit force takes more work than it costs. The loads' power along it
+    /// is a lower bound of the sum of forces.
     pub witness: Option<Vec<f64>>,
-    /// The work it took.
+    /// The number of programs and iterations that were needed.
     pub effort: Effort,
 }
 
-/// Margins of [`Dual::active`] that are tried for the face of optima.
+/// Margins of [`Dual::active`] that are tried in turn for the face of optima; pure numbers.
 ///
-/// The first is the plain rule. A column whose slack and amount are both nearly 0 may be in by chance, which shows in the
-/// cost: then a smaller margin helps. Near the limit of standing one may be out by chance, and nothing balances: then a larger
-/// one does.
+/// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
+/// the cost then differs, and a smaller margin helps. Near the limit of standing a column may be missing by mistake;
+/// then no forces balance, and a larger margin helps.
 const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 
-/// On the true face every balance has the same cost, up to the solver's digits. A larger relative difference means that
-/// there is a column too many. Ten times larger, such a column would be accepted; a tenth is the solver's own error.
+/// The largest relative difference of cost between the optimum and a balance on the face of optima.
+///
+/// On the true face every balance has the same cost, up to the solver's error. A larger difference shows that the face
+/// has a column too many. Ten times this tolerance would accept such a column; a tenth is within the solver's error.
 const COST_TOL: f64 = 2e-8;
 
-/// With very rough contacts the solver loses digits. Within this relative difference the cheapest balance is taken, which is
-/// nearer the truth than the solver's objective.
+/// The relative difference of cost up to which a balance is accepted if none meets [`COST_TOL`]; the cheapest one is
+/// taken.
+///
+/// With very high friction the solver loses digits, and the cost of a balance is then more accurate than its objective.
 const ROUGH_COST_TOL: f64 = 1e-6;
 
-/// The least squares may leave this unbalanced, relative to the largest load: half of what a proof allows.
+/// The residual that the least squares may leave, relative to the largest load: half of what a proof allows.
 const BALANCE_TOL: f64 = 5e-8;
 
-/// From this number of blocks on plain conditioning is given up early, and full conditioning is not tried.
+/// From this number of blocks, an attempt with plain conditioning stops early, and full conditioning is not tried.
 const MANY_BLOCKS: usize = 200;
 
-/// Iterations after which a program of many blocks is given up.
+/// The largest number of iterations for a program of many blocks.
 ///
-/// Walls of 400 to 2 000 bricks take 6 to 60 if they stand or fall by more than a thousandth. Nearer to the limit the least
-/// force ends without a status after 100, with either conditioning; the program without cost is solved in 30.
+/// Walls of 400 to 2 000 bricks take 6 to 60 iterations unless they are within a thousandth of their limit. Closer to
+/// the limit, least force ends without a status after 100 iterations with either conditioning, while the program
+/// without cost is solved in 30.
 const MAX_ITERATIONS_MANY: usize = 60;
 
-/// Iterations after which the first attempt at many blocks is given up.
+/// The largest number of iterations in the first attempt at a program of many blocks.
 ///
-/// Walls of 400 to 900 bricks take 6 if they stand upright and 7 to 9 if they fall by far; arches of 1 000 and 10 000 stones
-/// take 11 and 13. What takes more is near the limit, where the program without cost is solved in 12 to 20.
+/// Walls of 400 to 900 bricks take 6 iterations if they stand upright and 7 to 9 if they fall by far; arches of 1 000
+/// and 10 000 stones take 11 and 13. Structures that take more are near their limit. For these the program without
+/// cost, which is tried next, takes 12 to 20.
 const MAX_ITERATIONS_FIRST_LOOK: usize = 15;
 
-/// With many blocks, the program is solved to a finer tolerance if a larger share of the basic columns is doubtful.
+/// If more than this share of the basic columns is doubtful, a program of many blocks is solved again to a finer
+/// tolerance.
 ///
-/// In walls whose coordinates have 4 decimals thousands of columns have an amount and a slack of the same size, 10⁻⁴ of the
-/// others'. The faces found then have no balance, and the least squares take long to find that out.
+/// In walls whose coordinates have 4 decimals, thousands of columns have an amount and a slack of about the same size,
+/// 10⁻⁴ of the other amounts. The face of optima found from them has no balance, and least squares take long to show
+/// that.
 const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 
 /// The finer tolerance, as a fraction of the normal one.
 const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// The share of the basic columns that may as well be non-basic: amount and slack within a factor of 1000.
+/// The share of the basic columns that may just as well be non-basic: their amount and slack differ by a factor of less
+/// than 1000.
 fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
@@ -92,13 +103,15 @@ pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_MANY)
 }
 
-/// As [`balance_in`], but a program of many blocks is given up after a few iterations.
+/// Like [`balance_in`], but for a program of many blocks it stops after `MAX_ITERATIONS_FIRST_LOOK` iterations.
 pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
 }
 
+/// Steps 1 to 4 for a program, with at most `max_iterations` iterations in step 1 if the program has many blocks.
 fn balance_within(program: &Program, settings: SolverSettings, max_iterations: usize) -> Balance {
     let mut effort = Effort::default();
+    // Step 1: solve the dual.
     let whole = Face::whole(&program.loads, columns(program));
     let (solved, face_settings) =
         solve_dual(program, &whole, settings, max_iterations, &mut effort);
@@ -112,6 +125,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     match solved.status {
         Status::Solved => {
             let effort = &mut found.effort;
+            // Steps 2 to 4: choose among the optima, or repair the optimum that the solver found.
             if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
                 return balance;
             }
@@ -130,7 +144,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
             let mut face = match (best, settings.choice) {
                 (Some(best), _) => best,
                 (None, Choice::Unique) => whole.with(solved.amounts),
-                // One system of equations is cheaper than repairs block by block.
+                // Remove the solver's residual by one linear system, which is cheaper than repairing block by block
+                // later.
                 (None, Choice::Any) => {
                     let (loads, amounts) = (&whole.loads, solved.amounts);
                     let amounts =
@@ -150,7 +165,9 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     found
 }
 
-/// The least force of few blocks whose loads span many sizes, right to the digits of each block; `None` for other programs.
+/// The least force of few blocks whose loads differ by many powers of ten, accurate relative to each block's own load.
+///
+/// `None` if the loads are of similar size, if there are many blocks, or if the refinement fails.
 fn balance_by_levels(
     program: &Program,
     whole: &Face,
@@ -159,10 +176,11 @@ fn balance_by_levels(
     effort: &mut Effort,
 ) -> Option<Balance> {
     let light = lightest(&whole.loads);
-    let has_wide_range = light < WIDE * largest(&whole.loads);
+    let has_wide_range = light < WIDE_LOAD_RATIO * largest(&whole.loads);
     if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
         return None;
     }
+    // Refine the optimum level by level, then choose on its face.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.narrowed(&optimum, 1.0);
@@ -175,7 +193,7 @@ fn balance_by_levels(
     })
 }
 
-/// Step 1: the dual, and the settings for the least squares on its face.
+/// Step 1: solves the dual. Also returns the settings for the least squares on the face of its optima.
 fn solve_dual(
     program: &Program,
     whole: &Face,
@@ -193,6 +211,7 @@ fn solve_dual(
     } else {
         solved_with_retry(&dual, settings, effort)
     };
+    // If many basic columns are doubtful, solve again to a finer tolerance.
     let solved = read(&dual, &answer);
     if has_many_blocks
         && settings.choice == Choice::Unique
@@ -216,7 +235,7 @@ fn solve_dual(
 
 /// Steps 2 to 4: the balance of least Σ force² among those of least cost; `None` if no margin gives one.
 ///
-/// `settings` are those of the repair of a balance, and of the least squares.
+/// `settings` holds two settings: for repairing a balance, and for the least squares.
 fn least_squares_balance(
     program: &Program,
     whole: &Face,
@@ -229,25 +248,28 @@ fn least_squares_balance(
     let mut best: Option<(f64, Face)> = None;
     let mut tried = Vec::with_capacity(MARGINS.len());
     for margin in MARGINS {
+        // Step 2: the face of optima.
         let face = whole.narrowed(solved, margin);
-        // The faces of increasing margins contain each other, so one with as many columns was tried already.
+        // A face of a larger margin contains that of a smaller one, so a face with as many columns is the same face.
         let counts = (face.columns.len(), face.at_limit.len());
         if tried.contains(&counts) {
             continue;
         }
         tried.push(counts);
+        // Step 3: least squares on the face.
         let Some(mut amounts) =
             least_squares_amounts(&face.loads, &face.columns, face_settings, effort)
         else {
             continue;
         };
+        // Step 4: compare the cost and the balance.
         let cost = face.cost(&amounts);
         let difference = (cost - solved.objective).abs() / solved.objective.abs();
         let is_balanced = |amounts: &[f64]| {
             largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size
         };
         if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
-            // The right columns, but in long arches rounding adds up to more than a proof allows.
+            // The face is right, but in long arches rounding adds up to more than a proof allows: remove the residual.
             amounts = balance_by_least_change(
                 &face.loads,
                 &face.columns,
@@ -259,6 +281,7 @@ fn least_squares_balance(
         if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
             continue;
         }
+        // Keep the cheapest balance; stop at the first within the tolerance.
         if best.as_ref().is_none_or(|best| cost < best.0) {
             best = Some((cost, face.with(amounts)));
         }

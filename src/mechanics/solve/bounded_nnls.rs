@@ -1,19 +1,24 @@
 //! [`BoundedNnls`]: least squares with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
-//! The residual r = loads − A·x answers both questions of statics. If r = 0, the amounts are forces that balance. Else r
-//! is a motion that no admissible force opposes and along which the loads do work: at the nearest point of a cone
-//! Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). No cost enters, so the forces are some that balance, not the
-//! least. Nothing here is believed without its proof.
+//! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance it.
+//! Otherwise r is a motion that no admissible force opposes and along which the loads do work: at the nearest point of
+//! a cone, Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). The forces have no cost, so they are any that
+//! balance, not those of least sum. The result is only a candidate: the proof checks it.
 //!
 //! The active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, with upper bounds. Steps:
 //!
 //! 1. gradient Aᵀr: columns at a bound whose gradient points inwards are candidates;
 //! 2. candidates enter the passive set;
 //! 3. least squares on the passive set, by the Cholesky factor of its Gram matrix, which is kept up to date;
-//! 4. if an amount would leave its bounds, a ratio test: move until the first bound is met, remove that column, back to 3;
-//! 5. without candidates, the optimum is found.
+//! 4. if an amount would leave its bounds, a ratio test: move until the first bound is met, remove that column, repeat
+//!    3;
+//! 5. if there are no candidates, the amounts are the optimum.
 //!
-//! The passive set is a warm start for a changed program: the factor does not depend on the loads, nor on other columns.
+//! The passive set is a warm start for a changed program: its factor depends neither on the loads nor on other columns.
+
+mod search;
+
+use search::{Entry, Search, State};
 
 use super::amounts::Amounts;
 use super::incremental_cholesky::IncrementalCholesky;
@@ -21,22 +26,24 @@ use crate::program::{Column, Force, Program, columns};
 
 /// A column may enter the passive set if its gradient exceeds this fraction of |column|·|residual|.
 ///
-/// The gradient of a passive column is 0 up to some 1e-13 of that. At 1e-12 rounding would bring columns in; at 1e-10 small
-/// contributions would be missed that the proof needs.
+/// The gradient of a passive column is 0 up to a rounding of about 1e-13 of that product. At 1e-12, rounding would make
+/// columns enter; at 1e-10, small contributions that the proof needs would be missed.
 const DUAL_TOL: f64 = 1e-11;
 
 /// A residual below this fraction of the loads counts as 0.
 ///
-/// Far less than a proof asks for (1e-7), and more than the rounding of the amounts of some hundred bodies. At a tenth
-/// columns would enter and leave for ever on that rounding.
+/// It is far below what a proof requires (1e-7) and above the rounding in the amounts of a few hundred bodies. At a
+/// tenth, that rounding would make columns enter and leave without end.
 const RESIDUAL_TOL: f64 = 1e-12;
 
-/// A gradient below this fraction of the loads, per unit of |column|, is rounding.
+/// A gradient per unit of |column| below this fraction of the largest load is rounding.
 const GRADIENT_FLOOR: f64 = 1e-13;
 
-/// A column depends linearly on the passive ones if the square of its part orthogonal to them is at most this fraction of
-/// its own square. That square then has some five digits left. Ten times larger, columns would be refused that are needed
-/// next to nearly parallel ones; a tenth, the factor would lose one more digit.
+/// A column depends linearly on the passive columns if its part orthogonal to them has at most this fraction of its
+/// squared length.
+///
+/// At this fraction the new pivot still has about five digits. Ten times larger, needed columns that are nearly
+/// parallel to others would be refused; at a tenth, the factor would lose one more digit.
 const DEPENDENCE_TOL: f64 = 1e-11;
 
 /// The passive set may change at most this many times the number of columns.
@@ -49,14 +56,14 @@ pub struct BoundedNnls {
     passive: Vec<usize>,
     /// The amounts of the passive columns.
     amounts: Vec<f64>,
-    /// Of the Gram matrix of the passive columns.
+    /// The Cholesky factor of the Gram matrix of the passive columns.
     factor: IncrementalCholesky,
     /// The columns at their upper bounds.
     at_limit: Vec<usize>,
 }
 
-/// The columns of a program without those that others generate: with friction, a normal force alone is the sum of the two
-/// rays of the cone.
+/// The columns of a program without redundant ones. With friction, a pure normal force is redundant: it is a sum of the
+/// two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
         Force::Ray {
@@ -81,10 +88,11 @@ impl BoundedNnls {
         self.at_limit = self.at_limit.iter().filter_map(|k| number(*k)).collect();
     }
 
-    /// Finds the nearest balance, starting from the passive set. Returns the residual loads − A·x, or `None` after too many
-    /// pivots.
+    /// Solves the least-squares problem, starting from the present passive set. Returns the residual loads − A·x, or
+    /// `None` after too many pivots.
     ///
-    /// The columns must be those from which the set was made, apart from their numbers and from new ones.
+    /// `columns` must contain, under their present numbers, the columns from which the passive set was made. It may
+    /// also contain new ones.
     pub fn find(&mut self, loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut search = Search::new(self, loads, columns);
@@ -104,7 +112,7 @@ impl BoundedNnls {
             }
             if search.candidates.is_empty() {
                 if entry == Entry::Several && !is_balanced {
-                    // A column that left at once may have done so because of the others that entered with it.
+                    // A column may have left at once because others entered together with it: try each one alone.
                     entry = Entry::One;
                     search.rejected.fill(false);
                 } else if digits == Digits::All {
@@ -115,7 +123,7 @@ impl BoundedNnls {
                 }
                 continue;
             }
-            // Entering one at a time is slower, but cannot cycle.
+            // After half of the pivots, let one column enter at a time: that is slower, but cannot cycle.
             if 2 * search.pivots_left < search.max_pivots {
                 entry = Entry::One;
             }
@@ -130,14 +138,15 @@ impl BoundedNnls {
             if progress == Progress::Moved || entered.iter().any(stays) {
                 search.rejected.fill(false);
             }
-            // A column that left at once entered because of rounding: it must not try for ever.
+            // A column that entered and left again is rejected until the amounts change: it entered because of
+            // rounding.
             for (k, former) in entered {
                 search.rejected[k] = search.state[k] == former;
             }
         }
     }
 
-    /// The amounts, as the forces they stand for.
+    /// Converts the amounts of the columns to forces of contacts and grips.
     pub fn gathered(&self, program: &Program, columns: &[Column]) -> Amounts {
         let mut amounts = Amounts::none(program);
         for (k, amount) in self.passive.iter().zip(&self.amounts) {
@@ -180,6 +189,7 @@ impl BoundedNnls {
         let (loads, columns) = (search.loads, search.columns);
         let mut progress = Progress::Stayed;
         loop {
+            // Step 3: least squares on the passive set. Step 4: the ratio test.
             let optimum = self.least_squares(loads, columns, digits);
             let Some((step, first)) = self.ratio_test(&optimum, columns) else {
                 self.amounts = optimum;
@@ -189,6 +199,7 @@ impl BoundedNnls {
             if step > 0.0 {
                 progress = Progress::Moved;
             }
+            // Move to the first bound, and remove the column that meets it.
             let meets_limit = optimum[first] > 0.0;
             for (now, then) in self.amounts.iter_mut().zip(&optimum) {
                 *now += step * (then - *now);
@@ -200,18 +211,19 @@ impl BoundedNnls {
                 search.state[k] = State::AtLimit;
                 self.at_limit.push(k);
             }
-            // Others may have met 0 in the same step, up to rounding.
+            // Other amounts may have reached 0 in the same step; rounding must not leave them negative.
             for now in &mut self.amounts {
                 *now = now.max(0.0);
             }
         }
     }
 
-    /// The longest step towards the optimum of the passive set that keeps all bounds, and the place of the column that meets its
-    /// bound; `None` if the whole step does.
+    /// The longest step (as a fraction) towards the optimum of the passive set that keeps all bounds, and the place of
+    /// the column that meets its bound first; `None` if the full step keeps all bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
         for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {
+            // The fraction of the step at which the amount meets 0 or its limit.
             let limit = columns[self.passive[place]].limit;
             let step = if *then < 0.0 {
                 now.max(0.0) / (now.max(0.0) - then)
@@ -227,8 +239,10 @@ impl BoundedNnls {
         shortest
     }
 
-    /// The amounts of the passive set of least residual, of either sign. Refined once for all digits, since the normal
-    /// equations have half of them only.
+    /// The amounts of the passive columns with the least residual, without regard to bounds.
+    ///
+    /// The normal equations give half of the digits. With [`Digits::All`], one step of iterative refinement gives the
+    /// rest.
     fn least_squares(&self, loads: &[f64], columns: &[Column], digits: Digits) -> Vec<f64> {
         let mut residual = loads.to_vec();
         for k in &self.at_limit {
@@ -252,7 +266,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// loads − A·x.
+    /// The residual loads − A·x, one number for each row.
     fn residual(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
         let mut residual = loads.to_vec();
         for (k, amount) in self.passive.iter().zip(&self.amounts) {
@@ -264,8 +278,9 @@ impl BoundedNnls {
         residual
     }
 
-    /// Adds a column to the passive set; false if it depends on the columns there.
+    /// Adds a column to the passive set. Returns false if it depends linearly on the columns in the set.
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
+        // Append the column's row to the Cholesky factor of the Gram matrix.
         let new = &columns[k];
         let products = self
             .passive
@@ -292,111 +307,12 @@ impl BoundedNnls {
     }
 }
 
-/// What one call of [`BoundedNnls::find`] keeps track of.
-struct Search<'a> {
-    loads: &'a [f64],
-    columns: &'a [Column],
-    /// |column| of each.
-    norms: Vec<f64>,
-    state: Vec<State>,
-    /// Columns that were tried in vain, until the passive set changes.
-    rejected: Vec<bool>,
-    /// (gradient per unit of |column|, column) of those that may enter.
-    candidates: Vec<(f64, usize)>,
-    max_pivots: usize,
-    pivots_left: usize,
-}
-
-impl<'a> Search<'a> {
-    fn new(set: &BoundedNnls, loads: &'a [f64], columns: &'a [Column]) -> Search<'a> {
-        let mut state = vec![State::AtZero; columns.len()];
-        set.passive.iter().for_each(|k| state[*k] = State::Passive);
-        set.at_limit.iter().for_each(|k| state[*k] = State::AtLimit);
-        // Some more, so that small programs are not cut short.
-        let max_pivots = MAX_PIVOTS_PER_COLUMN * columns.len() + 16;
-        Search {
-            loads,
-            columns,
-            norms: columns.iter().map(norm).collect(),
-            state,
-            rejected: vec![false; columns.len()],
-            candidates: Vec::new(),
-            max_pivots,
-            pivots_left: max_pivots,
-        }
-    }
-
-    /// Collects the columns at a bound whose gradient points inwards by more than `threshold`.
-    fn find_candidates(&mut self, residual: &[f64], threshold: f64) {
-        self.candidates.clear();
-        for (k, column) in self.columns.iter().enumerate() {
-            let gradient = match self.state[k] {
-                State::AtZero => column.dot(residual),
-                State::AtLimit => -column.dot(residual),
-                State::Passive => continue,
-            };
-            let gradient = gradient / self.norms[k];
-            if gradient > threshold && !self.rejected[k] {
-                self.candidates.push((gradient, k));
-            }
-        }
-    }
-
-    /// Counts a change of the passive set; `None` if there were too many.
-    fn count_pivot(&mut self) -> Option<()> {
-        self.pivots_left = self.pivots_left.checked_sub(1)?;
-        Some(())
-    }
-}
-
-/// Where the amount of a column is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    AtZero,
-    /// Between its bounds.
-    Passive,
-    AtLimit,
-}
-
-/// How precisely the least squares of the passive set are solved: to the last digits only when there are no candidates.
+/// How precisely the least squares of the passive set are solved. All digits are needed only when no candidates are
+/// left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Some,
     All,
-}
-
-/// How many columns enter at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Entry {
-    /// Those of largest gradient, no two at one block: one system of equations serves them all.
-    Several,
-    /// The one of largest gradient, as Lawson and Hanson have it, which terminates for certain.
-    One,
-}
-
-impl Entry {
-    /// Chooses from the candidates, and empties their list; `rows` is the number of rows of the problem.
-    fn choose(
-        self,
-        candidates: &mut Vec<(f64, usize)>,
-        columns: &[Column],
-        rows: usize,
-    ) -> Vec<usize> {
-        candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        if self == Entry::One {
-            candidates.truncate(1);
-        }
-        let mut is_taken = vec![false; rows.div_ceil(3)];
-        let mut chosen = Vec::new();
-        for (_, k) in candidates.drain(..) {
-            let blocks = || columns[k].entries().map(|(row, _)| row / 3);
-            if blocks().all(|block| !is_taken[block]) {
-                blocks().for_each(|block| is_taken[block] = true);
-                chosen.push(k);
-            }
-        }
-        chosen
-    }
 }
 
 /// Whether amounts changed before a bound was met.
@@ -404,10 +320,6 @@ impl Entry {
 enum Progress {
     Moved,
     Stayed,
-}
-
-fn norm(column: &Column) -> f64 {
-    column.dot_column(column).sqrt()
 }
 
 #[cfg(test)]

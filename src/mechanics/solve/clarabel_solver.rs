@@ -1,13 +1,14 @@
-//! The conic solver clarabel.
+//! Solves a program with the conic solver clarabel.
 //!
-//! A primal-dual interior-point method on the homogeneous embedding, [Goulart24](crate::doc::references). Settings that are not its
-//! defaults, and why:
+//! clarabel is a primal-dual interior-point method on the homogeneous embedding ([Goulart24](crate::doc::references)).
+//! These settings differ from its defaults:
 //!
-//! - `direct_solve_method` is `qdldl`: the automatic choice takes faer for large programs, 13.1 s against 4.6 s at 10⁴ blocks;
-//! - presolve is off: nothing here has infinite bounds;
+//! - `direct_solve_method` is `qdldl`. The automatic choice for large programs is faer: 13.1 s against 4.6 s at 10⁴
+//!   blocks;
+//! - presolve is off, because it only removes infinite bounds, and these programs have none;
 //! - equilibration and iterative refinement are off with [`Conditioning::Plain`].
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -17,20 +18,16 @@ use super::deadline::deadline;
 use super::settings::{Conditioning, SolverSettings};
 use crate::program::QuadraticProgram;
 
-/// Solves a conic problem of finite numbers with clarabel, whatever its size.
+/// Solves a conic problem of any size with clarabel. All its numbers must be finite.
 pub fn by_clarabel(
     problem: &QuadraticProgram,
     settings: SolverSettings,
     iterations: usize,
 ) -> Answer {
-    let SolverSettings {
-        tolerance,
-        conditioning,
-        ..
-    } = settings;
     let rows = problem.bound.len();
     let quadratic = compressed_columns(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed_columns(rows, problem.unknowns, &problem.matrix);
+    // The cones of the slacks: zero for the equalities, nonnegative for the inequalities.
     let mut cones = Vec::with_capacity(2);
     if problem.equalities > 0 {
         cones.push(SupportedConeT::ZeroConeT(problem.equalities));
@@ -42,20 +39,7 @@ pub fn by_clarabel(
     if time_left.is_some_and(|time| time.is_zero()) {
         return Answer::without_status(problem);
     }
-    let is_full = conditioning == Conditioning::Full;
-    let settings = DefaultSettings {
-        verbose: false,
-        time_limit: time_left.map_or(f64::INFINITY, |time| time.as_secs_f64()),
-        direct_solve_method: "qdldl".to_string(),
-        presolve_enable: false,
-        max_iter: u32::try_from(iterations).unwrap_or(u32::MAX),
-        equilibrate_enable: is_full,
-        iterative_refinement_enable: is_full,
-        tol_gap_abs: tolerance,
-        tol_gap_rel: tolerance,
-        tol_feas: tolerance,
-        ..DefaultSettings::default()
-    };
+    let settings = clarabel_settings(settings, iterations, time_left);
     let solver = DefaultSolver::new(
         &quadratic,
         &problem.linear,
@@ -69,6 +53,7 @@ pub fn by_clarabel(
     };
     solver.solve();
     let solution = solver.solution;
+    // An "almost solved" status counts as unsolved: the caller tries again or uses another program.
     let status = match solution.status {
         SolverStatus::Solved => Status::Solved,
         SolverStatus::PrimalInfeasible => Status::Infeasible,
@@ -85,12 +70,40 @@ pub fn by_clarabel(
     answer.if_finite()
 }
 
+/// The settings of clarabel. `time_left` is the time until the deadline, if there is one.
+fn clarabel_settings(
+    settings: SolverSettings,
+    iterations: usize,
+    time_left: Option<Duration>,
+) -> DefaultSettings<f64> {
+    let SolverSettings {
+        tolerance,
+        conditioning,
+        ..
+    } = settings;
+    let is_full = conditioning == Conditioning::Full;
+    DefaultSettings {
+        verbose: false,
+        time_limit: time_left.map_or(f64::INFINITY, |time| time.as_secs_f64()),
+        direct_solve_method: "qdldl".to_string(),
+        presolve_enable: false,
+        max_iter: u32::try_from(iterations).unwrap_or(u32::MAX),
+        equilibrate_enable: is_full,
+        iterative_refinement_enable: is_full,
+        tol_gap_abs: tolerance,
+        tol_gap_rel: tolerance,
+        tol_feas: tolerance,
+        ..DefaultSettings::default()
+    }
+}
+
 /// A compressed sparse column matrix from (row, column, value) entries; entries at one place are added.
 fn compressed_columns(
     rows: usize,
     columns: usize,
     entries: &[(usize, usize, f64)],
 ) -> CscMatrix<f64> {
+    // Counting sort by column: count the entries of each column, then place them.
     let mut starts = vec![0; columns + 1];
     for (_, column, _) in entries {
         starts[column + 1] += 1;
@@ -104,6 +117,7 @@ fn compressed_columns(
         list[next[*column]] = (*row, *value);
         next[*column] += 1;
     }
+    // Sort each column by row, and add entries at the same place.
     let (mut colptr, mut rowval, mut nzval) = (
         vec![0],
         Vec::with_capacity(list.len()),

@@ -4,13 +4,14 @@ use std::cell::Cell;
 use std::time::Instant;
 
 thread_local! {
-    /// When this thread's programs are given up.
+    /// The time after which solvers on this thread stop.
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// While this lives, programs of this thread are given up at a deadline.
+/// While this guard exists, all solvers on this thread stop at its deadline.
 ///
-/// A deadline belongs to a run, not to a program. So it is not an argument of everything that poses a program.
+/// A deadline belongs to a run of the program, not to one linear program. A thread-local value saves an argument in
+/// every function that solves one.
 #[derive(Debug)]
 pub(crate) struct DeadlineGuard {
     former: Option<Instant>,

@@ -1,8 +1,12 @@
-//! [`Dual`]: a linear program of columns, solved through its kinematic dual or through its forces.
+//! [`Dual`]: the optimum of a linear program in columns, found from its kinematic (dual) form or from its static form.
 //!
-//! The dual of min Σ cost·amount s.t. Σ amount·column = loads, 0 ≤ amount ≤ limit is max loadsᵀy − Σ limit·multiplier s.t.
-//! columnᵀy − multiplier ≤ cost: velocities y, three for each block, and a multiplier for each limited column. Both give the
-//! same [`Dual`].
+//! ```text
+//! static:     min Σ cost·amount                   s.t.  Σ amount·column = loads,  0 ≤ amount ≤ limit
+//! kinematic:  max loadsᵀy − Σ limit·multiplier    s.t.  columnᵀy − multiplier ≤ cost
+//! ```
+//!
+//! y are the velocities, three for each block; each limited column has one multiplier. Both forms give the same
+//! [`Dual`]. Reference: [Livesley78](crate::doc::references).
 
 use super::amounts::Effort;
 use super::answer::{Answer, Status};
@@ -10,12 +14,12 @@ use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings};
 use super::solver::solve_within;
 use crate::program::{Column, QuadraticProgram, force_primal, kinematic_dual};
 
-/// A solved kinematic dual.
+/// The solution of a linear program and of its kinematic dual.
 #[derive(Clone, Debug)]
 pub struct Dual {
-    /// How it ended. `Unbounded` means that `y` is a motion that no contact opposes.
+    /// The status of the kinematic form. If it is `Unbounded`, `y` is the negative of a motion that no contact opposes.
     pub status: Status,
-    /// Virtual velocities, three for each block: minus the motion along which the loads work.
+    /// Virtual velocities, three for each block. The motion along which the loads do work is −y.
     pub y: Vec<f64>,
     /// The amount of each column, ≥ 0.
     pub amounts: Vec<f64>,
@@ -28,7 +32,8 @@ pub struct Dual {
 }
 
 impl Dual {
-    /// Whether each column is basic, and so belongs to the face of optima: its slack is below `margin` times its amount.
+    /// Whether each column is basic, so that it belongs to the face of optima: its slack is below `margin` times its
+    /// amount.
     pub fn active(&self, margin: f64) -> Vec<bool> {
         self.amounts
             .iter()
@@ -38,9 +43,10 @@ impl Dual {
     }
 }
 
-/// Solves the kinematic dual of some columns; a second time, with full conditioning, if plain conditioning gives no status.
+/// Solves the kinematic dual of some columns. If plain conditioning gives no status, solves it again with full
+/// conditioning.
 ///
-/// `cost` is the cost of a unit of each column.
+/// `cost` returns the cost of one unit of a column.
 pub fn dual(
     loads: &[f64],
     columns: &[Column],
@@ -53,7 +59,7 @@ pub fn dual(
     of_velocities(loads, columns, &conic, &row_of, &answer)
 }
 
-/// Reads the solution of a kinematic dual in terms of columns; `row_of` has the row of each.
+/// Converts the solution of a kinematic dual to amounts and slacks of columns; `row_of` gives the row of each column.
 pub(super) fn of_velocities(
     loads: &[f64],
     columns: &[Column],
@@ -76,7 +82,8 @@ pub(super) fn of_velocities(
     }
     for (k, row) in row_of.iter().enumerate() {
         if *row == usize::MAX {
-            // The second of a pair of opposite columns that share one equality: both are basic, whatever they carry.
+            // The second column of an opposite pair that shares one equality. Both are basic, even if their amount is
+            // 0.
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, -answer.z[row_of[k - 1]]);
         } else if *row < conic.equalities {
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, answer.z[*row]);
@@ -86,12 +93,12 @@ pub(super) fn of_velocities(
         }
     }
     solved.y.copy_from_slice(&answer.x[..loads.len()]);
-    // Limited columns own the unknowns after the velocities, in their order.
+    // The unknowns after the velocities are the multipliers of the limited columns, in their order.
     let limited = (0..n).filter(|k| columns[*k].limit.is_finite());
     for (k, multiplier) in limited.zip(&answer.x[loads.len()..]) {
         solved.multipliers[k] = multiplier.max(0.0);
     }
-    // The solver minimizes, the dual maximizes.
+    // The solver minimises, but the dual is a maximum.
     solved.objective = -conic
         .linear
         .iter()
@@ -101,8 +108,10 @@ pub(super) fn of_velocities(
     solved
 }
 
-/// The amounts of columns, the multipliers of their rows. `row_of` has the row of each, or `usize::MAX` for the second of a
-/// pair of opposite columns that share one equality: its amount is the multiplier with the other sign.
+/// The amounts of columns: the multipliers of their rows.
+///
+/// `row_of` gives the row of each column, or `usize::MAX` for the second of an opposite pair that shares one equality.
+/// The amount of that column is the multiplier with the opposite sign.
 pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
     let rows = row_of.iter().enumerate();
     rows.map(|(k, row)| match *row {
@@ -112,10 +121,11 @@ pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
     .collect()
 }
 
-/// Solves the same program with the forces as unknowns. The rows are the balance; their multipliers are the velocities.
+/// Solves the same program in its static form: the forces are the unknowns, the rows are the balance, and the
+/// multipliers of the rows are the velocities.
 ///
-/// Near the limit of standing it takes about half the iterations of the kinematic form, and each is a third dearer. It
-/// separates basic columns from others less sharply.
+/// Near the limit of standing it takes about half the iterations of the kinematic form, and each takes a third longer.
+/// It separates basic columns from the others less clearly.
 pub(super) fn in_forces(
     loads: &[f64],
     columns: &[Column],
@@ -127,7 +137,7 @@ pub(super) fn in_forces(
     let answer = once(&conic, settings.into(), effort);
     let n = columns.len();
     let mut solved = Dual {
-        // The primal is infeasible exactly if the dual is unbounded, and the other way round.
+        // The static form is infeasible if the kinematic form is unbounded, and unbounded if that is infeasible.
         status: match answer.status {
             Status::Infeasible => Status::Unbounded,
             Status::Unbounded => Status::Infeasible,
@@ -142,11 +152,11 @@ pub(super) fn in_forces(
     if answer.x.is_empty() {
         return solved;
     }
-    // Multipliers of the balance have the other sign.
+    // The velocities are the multipliers of the balance with the opposite sign.
     for (y, multiplier) in solved.y.iter_mut().zip(&answer.z) {
         *y = -multiplier;
     }
-    // A column's row of x ≥ 0 is followed by that of its limit, if it has one.
+    // The row x ≥ 0 of a column is followed by the row of its limit, if it has one.
     let mut row = loads.len();
     for (k, column) in columns.iter().enumerate() {
         solved.amounts[k] = answer.x[k].max(0.0);
@@ -162,7 +172,7 @@ pub(super) fn in_forces(
     solved
 }
 
-/// Solves a program; a second time, with full conditioning, if plain conditioning gives no status.
+/// Solves a program. If plain conditioning gives no status, solves it again with full conditioning.
 pub(super) fn solved_with_retry(
     conic: &QuadraticProgram,
     settings: impl Into<SolverSettings>,
@@ -180,7 +190,7 @@ pub(super) fn solved_with_retry(
     answer
 }
 
-/// Solves with the given conditioning only.
+/// Solves a program once, with the given conditioning.
 pub(super) fn once(
     conic: &QuadraticProgram,
     settings: SolverSettings,
@@ -189,7 +199,7 @@ pub(super) fn once(
     once_within(conic, settings, MAX_ITERATIONS, effort)
 }
 
-/// Solves with the given conditioning only, in a given number of iterations.
+/// Solves a program once, with the given conditioning and at most the given number of iterations.
 pub(super) fn once_within(
     conic: &QuadraticProgram,
     settings: SolverSettings,

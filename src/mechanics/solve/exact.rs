@@ -1,33 +1,40 @@
-//! Small balances solved by elimination, right to rounding: the unique one, and the one of least squares.
+//! Solves small systems of equilibrium by elimination: the unique balance, and the balance of least squares.
 //!
-//! An interior-point method gives nine digits in many steps; elimination gives sixteen in one. What elimination cannot show
-//! to be the answer is left to the solver.
+//! An interior-point method gives nine digits in many iterations; elimination gives sixteen digits at once. If
+//! elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan, Matrix Computations,
+//! 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
 
 use super::residual_norm::largest;
 use crate::program::{Column, product};
 
-/// Systems of more rows go to the sparse solver: elimination here is dense, and its work grows with the cube.
+/// The largest number of rows. Larger systems go to the sparse solver, because the work of dense elimination grows with
+/// the cube of the rows.
 const MAX_ROWS: usize = 120;
 
-/// A smaller pivot means that the columns are linearly dependent, so that the balance is not unique. Entries are near 1. At a
-/// tenth the amounts could lose one more digit; ten times larger, short contacts would be refused.
+/// The smallest pivot. With a smaller one the columns are linearly dependent, and the balance is not unique.
+///
+/// The entries are near 1. At a tenth of this value the amounts could lose one more digit; ten times larger, columns of
+/// short contacts would be refused.
 const PIVOT_TOL: f64 = 1e-7;
 
-/// Residuals and negative amounts below this fraction of the largest load are rounding: the solver's own tolerance.
+/// Residuals and negative amounts up to this fraction of the largest load are rounding. It equals the solver's
+/// tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
 
-/// As [`ROUNDING_TOL`], for the least squares, where each answer has its own proof.
+/// The tolerance for residuals and negative amounts in the least squares, as a fraction of the largest load.
+///
+/// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if it fails.
 const STRICT_TOL: f64 = 1e-12;
 
-/// The only amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
+/// The unique amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
 ///
-/// `None` if the columns are dependent, the amounts leave their bounds, or the loads are not balanced.
+/// `None` if the columns are linearly dependent, an amount is outside its bounds, or no amounts balance the loads.
 pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let (rows, n) = (loads.len(), columns.len());
     if n > rows || rows > MAX_ROWS {
         return None;
     }
-    // The columns, with the loads as the last one; row by row.
+    // The augmented matrix, row by row: the columns, followed by the loads.
     let width = n + 1;
     let mut table = vec![0.0; rows * width];
     for (j, column) in columns.iter().enumerate() {
@@ -63,7 +70,7 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
         if size(&best) < PIVOT_TOL {
             return None;
         }
-        // Row exchange, then elimination below the pivot.
+        // Exchange rows, then eliminate below the pivot.
         if best != j {
             for k in j..width {
                 table.swap(best * width + k, j * width + k);
@@ -83,11 +90,13 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
     Some(())
 }
 
-/// The amounts ≥ 0 of least Σ force² that balance the loads, if a few rounds of an active-set method find them.
+/// The amounts ≥ 0 of least Σ force² that balance the loads; `None` if a few rounds of an active-set method do not find
+/// them.
 ///
-/// Only for columns whose squares do not mix, such as normal forces alone. With p_j the square of a unit of column g_j and y
-/// the multipliers of the balance, the optimum is λ_j = g_jᵀy / p_j for the columns in use, and g_jᵀy ≤ 0 for those
-/// dropped (Karush, Kuhn and Tucker). Each round solves for y and drops the columns with negative amounts.
+/// It applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the square of a
+/// unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j = g_jᵀy /
+/// p_j for the columns in use and g_jᵀy ≤ 0 for the dropped ones. Each round solves for y and drops the columns with
+/// negative amounts.
 pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
     let mix = |pair: &[Column]| product(&pair[0].force, &pair[1].force).is_some_and(|p| p != 0.0);
@@ -102,6 +111,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
     let mut in_use = vec![true; columns.len()];
     for _ in 0..MAX_ROUNDS {
         let y = solve_semidefinite(gram(rows, columns, &squares, &in_use), loads)?;
+        // The stationary point for these columns: λ = gᵀy / p.
         let both = columns.iter().zip(&squares);
         let amounts: Vec<f64> = both.map(|(c, square)| c.dot(&y) / square).collect();
         let is_negative = |k: &usize| in_use[*k] && amounts[*k] < -STRICT_TOL * scale;
@@ -114,7 +124,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
     None
 }
 
-/// Rounds of dropping negative amounts before the solver takes over.
+/// The largest number of rounds that drop negative amounts. After that, the solver is used.
 const MAX_ROUNDS: usize = 6;
 
 /// Σ column·columnᵀ/square over the columns in use.
@@ -131,7 +141,7 @@ fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Ve
     gram
 }
 
-/// The amounts of the columns in use, if they meet the conditions of an optimum.
+/// The amounts of the columns in use if they meet the conditions of an optimum, otherwise `None`.
 fn proved_optimum(
     loads: &[f64],
     columns: &[Column],
@@ -143,6 +153,7 @@ fn proved_optimum(
     let kept: Vec<f64> = both()
         .map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 })
         .collect();
+    // Dropped columns must have a multiplier of the right sign; the others must be admissible and balance the loads.
     let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);
     let is_admissible = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
     let mut residual = loads.to_vec();
@@ -152,7 +163,9 @@ fn proved_optimum(
     (is_optimal && is_admissible && is_balanced).then_some(kept)
 }
 
-/// A pivot below this fraction of the largest diagonal entry is 0: nothing acts along its row.
+/// A pivot up to this fraction of the largest diagonal entry counts as 0: no column in use acts along its row. The
+/// entries
+/// are sums of products, whose rounding is about 10⁻¹⁵.
 const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
 
 /// Solves a symmetric positive semidefinite system by Cholesky factorization; unknowns without a pivot become 0.
@@ -186,7 +199,7 @@ fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
             d -= a[j * n + k] * a[j * n + k];
         }
         if d <= SEMIDEFINITE_PIVOT_TOL * max_diagonal {
-            // If a force is needed along this row all the same, the balance shows it.
+            // If the loads need a force along this row, the test of the balance fails later.
             for i in j..n {
                 a[i * n + j] = 0.0;
             }

@@ -1,52 +1,42 @@
-//! [`extreme_ray`]: from a motion in a cone of admissible motions to an extreme ray of the cone.
+//! [`extreme_ray`]: moves from any motion in the cone of admissible motions to an extreme ray of the cone.
 //!
-//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary ones. An extreme ray is not such a sum,
-//! so it has as few hinges and slips as possible. Pure numbers: rows of length about 1, motions of size about 1.
+//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is no
+//! such sum, so it has as few hinges and slips as possible. All numbers are pure: rows have a length of about 1,
+//! motions a size of about 1.
 //!
-//! Purification (crossover of linear programming to a vertex, Megiddo 1991). All moves keep the power b·y and every row
-//! that is tight, so they lie in the null space of these rows. Steps:
+//! The method is purification, the crossover of linear programming to a vertex (Megiddo 1991). All moves keep the power
+//! b·y and every tight row, so they lie in the null space of these rows. Steps:
 //!
 //! 1. direction: the projection onto the null space along which Σ openings shrinks fastest;
 //! 2. ratio test: move until the next row becomes tight;
 //! 3. remove the new tight rows from the null space; repeat until it is empty.
 
-/// A row or an objective, sparse: (index, value) entries.
+/// A sparse row or objective: (index, value) entries.
 pub(crate) type Row = Vec<(usize, f64)>;
 
-/// A row is tight if its value is at most this fraction of the motion's size: a hundred times the solver's tolerance. Ten times
-/// more would close hinges that are slightly open; a tenth would take a solver's error for an opening.
+/// A row is tight if its value is at most this fraction of the motion's size: a hundred times the solver's tolerance.
+///
+/// Ten times this value would close hinges that open slightly; at a tenth, a solver's error would count as an opening.
 const TIGHT_TOL: f64 = 1e-7;
 
-/// A projection shorter than this is 0: the row depends on those removed before, or the direction is used up.
+/// A projection onto the null space shorter than this counts as 0: the row depends on rows that were removed before.
+///
+/// Rows have a length of about 1. The limit is far above the rounding of the basis, about 1e-14. Two rows that differ
+/// by an angle above it count as independent.
 const DEPENDENCE_TOL: f64 = 1e-8;
 
-/// Returns a motion on an extreme ray of the cone, of the same power as the unit vector along `start`; `None` if `start` has
-/// no power.
+/// Returns a motion on an extreme ray of the cone, with the same power as the unit vector along `start`.
 ///
-/// `start` does not have to lie in the cone exactly: rows that it violates by a solver's error count as tight.
+/// `None` if `start` has no power. `start` need not lie exactly in the cone: rows that it violates by a solver's error
+/// count as tight.
 pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -> Option<Vec<f64>> {
     let (size, given) = (norm(start), dot(power, start));
     if size.is_nan() || size <= 0.0 || given.is_nan() || given <= 0.0 {
         return None;
     }
-    let count = start.len();
     let mut y: Vec<f64> = start.iter().map(|v| v / size).collect();
-    let mut null_space = NullSpace::whole(count);
-    null_space.remove(power);
-    let mut open: Vec<&Row> = Vec::new();
-    for row in rows {
-        if dot(row, &y) <= TIGHT_TOL {
-            null_space.remove(row);
-        } else {
-            open.push(row);
-        }
-    }
-    let mut openings = vec![0.0; count];
-    for row in rows {
-        for (k, value) in row {
-            openings[*k] += value;
-        }
-    }
+    let (mut null_space, mut open) = tight_rows_removed(rows, power, &y);
+    let openings = sum_of_openings(rows, start.len());
     while let Some(first) = null_space.basis.first() {
         let dimension = null_space.basis.len();
         // Step 1: steepest descent of Σ openings; any direction if they do not change.
@@ -56,12 +46,12 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         } else {
             unit(first)
         };
-        // Step 2: forwards, or backwards if no row closes forwards.
+        // Step 2: move forwards, or backwards if no row closes forwards.
         let back = negated(&along);
         let (step, direction) = match (max_step(&open, &y, &along), max_step(&open, &y, &back)) {
             (Some(step), _) => (step, along),
             (None, Some(step)) => (step, back),
-            // No row closes either way: bodies that touch nothing. The motion does not need its part in this direction.
+            // No row closes in either direction: the bodies touch nothing. Remove this direction from the motion.
             (None, None) => {
                 let share: f64 = along.iter().zip(&y).map(|(d, v)| d * v).sum();
                 null_space.remove(&dense(&along));
@@ -71,7 +61,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         for (v, d) in y.iter_mut().zip(&direction) {
             *v += step * d;
         }
-        // Step 3.
+        // Step 3: remove the rows that became tight.
         let limit = TIGHT_TOL * norm(&y).max(1.0);
         let (tight, still_open): (Vec<&Row>, Vec<&Row>) =
             open.into_iter().partition(|row| dot(row, &y) <= limit);
@@ -79,7 +69,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
             null_space.remove(row);
         }
         open = still_open;
-        // A step that closes nothing new would be repeated for ever.
+        // If no new row became tight, drop a direction, because the same step would be repeated without end.
         if null_space.basis.len() == dimension {
             null_space.basis.pop();
         }
@@ -87,7 +77,35 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     Some(y)
 }
 
-/// The ratio test: the longest step along a direction until a row becomes 0; `None` if none does.
+/// The directions that keep the power and the tight rows, and the rows that are open.
+fn tight_rows_removed<'r>(
+    rows: &'r [Row],
+    power: &[(usize, f64)],
+    y: &[f64],
+) -> (NullSpace, Vec<&'r Row>) {
+    let mut null_space = NullSpace::whole(y.len());
+    null_space.remove(power);
+    let mut open: Vec<&Row> = Vec::new();
+    for row in rows {
+        if dot(row, y) <= TIGHT_TOL {
+            null_space.remove(row);
+        } else {
+            open.push(row);
+        }
+    }
+    (null_space, open)
+}
+
+/// The gradient of Σ openings with respect to the motion: the sum of all rows.
+fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
+    let mut openings = vec![0.0; count];
+    for (k, value) in rows.iter().flatten() {
+        openings[*k] += value;
+    }
+    openings
+}
+
+/// The ratio test: the longest step along a direction until an open row becomes 0; `None` if no row does.
 fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     let step = |row: &&Row| {
         let (change, now) = (dot(row, direction), dot(row, y));
@@ -96,7 +114,7 @@ fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     open.iter().filter_map(step).reduce(f64::min)
 }
 
-/// The motion nearest to `y` for which all rows are zero.
+/// The motion nearest to `y` at which all rows are 0: the projection of `y` onto their null space.
 pub(crate) fn project_onto_null_space(rows: &[Row], y: &[f64]) -> Vec<f64> {
     let mut null_space = NullSpace::whole(y.len());
     for row in rows {
@@ -105,7 +123,7 @@ pub(crate) fn project_onto_null_space(rows: &[Row], y: &[f64]) -> Vec<f64> {
     null_space.project(y)
 }
 
-/// The null space of some rows, by an orthonormal basis.
+/// An orthonormal basis of the null space of some rows.
 struct NullSpace {
     basis: Vec<Vec<f64>>,
 }
@@ -122,9 +140,12 @@ impl NullSpace {
         }
     }
 
-    /// Keeps what is orthogonal to a row: a Householder reflection turns the basis until its last vector lies along the row's
-    /// projection; that vector is removed.
+    /// Restricts the space to the vectors orthogonal to a row.
+    ///
+    /// A Householder reflection rotates the basis until its last vector lies along the row's projection; then that
+    /// vector is removed (Golub and Van Loan, Matrix Computations, 2013, §5.1).
     fn remove(&mut self, row: &[(usize, f64)]) {
+        // The components of the row in the basis.
         let mut components: Vec<f64> = self.basis.iter().map(|b| dot(row, b)).collect();
         let length = norm(&components);
         if length <= DEPENDENCE_TOL {

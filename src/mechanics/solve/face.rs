@@ -1,7 +1,8 @@
 //! [`Face`]: the set of all optima of a linear program, and the balance of least Σ force² on it.
 //!
-//! An interior-point method ends in the relative interior of the face of optima: its answer is strictly complementary, so a
-//! column belongs to the face exactly if its amount outweighs its slack (Goldman and Tucker).
+//! An interior-point method ends in the relative interior of the face of optima, where the solution is strictly
+//! complementary. A column therefore belongs to the face exactly if its amount exceeds its slack (Goldman and Tucker
+//! 1956).
 
 use super::amounts::{Amounts, Effort};
 use super::answer::Status;
@@ -10,21 +11,22 @@ use super::exact;
 use super::settings::SolverSettings;
 use crate::program::{Column, Program, least_squares};
 
-/// A face of the polyhedron of balances: the columns that may carry force, and those at their limits on all of it.
+/// A face of the polyhedron of balances: the columns that may carry force on it, and those that are at their limits on
+/// all of it.
 #[derive(Clone)]
 pub(super) struct Face {
-    /// What `columns` must balance: the loads, less what the columns at their limits give.
+    /// The loads that `columns` must balance: the given loads minus the forces of the columns at their limits.
     pub loads: Vec<f64>,
     /// The columns between their bounds.
     pub columns: Vec<Column>,
     /// An amount for each of `columns`.
     pub amounts: Vec<f64>,
-    /// The columns that every optimum uses to their limit.
+    /// The columns whose amount equals their limit in every optimum.
     pub at_limit: Vec<Column>,
 }
 
 impl Face {
-    /// All balances of some columns.
+    /// The face of all balances of some columns, with amounts of 0.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {
@@ -42,8 +44,8 @@ impl Face {
 
     /// The face of optima, from a solved dual of this face: its basic columns (see [`Dual::active`]).
     ///
-    /// A limited column is at its limit if the limit's multiplier exceeds the distance from it. Only then is every balance on
-    /// the face an optimum.
+    /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance from it. Such
+    /// columns are fixed; otherwise not every balance on the face would be an optimum.
     pub fn narrowed(&self, solved: &Dual, margin: f64) -> Face {
         let mut face = Face {
             columns: Vec::new(),
@@ -64,7 +66,7 @@ impl Face {
         face
     }
 
-    /// The face with those columns only for which `keep(column, amount)` is true.
+    /// The face restricted to the columns for which `keep(column, amount)` is true.
     pub fn only(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
         let mut face = Face {
             columns: Vec::new(),
@@ -80,7 +82,7 @@ impl Face {
         face
     }
 
-    /// The cost of amounts, with that of the columns at their limits.
+    /// The cost of given amounts, plus the cost of the columns at their limits.
     pub fn cost(&self, amounts: &[f64]) -> f64 {
         let chosen: f64 = self
             .columns
@@ -91,27 +93,38 @@ impl Face {
         chosen + self.at_limit.iter().map(|c| c.cost * c.limit).sum::<f64>()
     }
 
-    /// The admissible forces and the sticking forces.
+    /// The amounts of the adhesion columns, of amounts of the columns between their bounds.
+    pub fn adhesion_amounts<'a>(&'a self, amounts: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let both = self.columns.iter().zip(amounts);
+        both.filter(|(c, _)| c.force.is_adhesion()).map(|(_, a)| *a)
+    }
+
+    /// The objective of stage 1: the sum of the amounts of the adhesion columns.
+    pub fn adhesion_sum(&self, amounts: &[f64]) -> f64 {
+        self.adhesion_amounts(amounts).sum()
+    }
+
+    /// Converts the amounts to forces of contacts and grips: the admissible forces, and the sticking forces.
     pub fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
-        let (mut admissible, mut sticking) = (Amounts::none(program), Amounts::none(program));
+        let (mut admissible, mut adhesion) = (Amounts::none(program), Amounts::none(program));
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
         let at_limit = self.at_limit.iter().map(|c| (c, c.limit));
         for (column, amount) in chosen.chain(at_limit) {
-            let to = if column.force.is_sticking() {
-                &mut sticking
+            let to = if column.force.is_adhesion() {
+                &mut adhesion
             } else {
                 &mut admissible
             };
             to.add(column.force, amount);
         }
-        (admissible, sticking)
+        (admissible, adhesion)
     }
 }
 
 /// The amounts ≥ 0 of least Σ force² on given columns; `None` if the columns cannot balance the loads.
 ///
-/// If the balance has a unique solution, or one that [`exact`] can prove, elimination finds it, right to rounding. Else a
-/// quadratic program does.
+/// If the balance is unique, or [`exact`] can prove its optimum, elimination finds it to machine precision. Otherwise a
+/// quadratic program is solved.
 pub(super) fn least_squares_amounts(
     loads: &[f64],
     columns: &[Column],

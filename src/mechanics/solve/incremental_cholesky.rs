@@ -1,11 +1,11 @@
 //! [`IncrementalCholesky`]: the Cholesky factor of a matrix that grows and shrinks by one row and column at a time.
 //!
-//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one forward
-//! substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry on (skyline). In the
-//! Gram matrix of forces only those on a common block have products. So where columns come block by block, the work of a
-//! change grows with the width of the structure, not with its size.
+//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one
+//! forward substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry (skyline
+//! storage). In the Gram matrix of forces, two forces have a product only if they act on a common block. If the columns
+//! are ordered by blocks, the work of a change grows with the width of the structure, not with the number of blocks.
 
-/// The lower triangle L, with L·Lᵀ the matrix.
+/// The lower triangular factor L of the matrix L·Lᵀ.
 #[derive(Clone, Debug, Default)]
 pub(super) struct IncrementalCholesky {
     rows: Vec<Row>,
@@ -13,7 +13,7 @@ pub(super) struct IncrementalCholesky {
 
 #[derive(Clone, Debug)]
 struct Row {
-    /// The column of its first entry. Its last entry is on the diagonal.
+    /// The column of the first stored entry. The last entry is on the diagonal.
     first: usize,
     entries: Vec<f64>,
 }
@@ -24,7 +24,7 @@ impl IncrementalCholesky {
         self.forward_from(v, 0);
     }
 
-    /// As [`Self::forward`], for a v that is 0 before `begin`.
+    /// Like [`Self::forward`], for a v whose entries before `begin` are 0.
     fn forward_from(&self, v: &mut [f64], begin: usize) {
         for (k, row) in self.rows.iter().enumerate().skip(begin) {
             let (before, rest) = v.split_at_mut(k);
@@ -47,11 +47,12 @@ impl IncrementalCholesky {
         }
     }
 
-    /// Appends a row and column to the matrix: its products with the former ones, and its own diagonal entry `square`.
+    /// Appends a row and column to the matrix: `products` are its entries with the former rows, `square` is its
+    /// diagonal entry.
     ///
     /// Returns false, and appends nothing, if the new pivot is at most `min_pivot`.
     pub fn append(&mut self, mut products: Vec<f64>, square: f64, min_pivot: f64) -> bool {
-        // The new row of L solves L·row = products; zeros at its beginning stay zeros.
+        // The new row of L solves L·row = products. Leading zeros of the products stay zeros in the row.
         let first = products.iter().position(|v| *v != 0.0);
         let first = first.unwrap_or(products.len());
         self.forward_from(&mut products, first);
@@ -66,8 +67,10 @@ impl IncrementalCholesky {
         true
     }
 
-    /// Removes a row and column. What is left has one entry right of the diagonal in each row below; Givens rotations of
-    /// neighbouring columns make it triangular again.
+    /// Removes a row and column of the matrix.
+    ///
+    /// Each row below then has one entry to the right of the diagonal. Givens rotations of neighbouring columns make
+    /// the factor triangular again.
     pub fn remove(&mut self, place: usize) {
         self.rows.remove(place);
         for k in place..self.rows.len() {
@@ -85,7 +88,7 @@ impl IncrementalCholesky {
 }
 
 impl Row {
-    /// The entries left of the diagonal, and the one on it.
+    /// The entries to the left of the diagonal, and the diagonal entry.
     fn parts(&self) -> (&[f64], f64) {
         match self.entries.split_last() {
             Some((diagonal, off)) => (off, *diagonal),
@@ -116,7 +119,7 @@ impl Row {
     }
 }
 
-/// The dot product of two lists, in four sums that run in parallel.
+/// The dot product of two lists, as four partial sums that the processor computes in parallel.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((fours, rest), (others, last)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];

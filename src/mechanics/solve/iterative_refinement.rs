@@ -1,18 +1,21 @@
-//! Iterative refinement of amounts: the residual is scaled to size 1, solved for as a correction, and added.
+//! Iterative refinement of amounts: scale the residual to size 1, solve for a correction that removes it, and add it.
+//!
+//! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solved_with_retry};
 use crate::program::{Column, Correction, least_norm, least_squares};
 
-/// Rounds of [`refine_balance`]: twice nine digits are more than f64 has.
+/// The largest number of rounds of [`refine_balance`]. Each gains nine digits, so two rounds reach the precision of
+/// f64.
 const MAX_ROUNDS: usize = 2;
 
-/// A residual below this fraction of the largest load is rounding.
+/// A residual up to this fraction of the largest load is rounding, and is not refined further.
 const ROUNDING: f64 = 1e-14;
 
-/// The amounts with the least change that removes their residual: one linear system, no inequalities.
+/// Applies the least change (in the sum of squares) that removes the residual of some amounts: one linear system.
 ///
-/// An amount that would become negative is set to 0; what that costs shows in the balance. If the system is not solved, the
-/// amounts are returned as they are.
+/// An amount that would become negative is set to 0, which may leave a residual. If the system is not solved, the
+/// amounts are returned unchanged.
 pub(super) fn balance_by_least_change(
     loads: &[f64],
     columns: &[Column],
@@ -34,10 +37,10 @@ pub(super) fn balance_by_least_change(
     better.map(|(a, d)| (a + size * d).max(0.0)).collect()
 }
 
-/// Amounts near the given ones whose balance is exact to rounding, as far as they are found.
+/// Refines amounts until they balance the loads to rounding, or until a round brings no improvement.
 ///
-/// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and gains the solver's nine digits.
-/// Without it the balance of a feather under a mountain is lost in the mountain's rounding.
+/// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and gains about nine digits.
+/// Without it, the balance of a very light block under a very heavy one is lost in the rounding of the heavy one.
 pub(super) fn refine_balance(
     loads: &[f64],
     columns: &[Column],
@@ -51,6 +54,7 @@ pub(super) fn refine_balance(
             break;
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
+        // Solve for the correction at size 1.
         let correction = Correction {
             amounts: &amounts,
             size,

@@ -1,14 +1,16 @@
 //! The program of least adhesion, lexicographically: least adhesion, then least force, then fewest points that stick.
 //!
-//! The limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, without a large number. Each stage keeps only the columns on the
-//! face of optima of the stage before, so nothing is traded against it. Stages:
+//! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number: each stage
+//! keeps only the columns on the face of optima of the previous stage, so its objective cannot worsen the previous one.
+//! Stages:
 //!
 //! 1. least Σ sticking, where admissible forces cost nothing;
 //! 2. least Σ force, on the face of stage 1;
-//! 3. fewest points: an interior-point method spreads ties over all tied places, so each round makes sticking dear where
-//!    little of it is used (reweighted ℓ₁, Candès, Wakin and Boyd 2008). The cost depends on amounts only, not on the order
-//!    of the file: a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored figure;
-//! 4. least Σ force² on what is left, which is unique.
+//! 3. fewest points: an interior-point method spreads sticking over all optimal points, so each round raises its cost
+//!    where little of it is used (reweighted ℓ₁, Candès, Wakin and Boyd 2008). The cost depends only on amounts, not on
+//!    the order of the file: a tie between mirror images stays a tie, and the figure of a mirrored scene is the
+//!    mirrored figure;
+//! 4. least Σ force² on the remaining columns, which is unique.
 
 use super::level::refined_optimum;
 use super::limit::columns_in;
@@ -18,40 +20,45 @@ use super::{
     Status, TOLERANCE, determinate, dual, in_forces, largest, least_adhesion_levels,
     least_squares_amounts, of_velocities, once, refine_balance,
 };
-use crate::program::{Column, Program, kinematic_dual, sticking_columns};
+use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
 
-/// Rounds of stage 3. The number of points rarely falls after the third.
+/// The largest number of rounds of stage 3. The number of points rarely falls after the third round.
 const MAX_ROUNDS: usize = 4;
 
-/// As [`MAX_ROUNDS`], with many blocks. In 120 walls of 200 to 2 000 bricks more rounds dropped 1 to 3 points in 100, in one wall
-/// 9, and took a tenth of the time.
+/// The number of rounds of stage 3 for many blocks.
+///
+/// In 120 walls of 200 to 2 000 bricks, more rounds removed only 1 to 3 points in 100 (9 in one wall) and took a tenth
+/// of the total time.
 const MAX_ROUNDS_MANY: usize = 1;
 
-/// Costs 1/β of admissible forces relative to sticking, tried one after the other if stage 1 ends without a status at cost 0.
+/// Costs 1/β of admissible forces relative to sticking, tried in turn if stage 1 ends without a status at cost 0.
 ///
-/// If wedged blocks can press each other without limit, the dual of stage 1 has no interior, and the solver may end without a
-/// status. With a cost it has one.
+/// If wedged blocks can press each other without limit, the dual of stage 1 has no interior, and the solver may end
+/// without a status. With a positive cost the dual has an interior.
 const FORCE_COSTS: [f64; 2] = [1e-6, 1e-4];
 
-/// Sticking at a point below this fraction of the largest is dropped in stage 3. The second value is tried if the first drops
-/// too much, such as sticking against a light load.
+/// Stage 3 drops sticking at a point below this fraction of the largest sticking.
+///
+/// The second value is tried if the first drops needed sticking, such as that against a light load.
 const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
 
-/// As [`DROP_TOL`], with many blocks. At 10⁻⁵ a column was missing in a wall of 4 128 bricks, which the least squares took 1.8 s
-/// to find out. At 10⁻⁹ rounding of the solver is kept, with up to 40 more points in 100.
+/// [`DROP_TOL`] for many blocks.
+///
+/// At 10⁻⁵ a needed column was dropped in a wall of 4 128 bricks, and the least squares took 1.8 s to show it. At 10⁻⁹
+/// the solver's rounding is kept too, which gives up to 40 % more points.
 const DROP_TOL_MANY: [f64; 2] = [1e-6, 1e-9];
 
-/// How a program is stated and solved, by its number of blocks.
+/// Whether a program has few or many blocks. This decides how it is scaled and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Size {
-    /// Few blocks: loads as they are, and all digits of the optimum.
+    /// Few blocks: loads are not scaled, and the optimum is refined to all digits.
     Few,
-    /// Many blocks: a largest load of 1, and tolerances that walls near their limit can meet.
+    /// Many blocks: loads are scaled to a largest of 1, with tolerances that walls near their limit can meet.
     Many,
 }
 
 impl Size {
-    /// The number of blocks from which on there are many.
+    /// A program with at least this number of blocks has many blocks.
     const MANY_BLOCKS: usize = 200;
 
     fn new(program: &Program) -> Size {
@@ -62,13 +69,16 @@ impl Size {
     }
 }
 
-/// With many blocks, stages 2 to 4 are skipped if the sum of the basic columns' slacks exceeds this multiple of what sums of
-/// sticking may differ by. The sticking would grow by that slack if each carried the largest load. For 46 walls of 200
-/// to 2 000 bricks stage 2 had a valid answer up to 0.11, and none from 0.96 on.
+/// With many blocks, stages 2 to 4 are skipped if the sum of the basic columns' slacks exceeds this multiple of the
+/// tolerance for sums of sticking.
+///
+/// If each of these columns carried the largest load, the sum of sticking would grow by the sum of their slacks. In 46
+/// walls of 200 to 2 000 bricks, stage 2 had a valid answer up to a multiple of 0.11 and none from 0.96.
 const MAX_BASIC_SLACK: f64 = 0.5;
 
-/// With many blocks, stage 1 is solved to a finer tolerance. Without that, in a wall of 2 000 bricks turned by 40°, stage 2 had no
-/// balance on the columns found.
+/// When stage 1 stops with many blocks: at a finer tolerance, so that basic columns are clearly distinct.
+///
+/// Without it, the face of optima of a wall of 2 000 bricks, rotated by 40°, contained no balance in stage 2.
 const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
     tolerance_factor: 1e-2,
     max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY,
@@ -78,14 +88,16 @@ const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
 /// A block whose load is below this fraction of the largest is light.
 const LIGHT_LOAD: f64 = 1e-3;
 
-/// Margins of [`Dual::active`], tried one after the other: if the plain rule loses a column that is needed, larger ones keep it.
+/// Margins of [`Dual::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
 const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
-/// Sums of sticking that differ by less than this fraction are equal: the solver's tolerance of 1e-9, on sums of some tens of
-/// terms.
+/// Two sums of sticking count as equal if their relative difference is at most this.
+///
+/// It is the solver's tolerance of 1e-9 for sums of a few tens of terms. At a tenth, valid later stages would be
+/// rejected; at ten times, stage 2 could trade sticking for a smaller force.
 const SUM_TOL: f64 = 3e-8;
 
-/// As [`SUM_TOL`], with many blocks, where the solver's own sum has no more digits.
+/// [`SUM_TOL`] for many blocks, where the sum that the solver returns is itself less accurate.
 const SUM_TOL_MANY: f64 = 3e-7;
 
 /// Solves the program of least adhesion.
@@ -95,70 +107,81 @@ pub fn least_adhesion(program: &Program, conditioning: Conditioning) -> LeastAdh
 
 /// Solves the program of least adhesion with given settings.
 ///
-/// With many blocks it is scaled to a largest load of 1. With loads of 300 a wall of 410 bricks just past its limit ends without
-/// a status, six times after a hundred iterations; with loads of 1 it is solved in 69.
+/// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts at a wall of 410
+/// bricks just past its limit each ended without a status after a hundred iterations; with loads of 1 it is solved in
+/// 69.
 pub fn least_adhesion_in(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     determinate::least_adhesion(program).unwrap_or_else(|| by_programs(program, settings))
 }
 
-/// As [`least_adhesion_in`], without the closed form.
+/// Like [`least_adhesion_in`], but without the closed form for statically determinate structures.
 pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     let mut effort = Effort::default();
     let size = Size::new(program);
+    // Scale the loads of many blocks to a largest of 1.
     let load = match largest(&program.loads) {
         load if size == Size::Many && load > 0.0 => load,
         _ => 1.0,
     };
     let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
     let mut all = columns_in(program, load);
-    all.extend(sticking_columns(program));
+    all.extend(adhesion_columns(program));
     let whole = Face::whole(&loads, all);
+    // Stage 1. If no sticking balances the blocks, the dual is unbounded along a motion.
     let (first, priced) = first_stage(&whole, size, settings, &mut effort);
-    let motion = Some(first.y.iter().map(|v| -v).collect());
     if first.status != Status::Solved {
-        let none = Amounts::none(program);
-        let fallen = first.status == Status::Unbounded;
-        return LeastAdhesion {
-            balanced: fallen.then_some(false),
-            forces: none.clone(),
-            sticking: none,
-            motion: motion.filter(|_| fallen),
-            priced,
-            effort,
-        };
+        return without_balance(program, first, priced, effort);
     }
-    let least = sticking_sum(&whole, &first.amounts);
-    let precise = least_adhesion_levels::wanted(&whole.loads, least).and_then(|wanted| {
-        let (loads, columns) = (&whole.loads, &whole.columns);
-        let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
-        let found = refined_optimum(loads, columns, cost, &first, wanted, &mut effort)?;
-        Some((found, wanted))
-    });
-    let mut motion = motion;
+    let mut motion = Some(first.y.iter().map(|v| -v).collect());
+    // If sizes differ by many powers of ten, refine the optimum of stage 1 level by level.
+    let least = whole.adhesion_sum(&first.amounts);
+    let precise = least_adhesion_levels::smallest_accurate_force(&whole.loads, least).and_then(
+        |force_size| {
+            let (loads, columns) = (&whole.loads, &whole.columns);
+            let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
+            let found = refined_optimum(loads, columns, cost, &first, force_size, &mut effort)?;
+            Some((found, force_size))
+        },
+    );
     let mut face = match &precise {
-        Some((first, wanted)) => {
+        Some((first, force_size)) => {
             motion = Some(first.y.iter().map(|v| -v).collect());
-            least_adhesion_levels::chosen(&whole, first, *wanted, settings, &mut effort)
+            least_adhesion_levels::chosen(&whole, first, *force_size, settings, &mut effort)
         }
         None => later_stages(&whole, &first, size, settings, &mut effort),
     };
     if settings.conditioning == Conditioning::Full && precise.is_none() {
         face.amounts = refine_balance(&face.loads, &face.columns, face.amounts, &mut effort);
     }
-    let (mut forces, mut sticking) = face.gathered(program);
+    // Convert the forces back to the units of the program.
+    let (mut forces, mut adhesion) = face.gathered(program);
     forces.multiply(load);
-    sticking.multiply(load);
+    adhesion.multiply(load);
     LeastAdhesion {
         balanced: Some(true),
         forces,
-        sticking,
+        adhesion,
         motion,
         priced,
         effort,
     }
 }
 
-/// Stage 1. Returns the optimum, and whether admissible forces had a cost.
+/// The result if no balance was found: the motion if the dual is unbounded along it.
+fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort) -> LeastAdhesion {
+    let none = Amounts::none(program);
+    let fallen = first.status == Status::Unbounded;
+    LeastAdhesion {
+        balanced: fallen.then_some(false),
+        forces: none.clone(),
+        adhesion: none,
+        motion: fallen.then(|| first.y.iter().map(|v| -v).collect()),
+        priced,
+        effort,
+    }
+}
+
+/// Stage 1: the least Σ sticking. Returns the optimum, and whether admissible forces had a cost.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -167,7 +190,7 @@ fn first_stage(
 ) -> (Dual, bool) {
     let priced = |price: f64, effort: &mut Effort| {
         dual(&whole.loads, &whole.columns, settings, effort, |c| {
-            if c.force.is_sticking() {
+            if c.force.is_adhesion() {
                 1.0
             } else {
                 price * c.cost
@@ -189,7 +212,8 @@ fn first_stage(
     (last, dear)
 }
 
-/// When stage 1 stops. The sticking of a light block converges last: with such blocks it does not stop early.
+/// The stopping rule of stage 1 for many blocks. If a block is light, stage 1 does not stop early, because the sticking
+/// of light blocks converges last.
 fn crossover(loads: &[f64]) -> CrossoverTolerance {
     let bodies = loads
         .chunks_exact(3)
@@ -207,10 +231,12 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
     }
 }
 
-/// Stage 1 without redundant columns; if the kinematic form has no status, in forces.
+/// Stage 1 for many blocks: without redundant columns. If the kinematic form ends without a status, the static form is
+/// solved.
 fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
+    // Solve the kinematic form without redundant columns. If it ends without a status, solve the static form.
     let slanted = Slanted::new(&whole.columns);
-    let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
+    let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     let (conic, row_of) = kinematic_dual(&whole.loads, &slanted.columns, cost);
     let finer = SolverSettings {
         crossover: Some(crossover(&whole.loads)),
@@ -224,11 +250,11 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
     slanted.in_all_columns(&whole.columns, solved)
 }
 
-/// Stages 2 to 4: among all balances of least adhesion the one that is shown.
+/// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
 ///
-/// Near the limit of standing of many blocks, the basic columns of the optimum cannot be told from the others, and the least
-/// force falls by a tenth while the sticking grows by a millionth. Then the balance of stage 1 is kept: its sticking is
-/// the least, its force is not.
+/// For many blocks near the limit of standing, basic columns cannot be distinguished from the others: the least force
+/// falls by a tenth while the sticking grows by a millionth. Then the balance of stage 1 is returned. It has the least
+/// sticking, but not the least force.
 fn later_stages(
     whole: &Face,
     first: &Dual,
@@ -236,17 +262,18 @@ fn later_stages(
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    let least = sticking_sum(whole, &first.amounts);
+    let least = whole.adhesion_sum(&first.amounts);
     let (same, margins) = match size {
         Size::Many => (SUM_TOL_MANY, &MARGINS[..1]),
         Size::Few => (SUM_TOL, &MARGINS[..]),
     };
-    // Sums below the solver's tolerance are all the same.
+    // Sums below the solver's tolerance count as equal.
     let slight = TOLERANCE * largest(&whole.loads);
     let unchanged = |face: &Face, amounts: &[f64]| {
-        (sticking_sum(face, amounts) - least).abs() <= same * least + slight
+        (face.adhesion_sum(amounts) - least).abs() <= same * least + slight
     };
     let from_first_stage = || whole.clone().with(first.amounts.clone());
+    // The sum of the slacks of the basic columns measures how well stage 1 separates them from the others.
     let in_use = first.slack.iter().zip(first.active(1.0));
     let slack: f64 = in_use
         .filter(|(_, active)| *active)
@@ -260,8 +287,8 @@ fn later_stages(
     else {
         return from_first_stage();
     };
-    // Stages 3 and 4. With many blocks few columns are left, hardly more than a unique balance has. Plain conditioning ends there without a
-    // status.
+    // Stages 3 and 4. With many blocks, hardly more columns are left than a unique balance has. The least squares then
+    // need full conditioning: with plain conditioning they end without a status.
     let squares = match size {
         Size::Many => SolverSettings {
             conditioning: Conditioning::Full,
@@ -286,7 +313,9 @@ fn later_stages(
     face
 }
 
-/// Stage 2: the face of least force among balances of least adhesion; `None` if no margin gives one with the same adhesion.
+/// Stage 2: the face of least force among the balances of least adhesion.
+///
+/// `None` if the solver finds no balance with the same sum of sticking for any of the margins.
 fn least_force_face(
     whole: &Face,
     first: &Dual,
@@ -297,6 +326,7 @@ fn least_force_face(
     effort: &mut Effort,
 ) -> Option<Face> {
     margins.iter().find_map(|margin| {
+        // Restrict to the optima of stage 1, minimise the force, and check that the sticking is unchanged.
         let narrow = whole.narrowed(first, *margin);
         let second = solve_stage(&narrow, size, settings, effort, |c| c.cost);
         if second.status != Status::Solved || !unchanged(&narrow, &second.amounts) {
@@ -313,8 +343,8 @@ fn least_force_face(
 
 /// Solves the dual of a later stage.
 ///
-/// With many blocks, a stage that ends without a status does so with full conditioning too, after two to four times as long.
-/// So it is not tried again; the result of the former stage is shown.
+/// With many blocks, a stage that ends without a status also does so with full conditioning, after two to four times as
+/// long. It is therefore not solved again; the caller keeps the result of the previous stage.
 fn solve_stage(
     face: &Face,
     size: Size,
@@ -332,7 +362,8 @@ fn solve_stage(
     }
 }
 
-/// Stage 3: the face with few points that stick. `None` if the columns of many blocks turn out to have no balance.
+/// Stage 3: reduces the face to few points that stick. `None` if the columns of a program of many blocks have no
+/// balance.
 fn concentrate(
     face: &Face,
     drop_tolerance: f64,
@@ -350,23 +381,23 @@ fn concentrate(
         if face
             .columns
             .iter()
-            .filter(|c| c.force.is_sticking())
+            .filter(|c| c.force.is_adhesion())
             .count()
             < 2
         {
             break;
         }
-        // Cost 1/amount, limited to a thousand times that of the largest amount.
-        let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
+        // Reweighting: the cost is about 1/amount, at most a thousand times that of the largest amount.
+        let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
-            if column.force.is_sticking() {
+            if column.force.is_adhesion() {
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
         let solved = solve_stage(&face, size, settings, effort, |c| {
-            if c.force.is_sticking() { c.cost } else { 0.0 }
+            if c.force.is_adhesion() { c.cost } else { 0.0 }
         });
-        // The least squares would take ten times as long to find that out.
+        // The columns have no balance. The least squares would take ten times as long to show it.
         if size == Size::Many && solved.status == Status::Unbounded {
             return None;
         }
@@ -374,25 +405,13 @@ fn concentrate(
             break;
         }
         face.amounts = solved.amounts;
-        // Drop what has become small; stop when nothing does.
-        let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
+        // Drop the points with little sticking; stop if there are none.
+        let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
-        face = face.only(|c, a| !c.force.is_sticking() || a > drop_tolerance * most);
+        face = face.only(|c, a| !c.force.is_adhesion() || a > drop_tolerance * most);
         if face.columns.len() == before {
             break;
         }
     }
     Some(face)
-}
-
-fn sticking_amounts<'a>(face: &'a Face, amounts: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-    face.columns
-        .iter()
-        .zip(amounts)
-        .filter(|(c, _)| c.force.is_sticking())
-        .map(|(_, a)| *a)
-}
-
-fn sticking_sum(face: &Face, amounts: &[f64]) -> f64 {
-    sticking_amounts(face, amounts).sum()
 }

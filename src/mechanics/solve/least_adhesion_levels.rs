@@ -1,69 +1,87 @@
-//! The later stages of the least adhesion, where its sizes span more digits than a solver has.
+//! Stages 2 to 4 of the least adhesion, for loads that differ by more powers of ten than a solver has digits.
 //!
-//! As [`super::stick`], with every stage solved level by level ([`super::level`]), so that a stone of a gram on a block of a
-//! hundred tons sticks by its own digits. Columns leave the face of optima by an amount of exactly 0, and no threshold in
-//! parts of the largest force decides.
+//! The stages are those of [`super::least_adhesion`], but each is solved level by level ([`super::level`]). The
+//! sticking of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
+//! optima if its amount is exactly 0; no threshold relative to the largest force is used.
 
-use super::level::{WIDE, lightest, own_loads, refined_optimum, with_least_squares};
+use super::level::{WIDE_LOAD_RATIO, lightest, own_loads, refined_optimum, with_least_squares};
 use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
 use crate::program::Column;
 
-/// A sum of sticking below this part of the largest load is more than a solver's digits away from it.
-const SLIGHT: f64 = 1e-3;
+/// A least sum of sticking below this fraction of the largest load needs a refined optimum.
+const SMALL_ADHESION: f64 = 1e-3;
 
-/// A sum of sticking below this part of the largest load is none.
-const NONE: f64 = 1e-10;
+/// A least sum of sticking below this fraction of the largest load counts as 0: it is within the solver's tolerance.
+const ZERO_ADHESION: f64 = 1e-10;
 
-/// Rounds of concentrating.
-const ROUNDS: usize = 4;
+/// Sums of sticking that differ by less than this fraction are the same: a hundredth of the error that a result may have.
+const SAME_SUM: f64 = 1e-8;
 
-/// The size of force whose digits are wanted, where an optimum of the least adhesion does not have them.
-pub(super) fn wanted(loads: &[f64], least: f64) -> Option<f64> {
+/// The largest number of rounds of stage 3.
+const MAX_ROUNDS: usize = 4;
+
+/// The size of the smallest forces that must be accurate, in the units of the loads.
+///
+/// `None` if it is so close to the largest load that the unrefined optimum is accurate enough. `least` is the least sum
+/// of sticking.
+pub(super) fn smallest_accurate_force(loads: &[f64], least: f64) -> Option<f64> {
     let most = largest(loads);
     let light = lightest(loads);
-    let slight = NONE * most < least && least < SLIGHT * most;
-    let wanted = if slight { light.min(least) } else { light };
-    (wanted < WIDE * most && wanted > 0.0).then_some(wanted)
+    let slight = ZERO_ADHESION * most < least && least < SMALL_ADHESION * most;
+    let force_size = if slight { light.min(least) } else { light };
+    (force_size < WIDE_LOAD_RATIO * most && force_size > 0.0).then_some(force_size)
 }
 
-/// Among all balances of least adhesion the one that is shown: of least force, then with fewest points that stick.
+/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points that stick.
 ///
-/// `first` is the optimum of the first stage, refined. A stage that the solver does not get through is left out.
+/// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
 pub(super) fn chosen(
     whole: &Face,
     first: &Dual,
-    wanted: f64,
+    force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    let mut face = whole.narrowed(first, 1.0);
-    if let Some(second) = optimum(&face, wanted, settings, effort, |c| c.cost) {
-        face = face.narrowed(&second, 1.0);
-    }
-    let face = concentrated(face, wanted, settings, effort);
-    with_least_squares(face, wanted, settings, effort)
+    let face = whole.narrowed(first, 1.0);
+    let least = face.adhesion_sum(&face.amounts);
+    // A column whose slack is below the solver's digits is on the face by mistake. A later stage that uses much of it adds
+    // sticking, and is skipped.
+    let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SAME_SUM) * least;
+    // Stage 2: least force.
+    let second = optimum(&face, force_size, settings, effort, |c| c.cost);
+    let narrower = second.map(|second| face.narrowed(&second, 1.0));
+    let face = narrower.filter(unchanged).unwrap_or(face);
+    // Stages 3 and 4: fewest points, then least squares.
+    let few = concentrated(face.clone(), force_size, settings, effort);
+    let face = Some(few).filter(unchanged).unwrap_or(face);
+    let squares = with_least_squares(face.clone(), force_size, settings, effort);
+    Some(squares).filter(unchanged).unwrap_or(face)
 }
 
-/// The optimum of a face for given costs, every body with its own digits.
+/// The optimum of a face for given costs, accurate relative to each body's own load; `None` if it is not found.
 fn optimum(
     face: &Face,
-    wanted: f64,
+    force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Option<Dual> {
     let solved = dual(&face.loads, &face.columns, settings, effort, &cost);
     let start = (solved.status == Status::Solved).then_some(solved)?;
-    refined_optimum(&face.loads, &face.columns, cost, &start, wanted, effort)
+    refined_optimum(&face.loads, &face.columns, cost, &start, force_size, effort)
 }
 
-/// The face with few points that stick: little sticking, in parts of the load where it acts, is made dear round by round.
+/// Stage 3: reduces the face to few points that stick.
+///
+/// In each round the cost of a sticking column rises if its amount is small, relative to the lighter load that it acts
+/// on.
 fn concentrated(
     mut face: Face,
-    wanted: f64,
+    force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
+    // The lighter of the two loads on which a column acts.
     let own = own_loads(&face.loads);
     let lightest_of = |column: &Column| {
         let loads = column.entries().map(|(row, _)| own[row / 3]);
@@ -72,32 +90,34 @@ fn concentrated(
             .fold(f64::INFINITY, f64::min);
         if light.is_finite() { light } else { 1.0 }
     };
-    for _ in 0..ROUNDS {
-        let sticks = |column: &&Column| column.force.is_sticking();
-        let before = face.columns.iter().filter(sticks).count();
+    for _ in 0..MAX_ROUNDS {
+        let adheres = |column: &&Column| column.force.is_adhesion();
+        let before = face.columns.iter().filter(adheres).count();
         if before < 2 {
             break;
         }
+        // Reweighting: the cost of sticking is about 1/share, at most a thousand times that of the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
-            .map(|(column, amount)| match column.force.is_sticking() {
+            .map(|(column, amount)| match column.force.is_adhesion() {
                 true => amount / lightest_of(column),
                 false => 0.0,
             })
             .collect();
         let most = largest(&shares);
         for (column, share) in face.columns.iter_mut().zip(&shares) {
-            if column.force.is_sticking() {
+            if column.force.is_adhesion() {
                 column.cost = 1e-2 * most / (share + 1e-3 * most);
             }
         }
-        let cost = |c: &Column| if c.force.is_sticking() { c.cost } else { 0.0 };
-        let Some(solved) = optimum(&face, wanted, settings, effort, cost) else {
+        let cost = |c: &Column| if c.force.is_adhesion() { c.cost } else { 0.0 };
+        let Some(solved) = optimum(&face, force_size, settings, effort, cost) else {
             break;
         };
+        // Drop the columns whose amount is exactly 0; stop if there are none.
         face.amounts = solved.amounts;
-        face = face.only(|column, amount| !column.force.is_sticking() || amount > 0.0);
-        if face.columns.iter().filter(sticks).count() == before {
+        face = face.only(|column, amount| !column.force.is_adhesion() || amount > 0.0);
+        if face.columns.iter().filter(adheres).count() == before {
             break;
         }
     }

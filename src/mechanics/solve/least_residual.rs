@@ -1,12 +1,13 @@
-//! The programs of any balance and of least residual, which decide near the limit of standing.
+//! Two programs that decide near the limit of standing: any balance, and least residual.
 //!
-//! There the program of least force ends without a status: it is infeasible past the limit, and its optimum unbounded just
-//! before it. Two programs without that cost decide:
+//! Near that limit the program of least force ends without a status: just before the limit its optimum grows without
+//! bound, and past the limit it is infeasible. These two programs have no cost of forces:
 //!
-//! - any balance, with the forces as unknowns and no cost. It takes some 30 iterations on either side of the limit of a
-//!   wall of 410 bricks, 10⁻⁵ of the load away, where the least force takes 200 and fails.
-//! - the least Σ |residual|. If it is 0 the forces balance; else the velocities are those of largest power within
-//!   −1 ≤ y ≤ 1. It has an optimum on either side, and shows whether an answer lies within the band of the proofs.
+//! - *any balance*, in static form and without a cost. For a wall of 410 bricks, 10⁻⁵ of the load on either side of its
+//!   limit, it takes about 30 iterations; least force takes 200 and fails.
+//! - *least residual*, the least Σ |loads − Σ force|. If it is 0, the forces balance the loads. Otherwise the
+//!   velocities are the motion of largest power within −1 ≤ y ≤ 1. It has an optimum on both sides of the limit, and
+//!   its size shows whether the result is within the tolerance of the proofs.
 
 use super::dual::amounts_of_rows;
 use super::limit::columns_in;
@@ -17,30 +18,32 @@ use super::{
 };
 use crate::program::{Column, Program, least_residual_dual};
 
-/// Forces and a motion, one of which a proof can use.
+/// Forces and a motion. One of them can be proved: the forces if they balance, otherwise the motion.
 #[derive(Clone, Debug)]
 pub struct Residual {
     /// The admissible forces.
     pub forces: Amounts,
-    /// The motion against them: three velocities per block, 0 where the forces balance.
+    /// The motion along which the loads do work: three velocities per block. All are 0 if the forces balance.
     pub motion: Vec<f64>,
-    /// Whether the result is beyond the solver's doubt: the forces balance, the motion exceeds the band of the proofs, or the
-    /// residual is the least.
+    /// Whether the result is reliable: the forces balance, the motion's power is well above the tolerance of the
+    /// proofs, or the residual is the least.
     pub nearest: bool,
-    /// The work it took.
+    /// The number of programs and iterations that were needed.
     pub effort: Effort,
 }
 
-/// A motion proves the fall beyond doubt if its power exceeds this multiple of Σ |velocity|, relative to the largest load: ten times
-/// the 1e-7 within which forces count as balanced.
+/// A motion is a reliable proof of the fall if its power exceeds this multiple of Σ |velocity| times the largest load.
+///
+/// It is ten times the 1e-7 within which a proof accepts forces as balanced.
 const MIN_POWER: f64 = 1e-6;
 
-/// The residual that a balance may leave, relative to the largest load: the solver's tolerance.
+/// The residual up to which forces count as a balance, relative to the largest load: the solver's tolerance.
 const BALANCE_TOL: f64 = 1e-9;
 
 /// A program scaled to a largest load of 1.
 ///
-/// A wall of 410 bricks pushed to its limit ends without a status with loads of 300, and after some 70 iterations with 1.
+/// For a wall of 410 bricks pushed to its limit, the solver ends without a status with loads of 300; with loads of 1 it
+/// finds the optimum after about 70 iterations.
 struct ScaledProgram<'p> {
     program: &'p Program,
     load: f64,
@@ -65,7 +68,7 @@ impl ScaledProgram<'_> {
         }
     }
 
-    /// The forces of these amounts, in the program's own units of force.
+    /// Converts the amounts of the scaled program to forces in the units of the original program.
     fn forces(&self, amounts: &[f64]) -> Amounts {
         let mut face = Face::whole(&self.program.loads, self.columns.clone());
         face.amounts = self.slanted.amounts_of_all(&self.columns, amounts);
@@ -76,11 +79,13 @@ impl ScaledProgram<'_> {
     }
 }
 
-/// Finds forces that balance, or a motion that shows that none do. Both are 0 if the solver ends without a status.
+/// Finds forces that balance the loads, or a motion that shows that no forces do. Both are 0 if the solver ends without
+/// a status.
 pub fn any_balance(program: &Program) -> Residual {
     let scaled = ScaledProgram::new(program);
     let (loads, columns) = (&scaled.loads, &scaled.slanted.columns);
     let mut effort = Effort::default();
+    // The static form without a cost: any admissible balance.
     let any = in_forces(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
     let mut found = Residual {
         forces: Amounts::none(program),
@@ -97,6 +102,7 @@ pub fn any_balance(program: &Program) -> Residual {
             found.forces = scaled.forces(&amounts);
         }
         Status::Unbounded => {
+            // The program is infeasible: its certificate is the motion.
             let power: f64 = loads.iter().zip(&any.y).map(|(n, v)| n * v).sum();
             let way: f64 = any.y.iter().map(|v| v.abs()).sum();
             found.nearest = power > MIN_POWER * way;
@@ -107,7 +113,8 @@ pub fn any_balance(program: &Program) -> Residual {
     found
 }
 
-/// Finds the forces of least residual and the motion that proves it; `None` if the solver ends without a status.
+/// Finds the forces of least residual and the motion that proves that it is the least; `None` if the solver ends
+/// without a status.
 pub fn least_residual(program: &Program) -> Option<Residual> {
     let scaled = ScaledProgram::new(program);
     let mut effort = Effort::default();

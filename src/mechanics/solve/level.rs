@@ -1,18 +1,20 @@
-//! An optimum of a linear program whose loads span many sizes, accurate for every body by itself.
+//! Refines the optimum of a linear program until it is accurate relative to the load of each body.
 //!
-//! Iterative refinement of linear programs ([GleixnerSteffyWolter16](crate::doc::references)). An interior-point method
-//! balances every body to some 10⁻⁹ of the heaviest load, and says nothing about a body a billion times lighter. So the
-//! program is solved level by level, each at the size of what the level before left:
+//! An interior-point method balances every body to about 10⁻⁹ of the heaviest load. For a body that is a billion times
+//! lighter, this is no balance at all. Iterative refinement of linear programs
+//! ([GleixnerSteffyWolter16](crate::doc::references)) solves the program again for its residual, level by level. Each
+//! level has the size of the residual of the previous level:
 //!
-//! 1. Residual: what the amounts leave unbalanced is summed with twice the digits. Its largest entry is ρ.
-//! 2. Classification: a column whose amount is far above ρ, and whose slack is next to nothing, is *basic*. No change of the
-//!    size of ρ can bring it to a bound, so its change is free, of either sign, and costs nothing. Every other column
-//!    starts again from its nearer bound, at its reduced cost.
-//! 3. Correction: the program of the changes is scaled to loads of 1 and solved. Its amounts correct the amounts, its
-//!    multipliers the velocities.
-//! 4. Clean-up: a column whose slack outweighs its amount is at its bound, to the last bit.
+//! 1. Residual: loads − Σ amount·column is summed with twice the digits. Its largest entry is ρ.
+//! 2. Classification: a column is *basic* if its amount is far above ρ and its slack nearly 0. A change of size ρ
+//!    cannot bring it to a bound, so its change may have either sign and has no cost. Every other column starts again
+//!    from a bound, with its reduced cost.
+//! 3. Correction: the program of the changes is scaled to loads of 1 and solved. Its solution corrects the amounts, its
+//!    multipliers correct the velocities.
+//! 4. Clean-up: a column whose slack exceeds its amount is set exactly to its bound.
 //!
-//! The velocities of a light body mean nothing until a level has the size of its load. Each level gains about six digits.
+//! The velocities of a light body are not accurate until a level has the size of its load. Each level gains about six
+//! digits.
 
 use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
@@ -21,32 +23,40 @@ use super::{
 use crate::geometry::CompensatedSum;
 use crate::program::{Column, QuadraticProgram};
 
-/// Loads differ by more than a solver's digits where the lightest is below this part of the heaviest.
-pub(super) const WIDE: f64 = 1e-3;
+/// The loads need refinement by levels if the lightest is below this fraction of the heaviest.
+pub(super) const WIDE_LOAD_RATIO: f64 = 1e-3;
 
-/// Levels at most: twelve decades of loads, and the digits of the lightest, take four.
+/// The largest number of levels. Loads that span twelve powers of ten need four.
 const MAX_LEVELS: usize = 8;
 
-/// A basic column's amount is at least this many times ρ.
-const AMPLE: f64 = 1e3;
+/// The amount of a basic column, and its distance from its limit, exceed this multiple of ρ.
+///
+/// A change may be many times ρ, as the thrust of an arch is many times its load. The factor keeps such a change within
+/// the bounds.
+const BASIC_AMOUNT_RATIO: f64 = 1e3;
 
-/// A basic column's slack is at most this, where a unit of force costs about 1.
+/// The slack of a basic column is at most this. A unit of force costs about 1, and the solver's tolerance is 10⁻⁹.
 const BASIC_SLACK: f64 = 1e-6;
 
-/// The solver's digits suffice for forces this many times smaller than the loads of a level.
+/// Forces this many times smaller than the loads of a level are still accurate at that level.
 const DIGITS_OF_LEVEL: f64 = 1e2;
 
-/// A body balances where no more than this part of its own load is left, or the rounding of what acts on it.
-/// What is left must not change the digits of the forces that are wanted either.
-const BALANCED: f64 = 1e-10;
-const SHARE_OF_WANTED: f64 = 1e-8;
+/// A body is balanced if its residual is at most this fraction of its own load.
+const BALANCE_TOL: f64 = 1e-10;
+
+/// The residual of a body is also at most this fraction of the smallest forces that must be accurate.
+const SMALL_FORCE_TOL: f64 = 1e-8;
+
+/// A residual up to this fraction of Σ |force| on the body is rounding and always allowed.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A limit beyond this many loads of a level cannot bind there; one below the second value allows nothing there.
+/// A limit above this multiple of the loads of a level cannot be reached at that level, so its row is omitted.
 const LOOSE_LIMIT: f64 = 1e6;
+
+/// A column whose limit is below this multiple of the loads of a level is kept fixed at that level.
 const NARROW_LIMIT: f64 = 1e-9;
 
-/// The loads of every body: force, and moment in parts of L.
+/// The size of each body's load: the larger of its force and its moment/L.
 pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
     let bodies = loads.chunks_exact(3);
     bodies
@@ -54,15 +64,22 @@ pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The load of the lightest body that has one.
+/// The smallest load above 0 of a body; infinite if no body has a load.
 pub(super) fn lightest(loads: &[f64]) -> f64 {
     let own = own_loads(loads).into_iter().filter(|load| *load > 0.0);
     own.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether amounts balance every body, measured by its own load and by the size of force that is wanted.
-fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[f64], wanted: f64) -> bool {
+/// Whether amounts balance every body, relative to its own load and to `force_size`, the size of the smallest forces
+/// that must be accurate.
+fn balances_every_body(
+    loads: &[f64],
+    columns: &[Column],
+    amounts: &[f64],
+    force_size: f64,
+) -> bool {
     let rest = residual(loads, columns, amounts);
+    // Σ |force| on each body, which bounds the rounding of its residual.
     let mut acting = own_loads(loads);
     for (column, amount) in columns.iter().zip(amounts) {
         for (row, value) in column.entries() {
@@ -72,12 +89,12 @@ fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[f64], wante
     let own = own_loads(loads);
     let mut bodies = rest.chunks_exact(3).zip(own.iter().zip(&acting));
     bodies.all(|(rest, (own, acting))| {
-        let allowed = (BALANCED * own).min(SHARE_OF_WANTED * wanted);
+        let allowed = (BALANCE_TOL * own).min(SMALL_FORCE_TOL * force_size);
         largest(rest) <= allowed.max(ROUNDING * acting)
     })
 }
 
-/// loads − Σ amount·column, summed with twice the digits.
+/// The residual loads − Σ amount·column, summed with twice the digits of f64.
 fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     let mut sums = vec![CompensatedSum::default(); loads.len()];
     for (sum, load) in sums.iter_mut().zip(loads) {
@@ -91,15 +108,15 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     sums.into_iter().map(CompensatedSum::value).collect()
 }
 
-/// The optimum near a given one, accurate to forces of size `wanted`; `None` where the solver does not get there.
+/// Refines an optimum until forces of size `force_size` are accurate; `None` if a level fails or the levels do not suffice.
 ///
-/// Its amounts balance every body. A column that is not in use has an amount of exactly 0, one in use a slack of exactly 0.
+/// The resulting amounts balance every body. Every column has an amount of exactly 0 or a slack of exactly 0.
 pub(super) fn refined_optimum(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
     start: &Dual,
-    wanted: f64,
+    force_size: f64,
     effort: &mut Effort,
 ) -> Option<Dual> {
     let costs: Vec<f64> = columns.iter().map(cost).collect();
@@ -108,23 +125,23 @@ pub(super) fn refined_optimum(
         let level = Level::new(loads, columns, &costs, &at)?;
         let size = level.size;
         at = level.solved(columns, &costs, at, effort)?;
-        let balanced = balances_every_body(loads, columns, &at.amounts, wanted);
-        if size <= DIGITS_OF_LEVEL * wanted && balanced {
+        let balanced = balances_every_body(loads, columns, &at.amounts, force_size);
+        if size <= DIGITS_OF_LEVEL * force_size && balanced {
             return Some(at);
         }
     }
     None
 }
 
-/// A face with the amounts of least Σ force² on it, where these balance every body; else as it is.
+/// A face with the amounts of least Σ force² on it. If these do not balance every body, the face is returned unchanged.
 pub(super) fn with_least_squares(
     face: Face,
-    wanted: f64,
+    force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
     let (loads, columns) = (&face.loads, &face.columns);
-    let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts, wanted);
+    let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts, force_size);
     let found = least_squares_amounts(loads, columns, settings, effort);
     let found = found.map(|amounts| match balances(&amounts) {
         true => amounts,
@@ -136,36 +153,38 @@ pub(super) fn with_least_squares(
     }
 }
 
-/// Where a column stands on a level.
+/// How a column may change at a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
-    /// Its amount starts again from 0.
+    /// Its amount starts from 0 and may increase.
     Lower,
-    /// Its amount starts again from its limit, downwards.
+    /// Its amount starts from its limit and may decrease.
     Upper,
-    /// Its change is free.
+    /// Its amount may increase or decrease.
     Basic,
-    /// It stays as it is: its whole range is nothing on this level.
+    /// Its amount stays the same: the limit is negligible at this level.
     Fixed,
 }
 
-/// The program of the changes, at its own size.
+/// One level: the program of the changes, scaled to loads of 1.
 struct Level {
     places: Vec<Place>,
-    /// What the columns that are not basic must give, with a largest entry of 1.
+    /// The loads that the changes must balance, scaled to a largest entry of 1.
     loads: Vec<f64>,
-    /// What 1 stands for.
+    /// The scale: a load of 1 here is a load of `size` in the original program.
     size: f64,
 }
 
 impl Level {
     fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Dual) -> Option<Level> {
+        // Step 1: the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
+        // Step 2: classify each column, and find the amount from which it starts.
         let given = |k: usize| {
             let (column, amount) = (&columns[k], at.amounts[k]);
             let slack = costs[k] - column.dot(&at.y);
             let room = amount.min(column.limit - amount);
-            if room > AMPLE * rho && slack.abs() <= BASIC_SLACK {
+            if room > BASIC_AMOUNT_RATIO * rho && slack.abs() <= BASIC_SLACK {
                 (Place::Basic, amount)
             } else if column.limit.is_finite() && slack < 0.0 {
                 (Place::Upper, column.limit)
@@ -174,6 +193,7 @@ impl Level {
             }
         };
         let (mut places, kept): (Vec<Place>, Vec<f64>) = (0..columns.len()).map(given).unzip();
+        // The loads of this level are the residual of these starting amounts.
         let left = residual(loads, columns, &kept);
         let size = largest(&left);
         if size == 0.0 || !size.is_finite() {
@@ -191,7 +211,7 @@ impl Level {
         })
     }
 
-    /// The linear program min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
+    /// The program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
     fn program_of_changes(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> QuadraticProgram {
         let n = columns.len();
         let mut program = QuadraticProgram {
@@ -209,6 +229,7 @@ impl Level {
                 let entries = column.entries().map(|(row, v)| (row, k, sign * v));
                 program.matrix.extend(entries);
             }
+            // The change of a basic column has no cost and no bounds.
             if *place == Place::Basic {
                 continue;
             }
@@ -227,7 +248,7 @@ impl Level {
         program
     }
 
-    /// The optimum with the changes of this level, cleaned.
+    /// Steps 3 and 4: solves the level, and returns the corrected optimum; `None` if the solver finds none.
     fn solved(
         &self,
         columns: &[Column],
@@ -240,9 +261,11 @@ impl Level {
         if answer.status != Status::Solved {
             return None;
         }
+        // Correct the velocities by the multipliers of the balance.
         for (y, multiplier) in at.y.iter_mut().zip(&answer.z) {
             *y -= multiplier;
         }
+        // Step 4: a column leaves its bound only if its change exceeds its reduced cost.
         for (k, (column, place)) in columns.iter().zip(&self.places).enumerate() {
             let reduced = costs[k] - column.dot(&at.y);
             let change = answer.x[k];

@@ -1,9 +1,9 @@
-//! How far a load or a robot's limit can go: limit analysis by one linear program each.
+//! Limit analysis: the largest load factor, and the least sufficient limit of a robot, by one linear program each.
 //!
-//! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the kinematic
-//! theorem: one more row than the program of least force, directionᵀy ≥ 1, whose multiplier is λ; the velocities are the
-//! collapse mechanism at the limit. A robot's least sufficient limit is the least amount of its own component if
-//! every other force is free of cost. Reference: [Livesley78](crate::doc::references).
+//! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
+//! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier of
+//! this row; the velocities are the collapse mechanism at the limit. The least sufficient limit of a robot is the least
+//! amount of its own component if all other forces have no cost. Reference: [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
 use super::slanted::Slanted;
@@ -13,27 +13,27 @@ use super::{
 };
 use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
-/// How far a load factor or a limit can go.
+/// The extreme value of a load factor or of a robot's limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// To this load factor; for a robot's component, to this limit in pure numbers.
+    /// The extreme load factor; for a robot's component, its least limit as a pure number.
     At(f64),
     /// No value allows a balance.
     Never,
-    /// There is no end.
+    /// Every value allows a balance: the load factor may grow without limit.
     Unbounded,
-    /// The solver gave up.
+    /// The solver ended without a result.
     Unsolved,
 }
 
-/// The state at the limit.
+/// The forces and the motion at the extreme value.
 #[derive(Clone, Debug)]
 pub struct Extreme {
-    /// The limit.
+    /// The extreme value.
     pub limit: Limit,
-    /// Forces that balance there.
+    /// Forces that balance the loads at the extreme value.
     pub forces: Option<Amounts>,
-    /// The collapse mechanism just beyond: three velocities for each block.
+    /// The collapse mechanism just beyond it: three velocities for each block.
     pub motion: Option<Vec<f64>>,
 }
 
@@ -47,34 +47,36 @@ impl From<Limit> for Extreme {
     }
 }
 
-/// From this number of blocks on the finest of [`TOLERANCES`] is out of reach: a wall of 410 bricks ends there without a status.
+/// From this number of blocks, the finest of [`TOLERANCES`] is not tried: with it, a wall of 410 bricks ends without a
+/// status.
 const MANY_BLOCKS: usize = 200;
 
-/// With many blocks, the work that the growing loads do along the velocities, relative to the largest of them.
+/// The right-hand side of directionᵀy ≥ 1 for many blocks: it scales the velocities.
 ///
-/// With 1 the velocities of a wall of 915 bricks are about a thousandth: its limit takes 97 iterations with full conditioning
-/// and is right to 10⁻⁶. With 1 000 it takes 38 iterations with plain conditioning, and is right to 10⁻⁷.
+/// With 1, the velocities of a wall of 915 bricks are about a thousandth: its limit takes 97 iterations with full
+/// conditioning and is accurate to 10⁻⁶. With 1 000 it takes 38 iterations with plain conditioning and is accurate to
+/// 10⁻⁷.
 const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 
-/// Tolerances, tried one after the other until the solver ends with a status.
+/// The tolerances that are tried in turn until the solver ends with a status.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
 /// The largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`.
 ///
-/// Loads and direction are scaled to a largest entry of 1. With loads of 300 a wall of 420 bricks ends after a hundred iterations
-/// at 0.48159; with loads of 1 it is solved, at 0.48162.
+/// Loads and direction are scaled to a largest entry of 1. With loads of 300, the solver stops for a wall of 420 bricks
+/// after a hundred iterations at λ = 0.48159; with loads of 1 it reaches the optimum λ = 0.48162.
 pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Largest)
 }
 
 /// The λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·direction`.
 ///
-/// It has an optimum exactly where any λ does, so [`Limit::Never`] says that none does.
+/// [`Limit::Never`] means that no λ does: this program has an optimum exactly if some λ allows a balance.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Nearest)
 }
 
-/// Which λ is sought.
+/// Which load factor λ is to be found.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Extremum {
     Largest,
@@ -82,7 +84,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// How many rows at the end of a form are those of λ.
+    /// The number of rows for λ at the end of the program.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,
@@ -90,7 +92,7 @@ impl Extremum {
         }
     }
 
-    /// λ from the multipliers of these rows.
+    /// Computes λ from the multipliers of these rows.
     fn factor(self, multipliers: &[f64]) -> Option<f64> {
         match (self, multipliers) {
             (Extremum::Largest, [.., up]) => Some(up.max(0.0)),
@@ -100,11 +102,13 @@ impl Extremum {
     }
 }
 
+/// Solves the program for the largest or the nearest λ along a direction.
 fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Extreme {
     let size = largest(direction);
     if size == 0.0 {
         return Limit::Unbounded.into();
     }
+    // Scale loads and direction to a largest entry of 1.
     let load = match largest(&program.loads) {
         0.0 => 1.0,
         load => load,
@@ -120,13 +124,14 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
         let work_rows = problem.bound.iter_mut().rev().take(extremum.rows());
         work_rows.for_each(|b| *b *= WORK_OF_MANY_BLOCKS);
     }
+    // Try the tolerances in turn until the solver ends with a status.
     for (tolerance, conditioning) in attempts(program) {
         let answer = solve(&problem, tolerance, conditioning);
         match (answer.status, extremum.factor(&answer.z)) {
             (Status::Solved, Some(factor)) => {
                 let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
                 let total: Vec<f64> = total.collect();
-                // The forces at the limit, freed of the solver's error.
+                // The forces at the limit, with the solver's residual removed.
                 let amounts = amounts_of_rows(&answer, &row_of);
                 let mut amounts = rebalanced(&total, &columns, amounts);
                 amounts.iter_mut().for_each(|amount| *amount *= load);
@@ -138,7 +143,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            // Along this motion the loads do work whatever λ is.
+            // The loads do work along this motion for every λ.
             (Status::Unbounded, _) => {
                 return Extreme {
                     motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
@@ -151,7 +156,8 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
     Limit::Unsolved.into()
 }
 
-/// Tolerances and conditionings in the order in which they are tried. Of many blocks first the quick plain conditioning.
+/// Tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain conditioning is
+/// first.
 fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
@@ -162,13 +168,13 @@ fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
         .chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
 }
 
-/// The amounts with the least change that removes what a solver left unbalanced.
+/// The amounts after the least change that removes the solver's residual.
 pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
     let settings = Conditioning::Plain.into();
     balance_by_least_change(loads, columns, amounts, settings, &mut Effort::default())
 }
 
-/// The columns of a program, with limits in parts of `unit`.
+/// The columns of a program, with their limits divided by `unit`, a load.
 pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     let mut columns = columns(program);
     for column in &mut columns {
@@ -177,7 +183,8 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     columns
 }
 
-/// The least limit of one component of one grip with which admissible forces balance; the other limits are as they are.
+/// The least limit of one component of one grip with which admissible forces balance the loads. All other limits stay
+/// as given.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
     // Without a limit and at cost 1, the least cost is the least amount.
     let mut free = program.clone();
@@ -192,7 +199,7 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
         |c| f64::from(u8::from(is_own(&c.force))),
     );
     match solved.status {
-        // The objective also has the costs of limits, so the component's own amounts are summed instead.
+        // The objective also contains costs of other limits, so the amounts of the component itself are summed instead.
         Status::Solved => {
             let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);

@@ -1,17 +1,18 @@
-//! Solves the programs of an assembly: least force where it stands, least adhesion where it falls.
+//! Solves the programs of an assembly: least force if it stands, least adhesion if it falls.
 //!
-//! The results, such as [`Balance`] and [`LeastAdhesion`], are in the program's pure numbers. They are not verdicts: the forces and
-//! the motion go to [`crate::proof`], which decides. Among several optima the one of least Σ force² is drawn.
+//! The results, such as [`Balance`] and [`LeastAdhesion`], are pure numbers. They are not verdicts: [`crate::proof`]
+//! checks the forces and the motion and decides. Among several optima, the one of least Σ force² is shown.
 //!
 //! | files | what they do |
 //! |---|---|
 //! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `tangent` | the programs of limit analysis |
-//! | `level`, `least_adhesion_levels` | their optima where loads span many sizes |
-//! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | what needs no interior-point method |
-//! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions that a solver found |
-//! | `wedge` | whether forces build up from rest |
+//! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
+//! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
+//! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions that a
+//! solver found |
+//! | `wedge` | checks whether forces build up from rest |
 
 mod adhesion_result;
 mod amounts;

@@ -1,10 +1,11 @@
 //! Pseudo-random numbers for tests.
 
-/// A linear congruential generator of numbers between −1 and 1, the same in every run (Knuth's MMIX constants).
+/// A linear congruential generator of numbers between −1 and 1. The sequence is the same in every run (constants of
+/// Knuth's MMIX).
 pub(super) struct Numbers(pub u64);
 
 impl Numbers {
-    /// The next one.
+    /// The next number, from −1 to below 1.
     pub fn next(&mut self) -> f64 {
         self.0 = self
             .0

@@ -1,14 +1,15 @@
-//! Balances every block relative to its own forces, by small changes of forces that balance the whole already.
+//! Changes the forces of a solver slightly until every block is balanced relative to the forces on that block.
 //!
-//! A solver balances every block to a billionth of the heaviest load, which is nothing to a wall and everything to a
-//! pebble in it. Two programs change its forces, by iterative refinement:
+//! A solver balances every block to a billionth of the heaviest load. This is accurate for a wall, but it can exceed
+//! the weight of a pebble in it. Two programs correct the forces by iterative refinement:
 //!
-//! - [`rebalance_relative`]: each ray of a friction cone changes relative to its own amount, and each block's balance counts
-//!   relative to that block's own forces. The least such change is a linear system.
-//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. For a part of a structure in
-//!   its own scale; the forces that press it from outside stay as they are.
+//! - [`rebalance_relative`]: the residual of each block is measured relative to the forces on it, and the change of
+//!   each ray of a friction cone relative to its amount. The least change is the solution of a linear system.
+//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. It is used for a
+//!   part of a structure in its own scale; the forces on it from outside do not change.
 //!
-//! Residuals are small differences of large forces, so they are summed with twice the digits.
+//! Residuals are small differences of large forces, so they are summed with twice the digits of f64. Reference: Higham,
+//! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
 use super::solver::all_finite;
 use super::{Amounts, Conditioning, Effort, Status, solved_with_retry};
@@ -17,26 +18,31 @@ use crate::program::{
     Column, Correction, Force, Program, QuadraticProgram, columns, least_squares,
 };
 
-/// Rounds of changes; each gains the solver's digits.
+/// The largest number of rounds. Each round gains the digits of the solver.
 const MAX_ROUNDS: usize = 4;
 
-/// The weight of a block's remaining imbalance against the relative changes of forces (quadratic penalty). Ten times smaller, some
-/// imbalance would be kept; ten times larger, the system loses digits.
+/// The weight of the remaining residual of a block, compared with the relative changes of forces (a quadratic penalty).
+///
+/// Ten times smaller, some residual would remain; ten times larger, the linear system loses digits.
 const IMBALANCE_WEIGHT: f64 = 1e8;
 
-/// A relative residual below this is rounding.
+/// A relative residual up to this is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Rounds go on as long as the blocks together gain this number of decimal digits: one block whose residual is halved.
+/// A round must gain this number of decimal digits in total, or it is rejected. It corresponds to halving one block's
+/// residual.
 const MIN_DIGITS_GAINED: f64 = 0.3;
 
-/// Amounts larger than this multiple of the residual cannot become negative by the change: for them no bound is stated. On a
-/// support of a millionth of a block, forces must change by a million times the residual to make up for its moment; then the
-/// second value serves.
+/// Amounts above this multiple of the residual get no lower bound in the program, since the change cannot make them
+/// negative.
+///
+/// The second value is tried if the first fails. On a support whose width is a millionth of a block, forces must change
+/// by a million times the residual to balance its moment.
 const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
-/// The residual loads − Σ force of a program, and Σ |force| on each block.
+/// The residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
 fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
+    // The sums begin with the loads; each force is subtracted in three rows of its block.
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
         sum.add(*load);
@@ -70,16 +76,18 @@ fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
         act(grip.block, grip.arm, Vector::new(1.0, 0.0), *x);
         act(grip.block, grip.arm, Vector::new(0.0, 1.0), *y);
     }
+    // The torque of a grip has no arm and acts only on the moment row.
     for (grip, [_, _, moment]) in program.grips.iter().zip(&amounts.grip) {
         sums[3 * grip.block + 2].add(-moment);
     }
     (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
-/// The amounts of a program's columns that add up to given forces, as far inside the friction cones as possible.
+/// The amounts of a program's columns that add up to given forces, with every ray of the friction cone used if
+/// possible.
 ///
-/// A contact force N, T with s = |T|/μN is (1 − s)/2 of N along the normal, (1 + 3s)/4 of it along the ray on the side of T and
-/// (1 − s)/4 of it along the other.
+/// A contact force (N, T) with s = |T|/(μN) is divided as follows: (1 − s)/2 of N along the normal, (1 + 3s)/4 along
+/// the ray on the side of T, and (1 − s)/4 along the other ray.
 fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     let amount = |column: &Column| match column.force {
         Force::Ray {
@@ -88,6 +96,7 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
             normal,
             friction,
         } => {
+            // `used` is s with the sign of T: the share of the friction limit that is used.
             let pressed = amounts.normal[contact][point];
             let mu = program.contacts[contact].friction;
             let [first, second] = amounts.normal[contact];
@@ -117,7 +126,7 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
     list.iter().map(amount).collect()
 }
 
-/// The forces after `changes` of the columns' amounts; pulls are set to 0.
+/// The forces after the amounts of the columns change by `changes`. Normal forces that become negative are set to 0.
 fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     let mut changed = amounts.clone();
     for (column, change) in list.iter().zip(changes) {
@@ -129,9 +138,10 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     changed
 }
 
-/// The scale of each row, which makes a block's balance relative to its own forces: 1/Σ|force|, for moments also by the longest
-/// arm.
+/// The factor for each row that makes a block's residual relative to the forces on it: 1/Σ|force|, for moments also
+/// divided by the longest arm.
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
+    // The longest arm of each block.
     let mut reach = vec![0.0; program.blocks];
     let mut reaches = |block: usize, arm: Vector| reach[block] = f64::max(reach[block], arm.norm());
     for contact in &program.contacts {
@@ -149,15 +159,17 @@ fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// The largest entry of a residual after each row is multiplied by its scale.
 fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
     let off = residual.iter().zip(scales).map(|(v, d)| (v * d).abs());
     off.fold(0.0, f64::max)
 }
 
-/// Forces near given ones that balance every block better, relative to its own forces; `None` if none are found.
+/// Changes given forces slightly so that blocks balance better, relative to the forces on them; `None` if no change
+/// helps.
 ///
 /// With r the residual, w the amounts of the rays (W on a diagonal) and D the rows' scales, each round is the program
-/// min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces balance keeps its v.
+/// min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces can balance keeps its residual v.
 pub fn rebalance_relative(
     program: &Program,
     amounts: &Amounts,
@@ -166,6 +178,7 @@ pub fn rebalance_relative(
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
+        // The residual, scaled for each block by the forces on it.
         let (left, total) = residual(program, &best);
         let scales = row_scales(program, &total);
         let size = largest_scaled(&left, &scales);
@@ -175,7 +188,7 @@ pub fn rebalance_relative(
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let conic = relative_changes(&list, &used, &weights, &scales, &left, size);
-        // Relative to loads near the smallest number of f64, scales are infinite.
+        // For loads near the smallest number of f64 the scales are infinite.
         if !all_finite(&conic) {
             break;
         }
@@ -185,12 +198,12 @@ pub fn rebalance_relative(
         }
         let mut changes = vec![0.0; list.len()];
         for (unknown, k) in used.iter().enumerate() {
-            // Changes are to be small. An amount that would vanish is halved, so that a later round can restore it.
+            // No amount falls below half of its value, so that a later round can increase it again.
             changes[*k] = (answer.x[unknown] * size).max(-0.5) * weights[*k];
         }
         let next = apply(&best, &list, &changes);
         let (after, total) = residual(program, &next);
-        // Some blocks may have no balance; the others have gained digits all the same.
+        // Convergence test: all blocks together must gain digits. Some blocks may have no balance at all.
         if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + MIN_DIGITS_GAINED
         {
             break;
@@ -200,8 +213,10 @@ pub fn rebalance_relative(
     better.then_some(best)
 }
 
-/// The program of the relative changes ε of the columns `used`, and of the imbalance v that remains; `left` is the residual, of
-/// scaled size `size`.
+/// The program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns `used`
+/// and the remaining residual v of each row.
+///
+/// `left` is the residual, and `size` its largest scaled entry.
 fn relative_changes(
     list: &[Column],
     used: &[usize],
@@ -236,7 +251,7 @@ fn relative_changes(
     conic
 }
 
-/// The sum over the blocks of the decimal digits to which each balances.
+/// The number of decimal digits to which each block is balanced, summed over all blocks.
 fn digits(left: &[f64], scales: &[f64]) -> f64 {
     left.chunks_exact(3)
         .zip(scales.chunks_exact(3))
@@ -244,7 +259,7 @@ fn digits(left: &[f64], scales: &[f64]) -> f64 {
         .sum()
 }
 
-/// Forces that balance a program to rounding and differ least from given ones; `None` if none are found.
+/// Changes given forces by as little as possible until they balance a program to rounding; `None` if no change helps.
 pub fn rebalance_absolute(
     program: &Program,
     amounts: &Amounts,
@@ -263,7 +278,9 @@ pub fn rebalance_absolute(
     better.then_some(best)
 }
 
-/// One round: forces with at most half the residual, none of which falls by more than `ratio` times the residual.
+/// One round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None`.
+///
+/// Only amounts below `ratio` times the residual get a lower bound.
 fn correct_once(
     program: &Program,
     list: &[Column],
@@ -271,6 +288,7 @@ fn correct_once(
     ratio: f64,
     effort: &mut Effort,
 ) -> Option<Amounts> {
+    // Scale the residual to size 1.
     let (left, _) = residual(program, best);
     let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let weights = ray_amounts(program, list, best);
@@ -293,6 +311,7 @@ fn correct_once(
         return None;
     }
     let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
+    // Accept the change only if it halves the residual.
     let next = apply(best, list, &changes);
     let (left, _) = residual(program, &next);
     left.iter().all(|v| v.abs() <= 0.5 * size).then_some(next)

@@ -1,47 +1,55 @@
-//! Removes a solver's error from a motion: afterwards every contact opens a little, or stays closed to rounding.
+//! Removes a solver's error from a motion. Afterwards every contact opens a little, or stays closed to rounding.
 //!
-//! A motion from an interior-point method violates contacts by a billionth of its speed, and forces of a billion loads could
-//! use that. Iterative refinement: each round scales the violations to size 1 and finds the shortest change that removes
-//! them, a quadratic program, which gains the solver's nine digits. If nothing is wedged, all contacts can open at once, and the
-//! change opens each by [`EXTRA_OPENING`]: then rounding closes none. Otherwise contacts that cannot open stay closed to
-//! rounding.
+//! A motion from an interior-point method violates contacts by a billionth of its speed. Forces of a billion times the
+//! loads could exploit that. The method is iterative refinement: each round scales the violations to size 1 and finds
+//! the shortest change that removes them, by a quadratic program. This gains the nine digits of the solver. If nothing
+//! is wedged, all contacts can open at once, and the change opens each by [`EXTRA_OPENING`], so that rounding closes
+//! none. Otherwise, contacts that cannot open stay closed to rounding. Reference: Higham, Accuracy and Stability of
+//! Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solved_with_retry};
 use crate::program::{Column, Force, Program, columns, least_change};
 
-/// How far contacts are opened, relative to the fastest speed of about 1: a thousand times its rounding, and far below what matters.
-/// At a tenth rounding would count in long chains; ten times larger, the loads' power would change in digits that are shown.
+/// The speed at which every contact is made to open, relative to the largest velocity (about 1).
+///
+/// It is several thousand times the rounding of a velocity. At a tenth, rounding would matter in long chains; ten times
+/// larger, the power of the loads would change in digits that are shown.
 const EXTRA_OPENING: f64 = 1e-12;
 
-/// Contacts that are less open than this multiple of the worst violation are kept from closing in the round.
+/// A round constrains the contacts that open by less than this multiple of the worst violation. The others cannot
+/// close.
 const NEARLY_CLOSED: f64 = 1e3;
 
-/// If contacts cannot open, a round may leave this fraction of a violation to the next: the program then has an interior.
+/// If contacts cannot open, a round may leave this fraction of the worst violation. The program then has an interior.
 const LEFT_TO_NEXT_ROUND: f64 = 1e-4;
 
-/// A change is solved to this fraction of what it may leave, at most to [`MAX_TOLERANCE`]. Most motions violate contacts by
-/// rounding only, and half the iterations do.
+/// The solver's tolerance for a change, as a fraction of the violation that may remain.
+///
+/// Most motions violate contacts only by rounding. A coarse tolerance then halves the number of iterations.
 const TOLERANCE_SHARE: f64 = 1e-2;
+
+/// The coarsest tolerance with which a change is solved.
 const MAX_TOLERANCE: f64 = 1e-3;
 
-/// Violations up to this are the rounding of speeds.
+/// Violations up to this are the rounding of velocities.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Rounds of changes.
+/// The largest number of rounds.
 const MAX_ROUNDS: usize = 5;
 
-/// A grip whose limit exceeds this multiple of the heaviest load holds as if it had no limit.
+/// A grip whose limit exceeds this multiple of the heaviest load is treated as having no limit.
 const NON_BINDING: f64 = 1e4;
 
-/// Returns a motion near a given one that no contact opposes; `None` if there is none. The fastest speed is to be about 1.
+/// Returns a motion near a given one that no contact opposes; `None` if there is none.
 ///
-/// A motion that needs its violations, such as that of a flat wedge into its notch, loses its power by the change.
+/// The largest velocity of the given motion must be about 1. A motion that is impossible without its violations, such
+/// as that of a flat wedge into its notch, loses its power by the change.
 pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
     let firm = NON_BINDING * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
     for column in columns(program) {
         match column.force {
-            // Of a component's two signs one is enough to hold it.
+            // A component has a column for each sign; one of them is enough for an equality.
             Force::Grip { sign, .. } if column.limit > firm && sign > 0.0 => held.push(column),
             Force::Grip { .. } => {}
             _ => contacts.push(column),
@@ -52,7 +60,7 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
         .find_map(|extra| open_contacts(motion, &held, &contacts, extra, effort))
 }
 
-/// The motion, changed until the contacts open by `extra`, and what is held does not move.
+/// Changes a motion until every contact opens by at least `extra` and the components in `held` do not move.
 fn open_contacts(
     motion: &[f64],
     held: &[Column],
@@ -73,8 +81,7 @@ fn open_contacts(
         if round == MAX_ROUNDS {
             break;
         }
-        // If contacts cannot open, the program has no interior, unless a round may leave a little to the next, and the
-        // rounding of the speeds.
+        // If contacts cannot open, the program has an interior only if a round may leave a small part of the violation.
         let left = match extra {
             0.0 => LEFT_TO_NEXT_ROUND.max(ROUNDING / worst),
             _ => 0.0,
@@ -82,12 +89,13 @@ fn open_contacts(
         let mut rows: Vec<(&Column, f64)> =
             held.iter().map(|c| (c, -c.dot(&motion) / worst)).collect();
         for column in contacts {
+            // Only contacts that are nearly closed are constrained.
             let wanted = (extra - column.dot(&motion)) / worst - left;
             if wanted > -NEARLY_CLOSED {
                 rows.push((column, wanted));
             }
         }
-        // The shortest change, scaled, and added.
+        // Find the shortest change of the scaled problem and add it.
         let conic = least_change(motion.len(), &rows, held.len());
         let settings = SolverSettings {
             tolerance: (TOLERANCE_SHARE * small / worst).clamp(TOLERANCE, MAX_TOLERANCE),
@@ -101,6 +109,6 @@ fn open_contacts(
             *v += worst * d;
         }
     }
-    // Columns far from unit length have more rounding than others; the proof measures what is left.
+    // Columns whose length is far from 1 have more rounding than others; the proof checks the remaining violation.
     (extra == 0.0).then_some(motion)
 }

@@ -1,4 +1,4 @@
-//! What forces leave unbalanced.
+//! The residual of forces: the part of the loads that they do not balance.
 
 use crate::program::Column;
 

@@ -1,59 +1,61 @@
-//! [`SolverSettings`]: how precisely and in which way a program is solved.
+//! [`SolverSettings`]: tolerance, conditioning and choice of optimum for a solver.
 
 use std::time::Instant;
 
-/// The tolerance of feasibility and gap, relative to the data.
+/// The default tolerance of feasibility and duality gap, relative to the data of the program.
 ///
-/// The loosest that decides every frame measured in [`doc::accuracy`](crate::doc::accuracy).
+/// It is the largest tolerance with which every frame measured in [`doc::accuracy`](crate::doc::accuracy) is decided.
 pub const TOLERANCE: f64 = 1e-9;
 
 /// The largest number of iterations for one program.
 pub const MAX_ITERATIONS: usize = 100;
 
-/// How a program is solved: how precisely, with what conditioning, and whether unique forces are wanted.
+/// The settings of a solver: tolerance, conditioning, and whether the forces must be unique.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolverSettings {
-    /// The tolerance of feasibility and gap.
+    /// The tolerance of feasibility and duality gap.
     pub tolerance: f64,
-    /// Where the normal equations end; `None`, like clarabel always, at the tolerance.
+    /// A different stopping rule for the solver on the normal equations. With `None` it stops at the tolerance, as
+    /// clarabel always does.
     pub crossover: Option<CrossoverTolerance>,
     /// How the linear systems are conditioned.
     pub conditioning: Conditioning,
-    /// Which of several balances is wanted.
+    /// Which of several balances of the same cost to return.
     pub choice: Choice,
 }
 
-/// When the normal equations stop, if the basic columns of the optimum are to be told from all others.
+/// When the solver on the normal equations stops, if basic columns must be distinguished from all others.
 ///
-/// If the optimum is strictly complementary, two to eleven iterations beyond the tolerance leave basic columns next to no
-/// slack. If it is not, as in walls near their limit, no number of iterations does; then the last ten are saved.
+/// If the optimum is strictly complementary, two to eleven iterations beyond the tolerance bring the slack of basic
+/// columns close to 0. If it is not, as in walls near their limit, no number of iterations does; stopping early then
+/// saves about ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossoverTolerance {
-    /// The method stops at this fraction of the tolerance, if it gets there.
+    /// The method stops at this fraction of the tolerance, if it reaches it.
     pub tolerance_factor: f64,
-    /// The basic columns are distinct if the sum of their slacks is at most this, relative to the cost.
+    /// Basic columns are distinguished well enough if the sum of their slacks, relative to the cost, is at most this.
     pub max_slack: f64,
-    /// If more slack is expected at the end, the method stops at this multiple of the tolerance.
+    /// If the sum of slacks is expected to end above `max_slack`, the method stops at this multiple of the tolerance.
     pub early_factor: f64,
 }
 
 /// When an interior-point method stops.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StoppingCriteria {
-    /// The tolerance of feasibility and gap.
+    /// The tolerance of feasibility and duality gap.
     pub tolerance: f64,
-    /// The finer tolerance to go on to. If it is out of reach, `tolerance` is enough.
+    /// A finer tolerance to aim at. If it is not reached, `tolerance` is sufficient.
     pub crossover: Option<CrossoverTolerance>,
     /// The largest number of iterations.
     pub iterations: usize,
-    /// When to give up.
+    /// The time at which the method stops without a status.
     pub deadline: Option<Instant>,
 }
 
-/// Which of several balances of the same cost is wanted.
+/// Which of several balances of the same cost a solver returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// Any: the one in which the interior-point method ends. Good enough for a verdict.
+    /// Any of them: the one at which the interior-point method ends. This is sufficient for a verdict.
     Any,
     /// The one of least Σ force², which does not depend on the order of the file.
     Unique,
@@ -74,9 +76,10 @@ impl From<Conditioning> for SolverSettings {
 /// How the solver conditions its linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conditioning {
-    /// Neither equilibration nor iterative refinement: two thirds of the time. Good for most programs, whose pure numbers
-    /// are all near 1, and safe because an answer is believed only with its proof.
+    /// No equilibration and no iterative refinement: two thirds of the time of `Full`. It is suitable for most
+    /// programs,
+    /// whose numbers are all near 1, and safe because every answer is checked by a proof.
     Plain,
-    /// The solver's own defaults.
+    /// The defaults of the solver clarabel: equilibration and iterative refinement.
     Full,
 }

@@ -1,21 +1,22 @@
 //! [`Slanted`]: the columns of a program without redundant ones.
 //!
-//! If admissible forces have no cost, a normal force alone is half the sum of the two rays of its friction cone, (n̂ + μ t̂)/(1 + μ) and
-//! (n̂ − μ t̂)/(1 + μ), times 1 + μ. Its row follows from theirs. Without it a third of the rows is gone.
+//! If admissible forces have no cost, a pure normal force is redundant: it is half the sum of the two rays of its
+//! friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ), times 1 + μ. Omitting these columns removes a third of
+//! the rows.
 
 use super::Dual;
 use crate::program::{Column, Force};
 
-/// The columns that are left.
+/// The columns that remain after redundant ones are omitted.
 pub(super) struct Slanted {
-    /// The columns.
+    /// The remaining columns.
     pub columns: Vec<Column>,
-    /// The index of each among all columns.
+    /// The index of each remaining column among all columns.
     places: Vec<usize>,
 }
 
 impl Slanted {
-    /// Leaves out every normal force alone that is followed by the two rays of its cone.
+    /// Omits every pure normal force that is followed by the two rays of its friction cone.
     pub fn new(all: &[Column]) -> Slanted {
         let places: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
         Slanted {
@@ -24,7 +25,7 @@ impl Slanted {
         }
     }
 
-    /// The amounts of all columns, 0 for those left out.
+    /// The amounts of all columns; 0 for the omitted ones.
     pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, place) in amounts.iter().zip(&self.places) {
@@ -33,7 +34,8 @@ impl Slanted {
         full
     }
 
-    /// An optimum in terms of all columns: half of what both rays of a cone carry becomes the normal force alone.
+    /// Converts an optimum to all columns. Half of the common amount of the two rays of a cone becomes a pure normal
+    /// force.
     pub fn in_all_columns(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
             amounts: self.amounts_of_all(all, &solved.amounts),
@@ -45,6 +47,7 @@ impl Slanted {
             let Force::Ray { normal, .. } = all[k + 1].force else {
                 continue;
             };
+            // Equal amounts of both rays have no friction: they are a pure normal force.
             let shared = 0.5 * full.amounts[k + 1].min(full.amounts[k + 2]);
             full.amounts[k] = 2.0 * normal * shared;
             full.slack[k] = (full.slack[k + 1] + full.slack[k + 2]) / (2.0 * normal);
@@ -55,7 +58,7 @@ impl Slanted {
     }
 }
 
-/// Whether a column is a normal force alone, followed by the two rays of its cone.
+/// Whether a column is a pure normal force that is followed by the two rays of its friction cone.
 fn is_redundant(all: &[Column], k: usize) -> bool {
     let with_friction = |c: Option<&Column>| {
         c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0))

@@ -1,8 +1,8 @@
-//! The single entry to the solvers: a [`QuadraticProgram`] problem goes in, a status of our own and plain vectors come out.
+//! The single entry point to the solvers: takes a [`QuadraticProgram`] and returns an [`Answer`].
 //!
-//! Linear programs of many blocks go to the normal equations first ([`super::normal`]), all others to clarabel. A chain that
-//! ends there without a status goes to clarabel at once; other programs do when the caller tries again with full
-//! conditioning. The solvers call NaN in the data "solved", so it is refused here.
+//! Linear programs of many blocks are first solved on the normal equations ([`super::normal`]), all others by clarabel.
+//! If a chain ends there without a status, clarabel solves it at once; other programs only if the caller tries again
+//! with full conditioning. Data with NaN are refused here, because the solvers would report them as solved.
 
 use super::answer::{Answer, is_finite};
 use super::clarabel_solver::by_clarabel;
@@ -23,7 +23,7 @@ pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Condition
     solve_within(problem, settings, MAX_ITERATIONS)
 }
 
-/// Solves a conic problem in a given number of iterations, or gives up.
+/// Solves a conic problem in at most the given number of iterations; otherwise the status is `Unsolved`.
 ///
 /// # Panics
 /// As [`solve`].
@@ -32,7 +32,8 @@ pub fn solve_within(
     settings: SolverSettings,
     iterations: usize,
 ) -> Answer {
-    // To order and factorise a large program takes as long as many iterations: after the deadline none is begun.
+    // The ordering and the first factorisation of a large program take as long as many iterations. After the deadline,
+    // do not start them.
     if is_late() {
         return Answer::without_status(problem);
     }

@@ -1,10 +1,11 @@
 //! [`Tangent`]: the least residual of a program, and how it changes with the contacts.
 //!
-//! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|: above 0 if the program falls and 0 if it stands.
-//! A sibling of the program has rougher contacts, or application points elsewhere. At the optimum, forces and motion give
-//! its V to first order: V, plus the work that the normal forces with full friction do along the motion here, less
-//! the work they do there. That is linear in the friction coefficient and in the kernel. So its zero is the next value to try:
-//! Newton's method on V.
+//! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|. It is 0 if the structure stands and above 0
+//! if it falls. A *sibling* of the program has another friction coefficient or other application points. To first
+//! order, the V of a sibling is V plus the work of the contact forces along the motion in this program, minus their
+//! work in the sibling. The forces are the normal forces with full friction. This estimate is linear in the friction
+//! coefficient and in the kernel, so its zero is the next value to try: Newton's method on V. Reference: Nocedal and
+//! Wright, Numerical Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};
@@ -41,6 +42,7 @@ impl Tangent {
         if answer.status != Status::Solved {
             return None;
         }
+        // V is the optimal value; the solver minimises its negative.
         let objective = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
         let mut tangent = Tangent {
             left: -objective.sum::<f64>(),
@@ -54,7 +56,7 @@ impl Tangent {
         Some(tangent)
     }
 
-    /// V of a sibling with the same loads, to first order.
+    /// Estimates V of a sibling with the same loads, to first order.
     pub fn of_sibling(&self, sibling: &Program) -> f64 {
         self.left + self.work - self.work_in(sibling)
     }
@@ -64,7 +66,7 @@ impl Tangent {
         self.y.iter().map(|v| -v).collect()
     }
 
-    /// The forces, with the least change that balances what they leave.
+    /// The contact forces, after the least change that removes their residual.
     pub fn forces(&self, program: &Program) -> Amounts {
         let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
         let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
@@ -73,7 +75,7 @@ impl Tangent {
         face.gathered(program).0
     }
 
-    /// The work that the normal forces, with full friction, do along y at the contacts of a program.
+    /// The work that the normal forces with full friction do along y, with the contacts of a given program.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {
@@ -87,14 +89,14 @@ impl Tangent {
                 continue;
             };
             let contact = &program.contacts[contact];
-            // The speed of the contact's point apart from its partner's.
+            // The velocity of one body's point relative to the other body's point.
             let speed = |(block, arms): (usize, [Vector; 2])| {
                 let [u, v, spin] = [0, 1, 2].map(|row| self.y[3 * block + row]);
                 Vector::new(u, v) + quarter_turn(arms[point]) * spin
             };
             let apart = speed(contact.on) - contact.from.map_or(Vector::zeros(), speed);
             let slip = quarter_turn(contact.normal).dot(&apart);
-            // A normal force alone: friction acts against the motion.
+            // For a pure normal force, the sign of friction follows from the slip.
             let sense = if friction == 0.0 { slip } else { friction };
             let rubbed = contact.friction * slip * sense.signum();
             sum += amount * normal * (contact.normal.dot(&apart) + rubbed);

@@ -1,4 +1,4 @@
-//! One frame of a scene as bodies, contacts and loads.
+//! Models one frame of a scene as bodies, contacts and loads.
 
 pub mod interface;
 

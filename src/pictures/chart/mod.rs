@@ -1,5 +1,5 @@
-//! Charts: [`scatter`], points on two logarithmic axes; [`growth`], what grows with a size, likewise; [`bars`], how often
-//! what occurs; [`course`], step by step.
+//! Charts as SVG: [`scatter`] draws points on two logarithmic axes; [`growth`] draws lines on two logarithmic axes;
+//! [`bars`] draws a histogram; [`course`] draws values over the steps of a scene.
 //!
 //! The one door to plotters is `plot`. plotters counts in whole pixels and lets labels collide; so the picture is drawn at ten times its size and the SVG's
 //! width and height are rewritten over the same view box. Logarithmic axes shorter than a decade lose their labels, so
@@ -70,7 +70,7 @@ impl ChartError {
     }
 }
 
-/// `10⁻³`.
+/// The power of ten as text: `10⁻³`.
 pub fn power_of_ten(exponent: i32) -> String {
     let plain = exponent.to_string();
     let digits = plain.chars().map(|c| match c {
@@ -83,7 +83,7 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", digits.collect::<String>())
 }
 
-/// Draws a scatter as an SVG document.
+/// Draws a scatter chart as an SVG document.
 ///
 /// # Errors
 /// Where plotters refuses, which no finite and positive points make it do.
@@ -135,7 +135,7 @@ pub struct Growing {
     pub points: Vec<Point>,
 }
 
-/// Draws what grows as an SVG document.
+/// Draws a growth chart as an SVG document.
 ///
 /// # Errors
 /// Where plotters refuses, which no finite and positive points make it do; and for no points.
@@ -164,8 +164,8 @@ pub struct Bars {
 }
 
 impl Bars {
-    /// Counts values in about ten bars whose edges are round numbers, beginning at 0; no bars where nothing is above 0.
-    /// A value on an edge counts with the bar above, the largest edge with the last bar.
+    /// Sorts values into about ten bars with round limits, beginning at 0. There are no bars if no value is above 0. A
+    /// value on the limit of two bars belongs to the higher bar; the largest limit belongs to the last bar.
     ///
     /// ```
     /// use drystone::internals::chart::Bars;
@@ -197,7 +197,7 @@ impl Bars {
     }
 }
 
-/// Draws bars as an SVG document.
+/// Draws a histogram as an SVG document.
 ///
 /// # Errors
 /// Where plotters refuses, or there are no bars.
@@ -221,7 +221,7 @@ pub struct Course {
     pub lines: Vec<(String, [u8; 3], Vec<Option<f64>>)>,
 }
 
-/// Draws a course as an SVG document.
+/// Draws a course chart as an SVG document.
 ///
 /// # Errors
 /// Where plotters refuses, or there is nothing to draw.
@@ -233,7 +233,7 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
     plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is at least `value`.
+/// The smallest of 1, 2 and 5 times a power of ten that is at least `value`.
 pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
     let step = [1.0, 2.0, 5.0, 10.0]

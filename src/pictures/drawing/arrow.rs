@@ -1,4 +1,4 @@
-//! Arrows as filled outlines: a straight one, and one that turns about a point.
+//! Arrows as filled outlines: straight arrows and arrows along a circle.
 //!
 //! From tail to tip an arrow is exactly as long as what it tells: the head, of width 3·w and length 4.5·w for a shaft
 //! of width w, lies within that length. An arrow shorter than its head is a head alone, smaller in proportion, so that
@@ -13,15 +13,15 @@ pub const HEAD_WIDTH: f64 = 3.0;
 /// Length of a head in shaft widths.
 pub const HEAD_LENGTH: f64 = 4.5;
 
-/// How long and how wide the head of an arrow of this length and width of its shaft is, pixels or metres.
+/// The length and width of the head of an arrow with this length and shaft width, in the unit of its arguments.
 pub fn head_size(length: f64, width: f64) -> (f64, f64) {
     let full = HEAD_LENGTH * width;
     let long = length.min(full);
     (long, HEAD_WIDTH / HEAD_LENGTH * long)
 }
 
-/// An arrow from `from` to its tip at `from` + `along` (right and down), its shaft `width` pixels wide. Empty for a zero
-/// vector.
+/// A straight arrow from `from` to `from` + `along` (right and down, in pixels). The shaft is `width` pixels wide. Empty
+/// for a zero vector.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
     if length.is_nan() || length <= 0.0 {
@@ -44,8 +44,8 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     ])
 }
 
-/// The head alone of the arrow that [`straight`] draws, open where the shaft meets it, so that a line along its edge
-/// leaves no seam between the two.
+/// The head of the arrow that [`straight`] draws, open towards the shaft, so that a line along its edge leaves no seam
+/// between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
     // Corners 1 to 5 of the arrow: from one edge of the shaft around the tip to the other.
@@ -53,8 +53,8 @@ pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     Outline::line(corners)
 }
 
-/// An arrow along a circle about `centre`, from the angle `start` to its tip `sweep` radians farther, both anticlockwise
-/// as seen on the page (from the x axis to the right), `width` pixels wide. Empty for a zero sweep.
+/// An arrow along a circle about `centre`, from the angle `start` over the angle `sweep`, in radians. Angles are
+/// anticlockwise on the page, from the x axis to the right. The shaft is `width` pixels wide. Empty for a zero sweep.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();
@@ -74,7 +74,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
         .segments
         .push(Segment::Line(at(neck, radius + head)));
-    // A little outside the circle: a head that follows it looks bent, one along the tangent as if it flew off.
+    // The tip lies slightly outside the circle. A tip on the circle would look bent inwards, and a tip on the tangent bent
+    // outwards.
     let tip = at(end, radius + 0.12 * long);
     outline.segments.push(Segment::Line(tip));
     outline
@@ -90,7 +91,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
 }
 
-/// Appends a circular arc as cubics of at most an eighth of a turn each; the outline already stands at its beginning.
+/// Appends a circular arc as cubics of at most an eighth of a turn each. The outline must already end at the beginning of
+/// the arc.
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;

@@ -1,4 +1,4 @@
-//! [`Camera`]: from the scene's metres to the page's pixels. The one place at which y turns over.
+//! [`Camera`]: maps metres in the scene to pixels on the page. Only here the y axis changes its direction.
 
 use super::{Outline, PagePoint, PageRect};
 use crate::geometry::{Bounds, Point, Polygon, Vector};
@@ -12,7 +12,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that puts the upper left corner of `view` (metres) at `at`, with `scale` pixels per metre.
+    /// A camera that shows the upper left corner of `view` (metres) at the page position `at`, with `scale` pixels per
+    /// metre.
     ///
     /// ```
     /// use drystone::drawing::{Camera, PagePoint};
@@ -29,7 +30,7 @@ impl Camera {
         }
     }
 
-    /// The same camera with the scene moved right by `x` and down by `y` pixels.
+    /// The same camera with its picture moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> Camera {
         Camera {
             at: self.at.moved(x, y),
@@ -37,25 +38,25 @@ impl Camera {
         }
     }
 
-    /// Where a place of the scene lies on the page.
+    /// The position on the page of a point of the scene.
     pub fn place(&self, p: Point) -> PagePoint {
-        // The difference first: far from the origin it is exact, the products are not.
+        // Subtract first: the difference is exact far from the origin, the products are not.
         let d = p - self.corner;
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
-    /// Which place of the scene lies at a place on the page.
+    /// The point of the scene at a position on the page.
     pub fn back(&self, at: PagePoint) -> Point {
         let (right, down) = (at.x - self.at.x, at.y - self.at.y);
         self.corner + Vector::new(right, -down) / self.scale
     }
 
-    /// Where the scene's origin lies on the page.
+    /// The position on the page of the origin of the scene.
     pub fn origin(&self) -> PagePoint {
         self.place(Point::origin())
     }
 
-    /// A displacement of the scene on the page, right and down in pixels.
+    /// A vector of the scene as a vector on the page, right and down in pixels.
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)
     }
@@ -70,7 +71,7 @@ impl Camera {
         pixels / self.scale
     }
 
-    /// A box of the scene on the page.
+    /// The rectangle on the page of a box of the scene.
     pub fn rect(&self, bounds: Bounds) -> PageRect {
         PageRect {
             at: self.place(Point::new(bounds.min.x, bounds.max.y)),
@@ -79,7 +80,7 @@ impl Camera {
         }
     }
 
-    /// A polygon with its holes on the page.
+    /// The outline on the page of a polygon with its holes.
     pub fn polygon(&self, polygon: &Polygon) -> Outline {
         let mut outline = Outline::default();
         for ring in polygon.rings() {

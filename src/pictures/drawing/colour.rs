@@ -1,4 +1,4 @@
-//! [`Colour`]: one colour, and how it is written.
+//! [`Colour`]: an opaque colour in sRGB, read from and written as CSS text.
 
 /// A colour, 8 bits a channel: red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -10,7 +10,7 @@ impl Colour {
     /// Black.
     pub const BLACK: Colour = Colour([0, 0, 0]);
 
-    /// A colour from 0xrrggbb.
+    /// The colour with the value 0xrrggbb.
     ///
     /// ```
     /// use drystone::drawing::Colour;
@@ -26,7 +26,7 @@ impl Colour {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// A colour from `#rrggbb`, or from `#rgb`, each digit twice; `None` for anything else.
+    /// Reads `#rrggbb` or `#rgb`; `None` for any other text.
     ///
     /// ```
     /// use drystone::drawing::Colour;
@@ -36,7 +36,7 @@ impl Colour {
     /// ```
     pub fn from_css(text: &str) -> Option<Colour> {
         let digits = text.strip_prefix('#')?;
-        // `from_str_radix` would take a sign.
+        // `from_str_radix` would accept a sign.
         if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
             return None;
         }
@@ -51,7 +51,7 @@ impl Colour {
         }
     }
 
-    /// This colour with `share` (0 … 1) of another mixed in.
+    /// A mixture of this colour with another; `share` (0 to 1) is the share of the other colour.
     pub fn mixed(self, other: Colour, share: f64) -> Colour {
         let mix =
             |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
@@ -59,7 +59,8 @@ impl Colour {
         Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
     }
 
-    /// How bright it looks, 0 … 1 (the weights of Rec. 709 on the coded values; enough to choose black or white ink).
+    /// The perceived brightness from 0 to 1, with the weights of Rec. 709 on the encoded values. Exact enough to choose
+    /// black or white text.
     pub fn brightness(self) -> f64 {
         let [r, g, b] = self.0;
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0

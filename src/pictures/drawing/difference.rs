@@ -1,5 +1,5 @@
-//! How far apart two colours look: [`difference()`] (CIEDE2000) and [`lightness()`], also to eyes that lack a sort of cone
-//! and in a grey print, by [`seen`].
+//! Differences between colours as people see them: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts a
+//! colour to its appearance for colour-blind readers and in grey print.
 //!
 //! About 1 is the least that can be told side by side, 10 is seen at a glance, 100 lies between black and white
 //! ([Sharma05](crate::doc::references)). Deficiencies are those of [Machado09](crate::doc::references), at full severity.
@@ -23,7 +23,8 @@ pub enum Sight {
     Grey,
 }
 
-/// The colour that to full sight looks as this one does to another.
+/// The appearance of a colour: the colour that a reader with full colour vision sees in the same way as a reader with
+/// `sight` sees this one.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::{Sight, difference, seen}};
@@ -55,13 +56,13 @@ pub fn seen(colour: Colour, sight: Sight) -> Colour {
     Colour(rows.map(|row| coded(dot(row, light))))
 }
 
-/// CIE lightness L*, 0 for black … 100 for white.
+/// The CIE lightness L*, from 0 (black) to 100 (white).
 pub fn lightness(colour: Colour) -> f64 {
     lab(colour)[0]
 }
 
-/// How well letters of one colour read on the other: 1 for the same lightness … 21 for black on white; small letters need
-/// 4.5. It is the ratio of the two luminances, each with 0.05 for the light that any page sends back.
+/// The contrast of two colours as defined by WCAG 2: 1 for equal luminance, 21 for black on white. Small text needs at
+/// least 4.5. It is the ratio of the luminances, with 0.05 added to each for the light that a page reflects.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::contrast};
@@ -69,13 +70,13 @@ pub fn lightness(colour: Colour) -> f64 {
 /// assert!((contrast(Colour::hex(0x767676), Colour::WHITE) - 4.54).abs() < 0.01);
 /// ```
 pub fn contrast(a: Colour, b: Colour) -> f64 {
-    // Coefficients of sRGB, to the digits of the guideline.
+    // The coefficients of sRGB, with the digits of WCAG.
     let luminance = |c: Colour| dot([0.2126, 0.7152, 0.0722], linear(c)) + 0.05;
     let (a, b) = (luminance(a), luminance(b));
     if a > b { a / b } else { b / a }
 }
 
-/// How far apart two colours look: ΔE₀₀ of CIEDE2000, 0 for the same colour.
+/// The difference ΔE₀₀ of two colours (CIEDE2000); 0 for equal colours.
 pub fn difference(a: Colour, b: Colour) -> f64 {
     between(lab(a), lab(b))
 }
@@ -87,7 +88,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The channels as amounts of light, 0 … 1.
+/// The channels as linear light, from 0 to 1.
 fn linear(colour: Colour) -> [f64; 3] {
     colour.0.map(|channel| {
         let v = f64::from(channel) / 255.0;
@@ -99,18 +100,18 @@ fn linear(colour: Colour) -> [f64; 3] {
     })
 }
 
-/// An amount of light as a channel; what no screen shows is cut.
+/// Linear light as an encoded channel. Values outside 0 to 1 are clamped.
 fn coded(light: f64) -> u8 {
     let v = if light <= 0.003_130_8 {
         12.92 * light
     } else {
         1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
     };
-    // `as` holds on at the ends.
+    // `as` saturates.
     (255.0 * v).round() as u8
 }
 
-/// CIE L*, a*, b* under daylight (D65).
+/// CIE L*, a*, b* for daylight (D65).
 fn lab(colour: Colour) -> [f64; 3] {
     let light = linear(colour);
     let bent = |t: f64| {
@@ -126,7 +127,7 @@ fn lab(colour: Colour) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// ΔE₀₀ of two colours in L*, a*, b*, in the order of steps of [Sharma05](crate::doc::references).
+/// ΔE₀₀ of two colours in L*, a*, b*. The steps follow [Sharma05](crate::doc::references).
 fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
     let seventh = |c: f64| {
         let c7 = libm::pow(c, 7.0);
@@ -141,7 +142,7 @@ fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
         if angle < 0.0 { angle + 2.0 * PI } else { angle }
     };
     let (h1, h2) = (hue(a1, b1), hue(a2, b2));
-    // Hues go round; a grey has none, and takes the other's.
+    // Hues are angles. Grey has no hue, so the hue of the other colour is used.
     let (turn, middle) = if c1 * c2 == 0.0 {
         (0.0, h1 + h2)
     } else if (h1 - h2).abs() <= PI {

@@ -1,15 +1,15 @@
-//! [`hatch`]: parallel lines that fill an outline, as drawings of mechanics show ground.
+//! [`hatch`]: parallel lines that fill an outline, as in mechanical drawings of the ground.
 
 use super::{Outline, PagePoint, PageRect};
 
-/// The lines at 45°, `spacing` pixels apart, that lie inside some rings (even and odd, so that holes stay clear) and
-/// within `page`, each from one end to the other.
+/// The parts of 45° lines, `spacing` pixels apart, that lie inside some rings and inside `page`. The even-odd rule applies,
+/// so holes stay empty.
 pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[PagePoint; 2]> {
     let mut lines = Vec::new();
     if !(spacing > 0.0) {
         return lines;
     }
-    // Lines fall to the right: y − x is the same all along one.
+    // Lines fall to the right: y − x is constant along each line.
     let first = page.at.y - page.at.x - page.width;
     let count = ((page.width + page.height) / spacing).floor();
     for number in 0..=count as usize {
@@ -19,7 +19,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
             for i in 0..ring.len() {
                 let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
                 let (above, below) = (a.y - a.x - level, b.y - b.x - level);
-                // A corner on the line counts once: with the edge that begins on or above it.
+                // A corner on the line counts once: it belongs to the edge that begins on or above the line.
                 if (above >= 0.0) != (below >= 0.0) {
                     cuts.push(a.x + (b.x - a.x) * above / (above - below));
                 }
@@ -39,7 +39,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     lines
 }
 
-/// Lines as one outline.
+/// The lines as one outline.
 pub fn lines(lines: &[[PagePoint; 2]]) -> Outline {
     let mut outline = Outline::default();
     for line in lines {

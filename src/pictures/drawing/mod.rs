@@ -1,4 +1,4 @@
-//! [`Drawing`]: shapes and words on a page, without any physics.
+//! [`Drawing`]: shapes and text on a page, without any mechanics.
 //!
 //! A page has its origin in the upper left corner, x to the right and y down, in pixels at natural size. [`Camera`] is
 //! the one place at which the scene's upward y turns over. What is drawn later lies on top. Nothing here knows what a
@@ -59,7 +59,7 @@ pub struct PageRect {
 }
 
 impl PageRect {
-    /// The part of a line that lies in the rectangle; `None` where none does.
+    /// The part of a line inside the rectangle; `None` if the line does not meet the rectangle.
     pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let along = (to.x - from.x, to.y - from.y);
@@ -148,7 +148,7 @@ impl Path {
         }
     }
 
-    /// The same shape with a line along its edge, over the fill.
+    /// The same shape with a line along its edge. The line lies above the fill.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
         Path {
             stroke: Some(stroke),
@@ -156,7 +156,7 @@ impl Path {
         }
     }
 
-    /// The same shape with a seam of `colour` around it that shows `width` pixels on the outside only.
+    /// The same shape with a border of `colour`, of which `width` pixels are visible outside the shape.
     pub fn cased(self, colour: Colour, width: f64) -> Path {
         Path {
             stroke: Some(Stroke::new(colour, 2.0 * width)),
@@ -165,7 +165,7 @@ impl Path {
         }
     }
 
-    /// The same shape, see-through.
+    /// The same shape with an opacity from 0 to 1.
     pub fn with_opacity(self, opacity: f64) -> Path {
         Path { opacity, ..self }
     }
@@ -203,7 +203,7 @@ impl Stroke {
         }
     }
 
-    /// The same line with pointed corners.
+    /// The same line with sharp corners.
     pub fn mitred(self) -> Stroke {
         Stroke {
             join: Join::Miter,
@@ -244,7 +244,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// An untitled group of a class.
+    /// An empty group with a class and without a title.
     pub fn with_class(class: &str) -> Group {
         Group {
             class: class.to_owned(),
@@ -260,7 +260,7 @@ impl Group {
         }
     }
 
-    /// The same group with something more on top.
+    /// The same group with one more item on top.
     pub fn with(mut self, item: impl Into<Item>) -> Group {
         self.items.push(item.into());
         self

@@ -1,4 +1,4 @@
-//! [`Outline`]: a path on the page, of straight lines and cubic curves.
+//! [`Outline`]: a path on the page that consists of straight lines and cubic curves.
 
 use super::{PagePoint, PageRect};
 
@@ -46,7 +46,7 @@ impl Outline {
         }
     }
 
-    /// An upright rectangle with corners rounded by `radius` pixels.
+    /// A rectangle with sides parallel to the page and with corners rounded by `radius` pixels.
     pub fn rounded(rect: PageRect, radius: f64) -> Outline {
         let r = radius.min(rect.width / 2.0).min(rect.height / 2.0);
         let corner = |x: f64, y: f64| rect.at.moved(x, y);
@@ -59,7 +59,7 @@ impl Outline {
                 corner(0.0, h),
             ]);
         }
-        // The distance of a control point from the corner for which a cubic comes closest to a quarter circle.
+        // The position of the control points at which a cubic is nearest to a quarter circle.
         let c = r * (1.0 - QUARTER);
         Outline {
             segments: vec![
@@ -88,17 +88,17 @@ impl Outline {
             },
             radius,
         );
-        // A rounded square without straight sides: its lines have no length.
+        // The straight sides of this rounded square have no length.
         circle.segments.retain(|s| !matches!(s, Segment::Line(_)));
         circle
     }
 
-    /// Puts another outline's parts after this one's.
+    /// Appends the parts of another outline.
     pub fn extend(&mut self, other: Outline) {
         self.segments.extend(other.segments);
     }
 
-    /// Every point the outline names; it lies within their hull.
+    /// All points and control points. The outline lies inside their convex hull.
     pub fn points(&self) -> impl Iterator<Item = PagePoint> + '_ {
         self.segments.iter().flat_map(|segment| match *segment {
             Segment::Move(p) | Segment::Line(p) => vec![p],

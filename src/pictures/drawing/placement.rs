@@ -84,8 +84,8 @@ pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Op
     place_avoiding(ink, page, requests, &|_, _| false)
 }
 
-/// Like [`place`]. A position for which `avoid` is true, given the request's number and the label's rectangle, is taken only
-/// for lack of another one nearby, and with a leader. Preferred positions are never avoided.
+/// Like [`place`]. `avoid` gets the number of a request and a rectangle. A rectangle for which it returns true is used only
+/// if no other position is nearby, and then with a leader. Preferred positions are used in any case.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,

@@ -1,4 +1,4 @@
-//! Colour maps: the well-known ones by [name](named), and others [interpolated between stops](between).
+//! Colour ramps: well-known ones by [name](named), and ramps [interpolated between stops](between).
 
 mod cividis;
 mod plasma;
@@ -14,7 +14,7 @@ pub const NAMES: [&str; 4] = ["plasma", "viridis", "cividis", "grey"];
 /// Number of colours in a map.
 pub const LENGTH: usize = 256;
 
-/// A ramp by its name: 256 colours, those of small amounts first. `None` for a name that is not in [`NAMES`].
+/// A ramp of 256 colours by its name, from small to large amounts. `None` for a name that is not in [`NAMES`].
 ///
 /// `plasma`, `viridis` and `cividis` are matplotlib's. `grey` is ours and light, from nearly white to a grey on which black
 /// letters can still be read.
@@ -35,7 +35,7 @@ pub fn between(stops: &[Colour]) -> Vec<Colour> {
         return Vec::new();
     };
     let at = |entry: usize| {
-        // Whole numbers as far as they go, so that 256 stops are met exactly.
+        // Interpolate in whole numbers, so that 256 stops are reproduced exactly.
         let (stop, rest) = (entry * last / (LENGTH - 1), entry * last % (LENGTH - 1));
         let next = stops[(stop + 1).min(last)];
         stops[stop].mixed(next, rest as f64 / (LENGTH - 1) as f64)

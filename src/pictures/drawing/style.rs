@@ -1,4 +1,4 @@
-//! [`Theme`]: every colour, width and size of a figure that a reader may choose, in one place.
+//! [`Theme`]: all colours, line widths and sizes that a user may choose for a figure.
 
 pub mod format;
 mod named;
@@ -140,8 +140,8 @@ impl Sizes {
 }
 
 impl Theme {
-    /// The arrow colour of the block placed as number `place`, from 1: entry `place` mod 5 of five, so the first block
-    /// wears the second colour, as in the source.
+    /// The arrow colour of a block. `place` is its number in the order of placing, from 1. The colour is entry `place` mod
+    /// 5 of five, so the first block has the second colour, as in the source.
     pub fn arrow(&self, place: usize) -> Colour {
         entry(&self.arrows, place).unwrap_or(self.ink)
     }
@@ -151,7 +151,8 @@ impl Theme {
         entry(&self.robots, number).unwrap_or(self.ink)
     }
 
-    /// The colour of an amplitude as a share of the largest: entry ⌊256·share⌋ of 256, the ends holding on.
+    /// The colour of an amplitude. `share` is the amplitude divided by the largest one; the colour is entry ⌊256·share⌋ of
+    /// 256. Values outside 0 to 1 are clamped.
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
@@ -160,13 +161,13 @@ impl Theme {
     /// ```
     pub fn amplitude(&self, share: f64) -> Colour {
         let count = self.amplitudes.len();
-        // `as` holds on at the ends and takes a share that is no number as 0.
+        // `as` saturates, and turns a share that is not a number into 0.
         let entry = ((share * count as f64) as usize).min(count.saturating_sub(1));
         self.amplitudes.get(entry).copied().unwrap_or(self.block)
     }
 
-    /// The seam that sets an arrow off from the block it acts on: dark on a bright block, where a bright one is lost,
-    /// unless the arrow is far darker than the block.
+    /// The border colour that separates an arrow from its block. It is dark on a bright block, unless the arrow is much
+    /// darker than the block.
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
         let lost =
             block.brightness() > BRIGHT_FILL && lightness(block) - lightness(arrow) < STANDS_OFF;
@@ -177,8 +178,8 @@ impl Theme {
         }
     }
 
-    /// The line between the cells of a block of this colour: lighter or darker by a share of what there is room for, so
-    /// that it can be seen on any block and is never louder than an outline.
+    /// The colour of the line between the cells of a block. It is lighter or darker than the block by `share` of the
+    /// possible difference, so that it is visible on every block but weaker than an outline.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
         let towards = if block.brightness() < 0.5 {
             self.lighter()
@@ -188,8 +189,8 @@ impl Theme {
         block.mixed(towards, share)
     }
 
-    /// The colour of letters on a block or the page; of those that belong to something, a shade of its colour. Its
-    /// [contrast] with what lies below is at least 4.5.
+    /// The colour of text on a block or on the page. If `of` is given, the text gets a shade of that colour. Its [contrast]
+    /// with the background is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
         let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE
@@ -200,13 +201,13 @@ impl Theme {
             Some(colour) => (colour, 11),
             None => (below, 15),
         };
-        // In steps of a twentieth towards black or white, one of which reads on any colour.
+        // Try shades in steps of 1/20 towards black or white. One of these two is readable on any colour.
         let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
         let legible = |colour: &Colour| contrast(*colour, below) >= MIN_CONTRAST;
         (least..=20).map(shade).find(legible).unwrap_or(ink)
     }
 
-    /// The brighter of page and ink.
+    /// The brighter of the page colour and the ink colour.
     fn lighter(&self) -> Colour {
         if self.page.brightness() < self.ink.brightness() {
             self.ink
@@ -215,7 +216,7 @@ impl Theme {
         }
     }
 
-    /// The darker of page and ink.
+    /// The darker of the page colour and the ink colour.
     fn darker(&self) -> Colour {
         if self.page.brightness() < self.ink.brightness() {
             self.page
@@ -225,7 +226,7 @@ impl Theme {
     }
 }
 
-/// An entry of a list that begins again at its end.
+/// The entry of a list by a number that may exceed its length; the list then starts again.
 fn entry(list: &[Colour], number: usize) -> Option<Colour> {
     number
         .checked_rem(list.len())

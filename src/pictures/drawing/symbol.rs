@@ -1,4 +1,4 @@
-//! [`Symbol`]: a mathematical name, set from letters with an arrow or a hat above and small signs below and above right.
+//! [`Symbol`]: a mathematical symbol of letters with an arrow or a hat, a subscript and a superscript.
 
 use super::arrow::HEAD_WIDTH;
 use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
@@ -67,13 +67,13 @@ impl Symbol {
         self
     }
 
-    /// The letters of both, one after the other.
+    /// The letters of this symbol, followed by those of `next`.
     pub fn then(mut self, next: Symbol) -> Symbol {
         self.letters.extend(next.letters);
         self
     }
 
-    /// Its letters in a row, for those who hear it: `F_s1^(2)`.
+    /// The symbol as plain text, for screen readers: `F_s1^(2)`.
     pub fn stated(&self) -> String {
         let one = |l: &Letter| {
             let mark = |sign: &str, words: &str| match words {
@@ -85,13 +85,13 @@ impl Symbol {
         self.letters.iter().map(one).collect()
     }
 
-    /// Width and height at a size, pixels.
+    /// The width and height in pixels at a font size.
     pub fn size(&self, size: f64) -> (f64, f64) {
         let width = self.letters.iter().map(|l| wide(l, size)).sum();
         (width, (REACH.0 + REACH.1) * size)
     }
 
-    /// The symbol in a rectangle of its own size.
+    /// Draws the symbol into a rectangle of its size.
     pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
         let mut group = Group::with_class("symbol");
         let mut at = rect.at.moved(0.0, REACH.0 * size);
@@ -139,7 +139,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
     text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)
 }
 
-/// Letters slanted, all else upright, as mathematics is set.
+/// Splits text into runs with their face: letters are italic, everything else is upright.
 fn runs(words: &str) -> Vec<(String, Face)> {
     let mut runs: Vec<(String, Face)> = Vec::new();
     for c in words.chars() {
@@ -156,7 +156,7 @@ fn runs(words: &str) -> Vec<(String, Face)> {
     runs
 }
 
-/// The arrow or hat above a letter whose base line begins at `at`.
+/// The arrow or hat above a letter. `at` is the left end of the letter on its baseline.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
     let tall = letter
         .letter
@@ -165,7 +165,7 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
     let high = if tall { 0.76 } else { 0.58 } * size;
     let wide = text::width(&letter.letter, Face::SerifItalic, size);
     let stroke = Stroke::new(ink, 0.045 * size);
-    // Slanted letters lean: what stands above them stands to the right of their middle.
+    // Italic letters lean to the right, so the accent is moved to the right of their middle.
     let middle = at.moved(0.5 * wide + 0.09 * size, -high);
     match letter.accent {
         Accent::None => None,

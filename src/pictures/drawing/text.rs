@@ -1,4 +1,4 @@
-//! [`Text`]: a line of words, and how wide words are in our own fonts.
+//! [`Text`]: a line of text, and the width of text in the built-in fonts.
 //!
 //! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
 //! placing do not notice. The width of a character that a face lacks, and that another font
@@ -48,7 +48,7 @@ impl Face {
         }
     }
 
-    /// The family's own name first, then what a reader's machine may have instead.
+    /// The font families for CSS: the built-in family first, then replacements that the reader's system may have.
     pub fn families(self) -> &'static str {
         match self {
             Face::Serif | Face::SerifItalic | Face::SerifBold => {
@@ -72,12 +72,12 @@ impl Face {
         self == Face::SerifItalic
     }
 
-    /// Whether the face has a character.
+    /// Whether the face has a glyph for a character.
     pub fn has(self, character: char) -> bool {
         self.font().charmap().map(character).is_some()
     }
 
-    /// The number of the glyph that the face has for a character.
+    /// The index of the glyph for a character in this face.
     pub fn glyph(self, character: char) -> Option<u16> {
         let glyph = self.font().charmap().map(character)?;
         u16::try_from(glyph.to_u32()).ok()
@@ -119,7 +119,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// Words that begin at a place.
+    /// A text that begins at a point.
     pub fn new(
         at: PagePoint,
         words: impl Into<String>,
@@ -138,12 +138,12 @@ impl Text {
         }
     }
 
-    /// The same words, at their place with another end.
+    /// The same text with another anchor at the same point.
     pub fn anchored(self, anchor: Anchor) -> Text {
         Text { anchor, ..self }
     }
 
-    /// The same words with a seam around them.
+    /// The same text with a border (halo) around its letters.
     pub fn with_halo(self, colour: Colour, width: f64) -> Text {
         Text {
             halo: Some((colour, width)),
@@ -155,12 +155,12 @@ impl Text {
 /// The space at which no line is broken.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// Whether bytes are a font, or a collection of fonts.
+/// Whether the bytes are a font file or a font collection.
 pub fn opens(data: &[u8]) -> bool {
     FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
 }
 
-/// Whether a font, or one of a collection, has a character.
+/// Whether a font, or one font of a collection, has a glyph for a character.
 pub fn covers(data: &[u8], character: char) -> bool {
     let Ok(file) = FileRef::new(data) else {
         return false;
@@ -169,7 +169,7 @@ pub fn covers(data: &[u8], character: char) -> bool {
     fonts.any(|font| font.charmap().map(character).is_some())
 }
 
-/// How wide words are, in pixels.
+/// The width of a text in pixels.
 pub fn width(words: &str, face: Face, size: f64) -> f64 {
     let common = common_advances(face);
     let advance = |c: char| match common.get(c as usize) {
@@ -179,7 +179,7 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     words.chars().map(advance).sum::<f64>() * size
 }
 
-/// How far the pen moves for a character, in parts of the size.
+/// The advance width of a character as a fraction of the font size.
 fn advance(font: &FontRef<'_>, c: char) -> f64 {
     let Some(glyph) = font.charmap().map(c) else {
         return elsewhere(c);
@@ -188,8 +188,8 @@ fn advance(font: &FontRef<'_>, c: char) -> f64 {
     f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
 }
 
-/// How wide a character is, in parts of the size, that is set in a font of other hands: a full square in the scripts and
-/// signs that are written in squares.
+/// The estimated width of a character in a font that is not built in, as a fraction of the font size: 1 for scripts with
+/// square characters.
 fn elsewhere(c: char) -> f64 {
     match u32::from(c) {
         0x1100..=0x115F
@@ -203,7 +203,7 @@ fn elsewhere(c: char) -> f64 {
     }
 }
 
-/// Advances of the first 128 characters, looked up once: breaking lines asks for them again and again.
+/// The advance widths of the first 128 characters, computed once, because line breaking needs them often.
 fn common_advances(face: Face) -> &'static [f64] {
     static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
         [const { OnceLock::new() }; Face::ALL.len()];
@@ -213,9 +213,8 @@ fn common_advances(face: Face) -> &'static [f64] {
     })
 }
 
-/// Words broken into lines of at most `room` pixels. A word that is too wide for a line is broken where it must be.
-/// White space of any kind counts as one space, but for [`NO_BREAK`], which holds its neighbours together; no words
-/// make no lines.
+/// Breaks text into lines of at most `room` pixels. A word that is wider than a line is broken inside. Every sequence of
+/// white space counts as one space, except [`NO_BREAK`], which keeps its neighbours on one line. Empty text gives no lines.
 pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -248,8 +247,8 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// Words in as few lines as `room` pixels allow, at most `most` of them, and those about equally long: no last word stands
-/// alone.
+/// Breaks text into as few lines as possible, at most `most`, each at most `room` pixels wide. The lines have about the
+/// same length, so that no single word is left on the last line.
 pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
     let count = lines.len();
@@ -268,7 +267,7 @@ pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> V
     lines
 }
 
-/// The first lines, the last of them ending in "…" where there are more than `most`.
+/// The first `most` lines. If there are more, the last one ends in "…".
 pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
     if lines.len() > most {
         lines.truncate(most);

@@ -1,4 +1,4 @@
-//! [`write_whole`]: files appear whole or not at all.
+//! [`write_whole`]: writes files so that each is complete or does not exist.
 //!
 //! The only file that names tempfile. A file is written beside its place and then moved there in one step, so that nobody
 //! ever sees half of it, and so that a disk that runs full leaves the old file as it was. A link is followed and its
@@ -39,7 +39,7 @@ const MAX_LINKS: usize = 40;
 /// The files that lie beside their places.
 static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Writes several files, or none of them: all lie beside their places before the first is moved to its own.
+/// Writes several files or none of them. All are written under temporary names before the first one is renamed.
 ///
 /// # Errors
 /// The first file that could not be written. Everything is then as it was, unless the system refuses one of the moves at
@@ -73,18 +73,17 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
     Ok(())
 }
 
-/// Takes away every file that lies beside its place, and keeps others from being made: for a process that is about to
-/// end.
+/// Deletes all temporary files and prevents new ones until the value is dropped. For a process that is about to end.
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {
-        // It may be gone already, and there is nobody left to be told.
+        // The file may already be gone. There is nobody to report an error to.
         let _ = fs::remove_file(path);
     }
     beside
 }
 
-/// Whether two paths lead to one ordinary file, by whatever names or links. Paths that lead nowhere lead to no file.
+/// Whether two paths lead to the same regular file, under any names or links. A path without a file equals no other.
 pub(crate) fn same(a: &Path, b: &Path) -> bool {
     let (Ok(a_is), Ok(b_is)) = (fs::metadata(a), fs::metadata(b)) else {
         return false;
@@ -104,7 +103,7 @@ fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
 }
 
 fn beside() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is sound at every moment, whoever held it last.
+    // The list of paths is valid at every moment, even if a thread panicked while it held the lock.
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -138,7 +137,7 @@ impl Beside {
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
             .unwrap_or(Path::new("."));
-        // Nobody may look at the list between a file's making and its entry.
+        // Lock the list before the file is created, so that no file exists without its entry.
         let mut list = beside();
         let file = builder()
             .tempfile_in(folder)
@@ -152,7 +151,7 @@ impl Beside {
     }
 
     fn fill(&mut self, bytes: &[u8], old: Option<&Metadata>) -> io::Result<()> {
-        // The bare file, as tempfile's errors tell the name that nobody asked for.
+        // Use the bare file, because the errors of tempfile contain the temporary name.
         let Some(file) = self.file.as_mut().map(NamedTempFile::as_file_mut) else {
             return Ok(());
         };
@@ -189,25 +188,25 @@ impl Drop for Beside {
     }
 }
 
-/// The system's reason without the temporary name that tempfile adds to it.
+/// The reason of the system, without the temporary name that tempfile adds.
 fn nameless(error: &io::Error) -> io::Error {
     let text = error.to_string();
     let reason = text.split(" at path ").next().unwrap_or_default();
     io::Error::new(error.kind(), reason.to_owned())
 }
 
-/// Permissions, and where the system lets us the owner, as of the file that is replaced.
+/// Copies the permissions of the replaced file and, if the system allows it, its owner.
 fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::{MetadataExt, fchown};
-        // Only the superuser may give a file away; the permissions go last, as a change of owner takes some back.
+        // Only the superuser may change the owner. Set the permissions last, because a change of owner resets some of them.
         let _ = fchown(file, Some(old.uid()), Some(old.gid()));
     }
     file.set_permissions(old.permissions())
 }
 
-/// Opens or makes what is needed to write a file in one step.
+/// Creates everything that is needed to write a file in one step.
 fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     let target = followed(path)?;
     let old = fs::metadata(&target).ok();
@@ -224,7 +223,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
                 "it is there already",
             ));
         }
-        // Opened and left as it is: what this user may not write to is not replaced either.
+        // Open the existing file without changing it: a file that this user may not write must not be replaced either.
         let open = OpenOptions::new().write(true).open(&target)?;
         if !old.is_file() {
             return Ok(Ready::Stream(open));
@@ -235,7 +234,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     Ok(Ready::Beside(file))
 }
 
-/// Where a path leads: the target of a link, which need not exist.
+/// The file to which a path leads: the target of a link, which need not exist.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MAX_LINKS {
@@ -252,7 +251,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".drystone-").suffix(".part");
-    // A temporary file is its owner's alone; ours is to have the rights that any new file of this user gets.
+    // Only the owner may read a temporary file. This file needs the permissions of a new file of this user.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder

@@ -1,4 +1,4 @@
-//! [`Fonts`]: the fonts in which words are drawn: ours, and those a person adds for other scripts.
+//! [`Fonts`]: the built-in fonts, and fonts that a user adds for other scripts.
 //!
 //! Which fonts a machine has is never looked at: the same drawing and the same font files give the same picture
 //! everywhere. A character that none of them has would be an empty box; it is [spelled out](Fonts::spelled) instead.
@@ -15,8 +15,8 @@ pub struct Fonts {
 }
 
 impl Fonts {
-    /// Our fonts and these files, of fonts or collections of fonts (.ttf, .otf, .ttc), which serve where ours lack a
-    /// character, the first one first.
+    /// The built-in fonts and the given font files or collections (.ttf, .otf, .ttc). A character that the built-in fonts
+    /// do not have comes from the first file that has it.
     ///
     /// # Errors
     /// The number, from 0, of the first file that is no font.
@@ -36,13 +36,13 @@ impl Fonts {
         })
     }
 
-    /// The files beside ours.
+    /// The added font files.
     #[cfg(feature = "png")]
     pub(super) fn more(&self) -> &[Arc<Vec<u8>>] {
         &self.more
     }
 
-    /// Whether some font has a character. White space needs none.
+    /// Whether some font has the character. White space needs no font.
     pub fn has(&self, c: char) -> bool {
         (c.is_whitespace() && !c.is_control())
             || matches!(c, '\n' | '\t' | '\r')
@@ -50,7 +50,7 @@ impl Fonts {
             || self.more.iter().any(|data| text::covers(data, c))
     }
 
-    /// The characters of a text that no font has, each once, in order of appearance.
+    /// The characters of a text that no font has, each once, in the order of their appearance.
     pub fn lacking(&self, text: &str) -> Vec<char> {
         let mut lacking = Vec::new();
         for c in text
@@ -64,7 +64,8 @@ impl Fonts {
         lacking
     }
 
-    /// A text with the characters that no font has written as their code points, so that two names stay two names.
+    /// The text with each character that no font has replaced by its code point, so that two different names stay
+    /// different.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

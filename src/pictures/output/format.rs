@@ -1,6 +1,7 @@
 //! [`Format`]: the formats in which the command line writes a drawing. Each format is declared here once, with its ending,
 //! its help and its writer; the writer itself has a file of its own.
 
+use super::animation::{self, Step};
 use super::fonts::Fonts;
 use super::pdf::{self, PdfError};
 use super::png::{self, Compression, PngError, Size};
@@ -13,6 +14,7 @@ use crate::drawing::Drawing;
 pub(crate) enum Format {
     Svg,
     Png,
+    Gif,
     Pdf,
     Tikz,
 }
@@ -43,6 +45,9 @@ pub(crate) enum FormatError {
     Write(String),
 }
 
+/// A writer of pictures that follow one another.
+pub(crate) type Animate = fn(&[Step], Size, &Fonts) -> Result<Vec<u8>, PngError>;
+
 /// What is known about a format, and how a drawing is written in it.
 struct Declaration {
     /// File ending, without its dot; also the name on the command line.
@@ -61,7 +66,13 @@ struct Declaration {
 
 impl Format {
     /// All formats, in the order in which help lists them.
-    pub(crate) const ALL: [Format; 4] = [Format::Svg, Format::Png, Format::Pdf, Format::Tikz];
+    pub(crate) const ALL: [Format; 5] = [
+        Format::Svg,
+        Format::Png,
+        Format::Gif,
+        Format::Pdf,
+        Format::Tikz,
+    ];
 
     fn declaration(self) -> Declaration {
         match self {
@@ -80,6 +91,14 @@ impl Format {
                 has_pixels: true,
                 lays_out_words: true,
                 write: write_png,
+            },
+            Format::Gif => Declaration {
+                ending: "gif",
+                help: "Drawn in pixels of at most 255 colours, for animations in any program",
+                is_text: false,
+                has_pixels: true,
+                lays_out_words: true,
+                write: write_gif,
             },
             Format::Pdf => Declaration {
                 ending: "pdf",
@@ -117,6 +136,15 @@ impl Format {
     /// One line of help.
     pub(crate) fn help(self) -> &'static str {
         self.declaration().help
+    }
+
+    /// How pictures that follow one another are written in this format; `None` for a format that holds one picture.
+    pub(crate) fn animate(self) -> Option<Animate> {
+        match self {
+            Format::Png => Some(animation::apng),
+            Format::Gif => Some(animation::gif),
+            Format::Svg | Format::Pdf | Format::Tikz => None,
+        }
     }
 
     /// Whether a picture in this format consists of pixels.
@@ -168,6 +196,15 @@ fn write_png(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, Form
         settings.fonts,
         settings.compression,
     )?)
+}
+
+fn write_gif(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
+    png::check(drawing.width, drawing.height, settings.size)?;
+    let still = Step {
+        svg: svg::for_pixels(drawing),
+        seconds: 1.0,
+    };
+    Ok(animation::gif(&[still], settings.size, settings.fonts)?)
 }
 
 impl From<OutlineError> for FormatError {

@@ -1,4 +1,4 @@
-//! From a [`Drawing`](crate::drawing::Drawing) to files: SVG text, PNG and PDF made from that text, and TikZ.
+//! Writes a [`Drawing`](crate::drawing::Drawing) to a file: as SVG, as PNG, GIF or PDF (all made from the SVG), or as TikZ.
 //!
 //! The SVG is the figure. PNG and PDF are made from it by resvg's reader, so that they cannot disagree with it. The same
 //! drawing gives the same bytes on every machine: no clock, no path and no font of the machine enters a file.
@@ -9,6 +9,8 @@
 //! figure: words of s pixels in a drawing of w pixels are s·(width / w)·72/25.4 pt high when it is printed `width` mm
 //! wide. A column of a journal is about 84 mm wide, two of them 174 mm; letters below 6 pt are hard to read.
 
+#[cfg(feature = "png")]
+pub mod animation;
 #[cfg(feature = "file")]
 pub mod file;
 pub mod fonts;

@@ -1,26 +1,30 @@
-//! [`write()`]: a drawing as a PDF page of its own size, in lines and in words that can be searched.
+//! [`write()`]: a drawing as a PDF page of its size, with vector graphics and searchable text.
 //!
-//! It is made from the SVG, as the PNG is, so that they cannot disagree. The only file that names krilla. Our fonts are
+//! It is made from the SVG, as the PNG is, so that they cannot disagree. Only this file and its folder name krilla. Our fonts are
 //! embedded, cut down to the glyphs that are used. Nothing in it tells of a day or a machine: same drawing, same bytes.
+
+mod paint;
+mod structure;
 
 use std::borrow::Cow;
 
 use krilla::Document;
-use krilla::color::rgb;
-use krilla::geom::{Path, PathBuilder, Point, Transform};
+use krilla::annotation::{Annotation, LinkAnnotation, Target};
+use krilla::destination::{Destination, XyzDestination};
+use krilla::geom::{Point, Rect, Transform};
 use krilla::metadata::Metadata;
-use krilla::num::NormalizedF32;
 use krilla::page::PageSettings;
-use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash};
+use krilla::paint::FillRule;
 use krilla::surface::Surface;
-use krilla::tagging::{ContentTag, Tag, TagGroup, TagTree};
+use krilla::tagging::{Artifact, ArtifactType, ContentTag, Node, Tag, TagGroup, TagTree};
 use krilla::text::{Font, GlyphId, KrillaGlyph};
-use resvg::tiny_skia::PathSegment;
 use resvg::usvg;
+
+use paint::{fill, outline, outline_of, passes, share, stroke, transform};
 
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
-use crate::drawing::{Drawing, Face, PagePoint};
+use crate::drawing::{Drawing, Face, PagePoint, PageRect};
 use crate::text::line;
 
 /// Why there is no PDF.
@@ -50,7 +54,7 @@ pub const MAX_SIDE_MM: f64 = 5080.0;
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// A drawing as a PDF of one page, `width_mm` wide or, where nothing is given, a 96th of an inch per pixel.
+/// A drawing as a PDF of one page. The page is `width_mm` wide; for `None` one pixel is 1/96 inch.
 ///
 /// # Errors
 /// [`PdfError::Size`] where a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`].
@@ -68,7 +72,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
     write_in(drawing, width_mm, &Fonts::default())
 }
 
-/// As [`write()`], with more fonts than ours. A line of words for which ours do not suffice is drawn as outlines.
+/// Like [`write()`], with additional fonts. A line of text that needs an additional font is drawn as outlines.
 ///
 /// # Errors
 /// As [`write()`].
@@ -87,12 +91,13 @@ pub fn write_in(
             at: PagePoint::new(0.0, 0.0),
             scale: 1.0,
         }],
+        links: Vec::new(),
     };
     let heading = Heading {
         title: &drawing.title,
         description: &drawing.description,
     };
-    document(&[sheet], width / drawing.width, &heading, fonts)
+    document(&[sheet], width / drawing.width, &heading, &[], fonts)
 }
 
 /// What is drawn on a page.
@@ -102,6 +107,52 @@ pub enum Content<'d> {
     Drawing(&'d Drawing),
     /// An SVG of ours, such as a chart, and what it shows.
     Svg(&'d str, &'d str),
+    /// A drawing of groups with the ids `e0`, `e1`, … and the role of each.
+    Tagged(&'d Drawing, &'d [Role]),
+}
+
+/// What a group of a page is to a reader who cannot see it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Role {
+    /// Nothing: a line or a page number.
+    Artifact,
+    /// A heading of a level from 1, with its words.
+    Heading(u8, String),
+    /// A paragraph.
+    Paragraph,
+    /// A cell of a table.
+    Cell {
+        /// The number of the table in the document or in its part.
+        table: usize,
+        /// The number of the row in the table.
+        row: usize,
+        /// Whether it is the head of a column.
+        head: bool,
+    },
+}
+
+/// A link to a page of the same document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// The area that leads there, pixels.
+    pub place: PageRect,
+    /// The page, counted from 0.
+    pub page: usize,
+    /// Where it leads, in words.
+    pub words: String,
+}
+
+/// An entry in the list of bookmarks of a document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bookmark {
+    /// Its level: a higher one is a part of the last lower one.
+    pub level: u8,
+    /// Its title.
+    pub title: String,
+    /// The page, counted from 0.
+    pub page: usize,
+    /// The height on the page, pixels from above.
+    pub y: f64,
 }
 
 /// A drawing or a chart in its place on a page.
@@ -124,6 +175,8 @@ pub struct Sheet<'d> {
     pub height: f64,
     /// What is on it, the lowest first.
     pub parts: Vec<Inset<'d>>,
+    /// Its links.
+    pub links: Vec<Link>,
 }
 
 /// What a document says of itself.
@@ -135,27 +188,32 @@ pub struct Heading<'t> {
     pub description: &'t str,
 }
 
-/// Pages of several drawings as a PDF, a pixel being a 96th of an inch.
+/// Several drawings as the pages of a PDF. One pixel is 1/96 inch.
 ///
 /// # Errors
 /// As [`write()`], for any of its pages.
-pub fn write_sheets(sheets: &[Sheet<'_>], heading: &Heading<'_>) -> Result<Vec<u8>, PdfError> {
+pub fn write_sheets(
+    sheets: &[Sheet<'_>],
+    heading: &Heading<'_>,
+    bookmarks: &[Bookmark],
+) -> Result<Vec<u8>, PdfError> {
     let natural = MM_PER_INCH / PIXELS_PER_INCH;
-    document(sheets, natural, heading, &Fonts::default())
+    document(sheets, natural, heading, bookmarks, &Fonts::default())
 }
 
-/// Width and height of an SVG of ours in pixels; `None` for what is no SVG.
+/// The width and height in pixels of an SVG that this crate wrote; `None` for any other text.
 pub fn svg_size(text: &str) -> Option<(f64, f64)> {
     let tree = tree::read(text, &Fonts::default()).ok()?;
     let size = tree.size();
     Some((f64::from(size.width()), f64::from(size.height())))
 }
 
-/// A document of pages, a pixel being so many millimetres.
+/// A document of several pages with `mm_per_pixel` millimetres per pixel.
 fn document(
     sheets: &[Sheet<'_>],
     mm_per_pixel: f64,
     heading: &Heading<'_>,
+    bookmarks: &[Bookmark],
     fonts: &Fonts,
 ) -> Result<Vec<u8>, PdfError> {
     let mut document = Document::new();
@@ -167,7 +225,7 @@ fn document(
             .creator("drystone".to_owned())
             .producer("drystone".to_owned()),
     );
-    let mut tags = TagTree::new();
+    let mut tags = Vec::new();
     let mut known = Vec::new();
     for sheet in sheets {
         let (width, height) = (mm_per_pixel * sheet.width, mm_per_pixel * sheet.height);
@@ -175,45 +233,117 @@ fn document(
         if !(fits(width) && fits(height)) {
             return Err(PdfError::Size { width, height });
         }
-        let points = |mm: f64| (mm * POINTS_PER_INCH / MM_PER_INCH) as f32;
-        let page = PageSettings::from_wh(points(width), points(height))
+        let settings = PageSettings::from_wh(points(width), points(height))
             .ok_or(PdfError::Size { width, height })?;
         let scale = points(width) / sheet.width as f32;
-        let mut page = document.start_page_with(page);
+        let mut page = document.start_page_with(settings);
         let mut surface = page.surface();
         for part in &sheet.parts {
-            let (text, heading) = match part.content {
-                Content::Drawing(drawing) => {
-                    let words = [line(&drawing.title), line(&drawing.description)];
-                    (Cow::Owned(svg::write(drawing)), words.join(". "))
-                }
-                Content::Svg(text, shows) => (Cow::Borrowed(text), line(shows)),
-            };
-            let tree = tree::read(&text, fonts).map_err(PdfError::Write)?;
-            let figure = surface.start_tagged(ContentTag::Other);
-            let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
-            let own = scale * part.scale as f32;
-            surface.push_transform(&Transform::from_row(own, 0.0, 0.0, own, x, y));
-            let mut pen = PdfPainter {
-                surface: &mut surface,
-                fonts: std::mem::take(&mut known),
-            };
-            pen.group(tree.root());
-            known = pen.fonts;
-            surface.pop();
-            surface.end_tagged();
-            tags.push(TagGroup::with_children(
-                Tag::Figure(Some(heading)),
-                vec![figure.into()],
-            ));
+            inset(&mut surface, part, scale, fonts, &mut known, &mut tags)?;
         }
         surface.finish();
+        for link in &sheet.links {
+            let id = page.add_tagged_annotation(annotation(link, scale));
+            let tag = TagGroup::with_children(Tag::Link, vec![id.into()]);
+            tags.push((None, tag.into()));
+        }
         page.finish();
     }
-    document.set_tag_tree(tags);
+    let mut tree = TagTree::new();
+    structure::grouped(tags)
+        .into_iter()
+        .for_each(|node| tree.push(node));
+    document.set_tag_tree(tree);
+    let scale = points(mm_per_pixel);
+    if !bookmarks.is_empty() {
+        document.set_outline(structure::outline(bookmarks, scale));
+    }
     document
         .finish()
         .map_err(|e| PdfError::Write(e.to_string()))
+}
+
+fn points(mm: f64) -> f32 {
+    (mm * POINTS_PER_INCH / MM_PER_INCH) as f32
+}
+
+fn annotation(link: &Link, scale: f32) -> Annotation {
+    let PageRect { at, width, height } = link.place;
+    let (x, y) = (scale * at.x as f32, scale * at.y as f32);
+    let (wide, high) = (scale * width as f32, scale * height as f32);
+    // Sides of at least a point: an area cannot be empty.
+    let area = Rect::from_xywh(x, y, wide.max(1.0), high.max(1.0));
+    let top = XyzDestination::new(link.page, Point::from_xy(0.0, 0.0));
+    let target = Target::Destination(Destination::Xyz(top));
+    let area = area.unwrap_or_else(|| {
+        Rect::from_xywh(0.0, 0.0, 1.0, 1.0).expect("an area of one point is not empty")
+    });
+    Annotation::new_link(LinkAnnotation::new(area, target), Some(line(&link.words)))
+}
+
+/// The tags of a document in its order: the role of what they wrap, if it has one, and the content.
+type Tags = Vec<(Option<Role>, Node)>;
+
+/// Draws one part of a page and notes its tags.
+fn inset(
+    surface: &mut Surface<'_>,
+    part: &Inset<'_>,
+    scale: f32,
+    fonts: &Fonts,
+    known: &mut Vec<(Face, Font)>,
+    tags: &mut Tags,
+) -> Result<(), PdfError> {
+    let drawn = |drawing: &Drawing| {
+        let words = [line(&drawing.title), line(&drawing.description)];
+        (Cow::Owned(svg::write(drawing)), words.join(". "))
+    };
+    let (text, shows) = match part.content {
+        Content::Drawing(drawing) | Content::Tagged(drawing, _) => drawn(drawing),
+        Content::Svg(text, shows) => (Cow::Borrowed(text), line(shows)),
+    };
+    let tree = tree::read(&text, fonts).map_err(PdfError::Write)?;
+    let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
+    let own = scale * part.scale as f32;
+    let place = Transform::from_row(own, 0.0, 0.0, own, x, y);
+    let mut tagged = |content: &mut dyn FnMut(&mut PdfPainter<'_, '_>), tag: ContentTag<'_>| {
+        let id = surface.start_tagged(tag);
+        surface.push_transform(&place);
+        let mut pen = PdfPainter {
+            surface: &mut *surface,
+            fonts: std::mem::take(known),
+        };
+        content(&mut pen);
+        *known = pen.fonts;
+        surface.pop();
+        surface.end_tagged();
+        id
+    };
+    let Content::Tagged(_, roles) = part.content else {
+        let figure = tagged(&mut |pen| pen.group(tree.root()), ContentTag::Other);
+        let group = TagGroup::with_children(Tag::Figure(Some(shows)), vec![figure.into()]);
+        tags.push((None, group.into()));
+        return Ok(());
+    };
+    for node in tree.root().children() {
+        let usvg::Node::Group(group) = node else {
+            continue;
+        };
+        let number = group
+            .id()
+            .rsplit("-e")
+            .next()
+            .and_then(|n| n.parse::<usize>().ok());
+        let role = number.and_then(|n| roles.get(n)).unwrap_or(&Role::Artifact);
+        let tag = match role {
+            Role::Artifact => ContentTag::Artifact(Artifact::with_kind(ArtifactType::Layout)),
+            _ => ContentTag::Other,
+        };
+        let id = tagged(&mut |pen| pen.group(group), tag);
+        if *role != Role::Artifact {
+            tags.push((Some(role.clone()), id.into()));
+        }
+    }
+    Ok(())
 }
 
 struct PdfPainter<'s, 'd> {
@@ -255,7 +385,7 @@ impl PdfPainter<'_, '_> {
             return;
         };
         let (fill, stroke) = (path.fill().and_then(fill), path.stroke().and_then(stroke));
-        // Of two paints PDF always puts the line on top, and we mostly want it below.
+        // PDF paints the stroke above the fill, but most figures need it below.
         for (fill, stroke) in passes(fill, stroke, path.paint_order()) {
             self.surface.set_fill(fill);
             self.surface.set_stroke(stroke);
@@ -278,7 +408,7 @@ impl PdfPainter<'_, '_> {
                     continue;
                 };
                 for (fill, stroke) in passes(fill.clone(), stroke.clone(), span.paint_order) {
-                    // The seam around letters is drawn as outlines, so that no word is there twice.
+                    // The halo around letters is drawn as outlines, so that the text is not there twice.
                     let outlined = fill.is_none();
                     self.surface.set_fill(fill);
                     self.surface.set_stroke(stroke);
@@ -321,103 +451,5 @@ impl PdfPainter<'_, '_> {
         let font = Font::new(face.data().into(), 0)?;
         self.fonts.push((face, font.clone()));
         Some(font)
-    }
-}
-
-/// The paints in the order in which they are laid on: each once, the fill last where it is to lie over the line.
-fn passes(
-    fill: Option<Fill>,
-    stroke: Option<Stroke>,
-    order: usvg::PaintOrder,
-) -> Vec<(Option<Fill>, Option<Stroke>)> {
-    match (fill, stroke) {
-        (None, None) => Vec::new(),
-        (Some(fill), Some(stroke)) => {
-            let mut both = vec![(Some(fill), None), (None, Some(stroke))];
-            if order == usvg::PaintOrder::StrokeAndFill {
-                both.reverse();
-            }
-            both
-        }
-        one => vec![one],
-    }
-}
-
-fn paint(paint: &usvg::Paint) -> Option<Paint> {
-    match paint {
-        usvg::Paint::Color(c) => Some(rgb::Color::new(c.red, c.green, c.blue).into()),
-        // A drawing has plain colours only.
-        _ => None,
-    }
-}
-
-fn share(share: usvg::Opacity) -> NormalizedF32 {
-    NormalizedF32::new(share.get()).unwrap_or(NormalizedF32::ONE)
-}
-
-fn fill(of: &usvg::Fill) -> Option<Fill> {
-    Some(Fill {
-        paint: paint(of.paint())?,
-        opacity: share(of.opacity()),
-        rule: match of.rule() {
-            usvg::FillRule::NonZero => FillRule::NonZero,
-            usvg::FillRule::EvenOdd => FillRule::EvenOdd,
-        },
-    })
-}
-
-fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
-    Some(Stroke {
-        paint: paint(of.paint())?,
-        width: of.width().get(),
-        miter_limit: of.miterlimit().get(),
-        line_cap: match of.linecap() {
-            usvg::LineCap::Butt => LineCap::Butt,
-            usvg::LineCap::Round => LineCap::Round,
-            usvg::LineCap::Square => LineCap::Square,
-        },
-        line_join: match of.linejoin() {
-            usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => LineJoin::Miter,
-            usvg::LineJoin::Round => LineJoin::Round,
-            usvg::LineJoin::Bevel => LineJoin::Bevel,
-        },
-        opacity: share(of.opacity()),
-        dash: of.dasharray().map(|array| StrokeDash {
-            array: array.to_vec(),
-            offset: of.dashoffset(),
-        }),
-    })
-}
-
-fn transform(t: usvg::Transform) -> Transform {
-    Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
-}
-
-/// The outlines of all shapes of a group, as one.
-fn outline_of(group: &usvg::Group) -> Option<Path> {
-    let mut pen = PathBuilder::new();
-    for node in group.children() {
-        if let usvg::Node::Path(path) = node {
-            put(&mut pen, path.data());
-        }
-    }
-    pen.finish()
-}
-
-fn outline(data: &resvg::tiny_skia::Path) -> Option<Path> {
-    let mut pen = PathBuilder::new();
-    put(&mut pen, data);
-    pen.finish()
-}
-
-fn put(pen: &mut PathBuilder, data: &resvg::tiny_skia::Path) {
-    for segment in data.segments() {
-        match segment {
-            PathSegment::MoveTo(p) => pen.move_to(p.x, p.y),
-            PathSegment::LineTo(p) => pen.line_to(p.x, p.y),
-            PathSegment::QuadTo(a, p) => pen.quad_to(a.x, a.y, p.x, p.y),
-            PathSegment::CubicTo(a, b, p) => pen.cubic_to(a.x, a.y, b.x, b.y, p.x, p.y),
-            PathSegment::Close => pen.close(),
-        }
     }
 }

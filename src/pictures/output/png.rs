@@ -1,4 +1,4 @@
-//! [`render`]: an SVG as PNG bytes, by way of resvg.
+//! [`render`]: converts an SVG to a PNG with resvg.
 
 mod pack;
 #[cfg(test)]
@@ -40,7 +40,7 @@ pub enum Compression {
 }
 
 impl Compression {
-    /// The level of deflate.
+    /// The compression level of deflate.
     fn level(self) -> u8 {
         match self {
             Compression::Small => 6,
@@ -77,7 +77,7 @@ pub const MAX_PIXELS: u64 = 100_000_000;
 /// Most pixels along a side.
 pub const MAX_SIDE: u32 = 32_000;
 
-/// An SVG drawing as PNG, transparent where the drawing leaves the page clear.
+/// An SVG drawing as PNG. It is transparent where the drawing is empty.
 ///
 /// # Errors
 /// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no pixel at
@@ -108,7 +108,7 @@ pub fn render_in(
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
-/// Pixels per metre of a picture for print.
+/// The resolution of a picture for print, in pixels per metre.
 fn per_metre(size: Size) -> Option<u32> {
     match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
@@ -132,7 +132,15 @@ pub struct Raster {
 /// # Errors
 /// See [`render`].
 pub fn rgba(svg: &str, size: Size) -> Result<Raster, PngError> {
-    let pixels = raster(svg, size, &Fonts::default())?;
+    rgba_in(svg, size, &Fonts::default())
+}
+
+/// Like [`rgba`], with additional fonts.
+///
+/// # Errors
+/// See [`render`].
+pub(super) fn rgba_in(svg: &str, size: Size, fonts: &Fonts) -> Result<Raster, PngError> {
+    let pixels = raster(svg, size, fonts)?;
     Ok(Raster {
         width: pixels.width(),
         height: pixels.height(),
@@ -140,54 +148,7 @@ pub fn rgba(svg: &str, size: Size) -> Result<Raster, PngError> {
     })
 }
 
-/// SVGs of one size as an animated PNG that repeats without end; each is shown for `seconds`. A program that knows no
-/// animated PNG shows the first.
-///
-/// # Errors
-/// See [`render`]; also [`PngError::Encode`] for an empty list, for several sizes, and for a time outside 0.01 to 600
-/// seconds.
-pub fn animate(
-    svgs: &[String],
-    size: Size,
-    seconds: f64,
-    fonts: &Fonts,
-) -> Result<Vec<u8>, PngError> {
-    let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
-    if !(0.01..=600.0).contains(&seconds) {
-        return wrong("each picture is shown for 0.01 to 600 seconds");
-    }
-    let each = svgs.iter().map(|svg| raster(svg, size, fonts));
-    let pictures = each.collect::<Result<Vec<Pixmap>, PngError>>()?;
-    let Some(first) = pictures.first() else {
-        return wrong("there is nothing to show");
-    };
-    let same = |p: &Pixmap| (p.width(), p.height()) == (first.width(), first.height());
-    if !pictures.iter().all(same) {
-        return wrong("the pictures differ in size");
-    }
-    let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_filter(png::Filter::NoFilter);
-    encoder.set_deflate_compression(png::DeflateCompression::Level(Compression::Small.level()));
-    encoder.set_color(png::ColorType::Rgba);
-    encoder
-        .set_animated(pictures.len() as u32, 0)
-        .map_err(failed)?;
-    encoder
-        .set_frame_delay((seconds * 100.0).round() as u16, 100)
-        .map_err(failed)?;
-    let mut writer = encoder.write_header().map_err(failed)?;
-    for picture in &pictures {
-        let data: Vec<u8> = picture.pixels().iter().flat_map(|p| straight(*p)).collect();
-        writer.write_image_data(&data).map_err(failed)?;
-    }
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
-}
-
-/// Checks, before anything is drawn, that a drawing of this width and height becomes a PNG of a possible size.
+/// Checks before drawing that a drawing of this width and height gives a PNG of a possible size.
 ///
 /// # Errors
 /// [`PngError::Size`] if the size is out of range.
@@ -195,7 +156,7 @@ pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
-/// Width and height of a picture in whole pixels, from those of its drawing.
+/// The width and height of a picture in whole pixels, from those of its drawing.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
@@ -228,7 +189,8 @@ fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let (width, height) = pixels(natural.0, natural.1, size)?;
     let mut pixels =
         Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
-    // Stretched to whole pixels, by less than one pixel in all, so that no edge of the page is half covered.
+    // Stretch the drawing to whole pixels, by less than one pixel in total, so that no edge of the page is half
+    // transparent.
     let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
     resvg::render(&tree, scale, &mut pixels.as_mut());
     Ok(pixels)

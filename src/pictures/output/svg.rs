@@ -1,4 +1,4 @@
-//! [`write()`]: a drawing as SVG text, with what resvg and browsers understand alike and nothing else.
+//! [`write()`]: a drawing as SVG text. It only uses features that resvg and browsers treat alike.
 //!
 //! Attributes stand in a fixed order and every number goes through one printer, so that the same drawing is the same
 //! bytes. Names of elements begin with a mark made from the drawing's own content: several figures can share a page.
@@ -9,6 +9,7 @@ mod font;
 mod glyph;
 mod option;
 mod outline;
+mod words;
 #[cfg(test)]
 mod tests;
 
@@ -20,7 +21,7 @@ use outline::{number, steps};
 
 #[cfg(feature = "png")]
 use super::tree;
-use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
+use crate::drawing::{Drawing, Face, Group, Item, Join, PageRect, Path, Stroke};
 use crate::text::xml;
 
 /// Words that could not be laid out, or a font that could not be cut.
@@ -28,7 +29,7 @@ use crate::text::xml;
 #[error("the words of the drawing cannot be written so: {0}")]
 pub struct OutlineError(String);
 
-/// A drawing as an SVG document, its words as words.
+/// A drawing as an SVG document with its text as text.
 ///
 /// # Panics
 /// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
@@ -53,20 +54,20 @@ pub fn write(drawing: &Drawing) -> String {
     document(drawing, None, &mark, Form::Names)
 }
 
-/// As [`write()`], for what is only turned into pixels: no other figure shares its page, so its names need no mark, and
-/// what nobody sees is left out, titles and groups, since reading it takes as long as reading what is drawn.
+/// Like [`write()`], for a drawing that is converted to pixels. Ids need no mark, because no other figure is on the same
+/// page. Titles and groups are left out, because they are not visible and cost time to read.
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
 }
 
-/// As [`write()`], each line of words with its number as its name: `t1`, `t2` …
+/// Like [`write()`]. Each line of text gets its number as its id: `t1`, `t2` …
 #[cfg(feature = "png")]
 pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
+/// A drawing as an SVG document with a size for print, or with text that does not depend on the fonts of the reader.
 ///
 /// # Errors
 /// [`OutlineError`] where resvg cannot lay out the drawing's words.
@@ -111,13 +112,14 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, Outlin
     }
 }
 
-/// The drawing with each line of words laid out, its number as its name.
+/// The drawing as a tree with each line of text laid out; the number of the line is its id.
 #[cfg(feature = "png")]
 fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, OutlineError> {
     tree::read(&numbered(drawing), &options.fonts).map_err(OutlineError)
 }
 
-/// A name that other drawings, and other forms of this one, do not have as a rule.
+/// A short hash that makes ids unique: other drawings, and other forms of this drawing, have another one with high
+/// probability.
 fn mark_of(drawing: &Drawing, options: &Options) -> String {
     if let Some(mark) = &options.mark {
         return mark.clone();
@@ -174,7 +176,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
             format!("{}mm", number(mm * drawing.height / drawing.width)),
         ),
     };
-    // What most shapes and words have in common stands here once.
+    // The attributes that most shapes and texts share are written once.
     svg.put(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
@@ -222,11 +224,11 @@ impl Writer<'_> {
     }
 
     fn attribute(&mut self, name: &str, value: &str) {
-        // A `String` takes every character; this cannot fail.
+        // Writing to a `String` cannot fail.
         let _ = write!(self.text, " {name}=\"{value}\"");
     }
 
-    /// Whether only what is seen is written.
+    /// Whether only visible items are written.
     fn is_bare(&self) -> bool {
         match self.form {
             #[cfg(all(feature = "cli", feature = "png"))]
@@ -244,19 +246,7 @@ impl Writer<'_> {
     }
 
     fn group(&mut self, group: &Group) {
-        let mut clip = None;
-        if let Some(rect) = group.clip {
-            self.clips += 1;
-            let id = format!("{}-clip{}", self.mark, self.clips);
-            self.put(&format!(
-                "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
-                number(rect.at.x),
-                number(rect.at.y),
-                number(rect.width),
-                number(rect.height)
-            ));
-            clip = Some(id);
-        }
+        let clip = group.clip.map(|rect| self.clip_path(rect));
         if self.is_bare() {
             if let Some(id) = &clip {
                 self.put(&format!("<g clip-path=\"url(#{id})\">"));
@@ -268,40 +258,7 @@ impl Writer<'_> {
             return;
         }
         self.put("<g");
-        if let Some(id) = &group.id {
-            let id = format!("{}-{}", self.mark, xml(id));
-            self.attribute("id", &id);
-        }
-        if !group.class.is_empty() {
-            self.attribute("class", &xml(&group.class));
-        }
-        if !group.title.is_empty() {
-            // A group of titled things is for reading on into, any other is one picture.
-            self.attribute(
-                "role",
-                if holds_titles(&group.items) {
-                    "group"
-                } else {
-                    "img"
-                },
-            );
-        }
-        if group.echo {
-            self.attribute("aria-hidden", "true");
-            self.attribute("pointer-events", "none");
-        }
-        if let Some(id) = clip {
-            self.attribute("clip-path", &format!("url(#{id})"));
-        }
-        if let Some(camera) = &group.camera {
-            // Pixels per metre and the place of the scene's origin, in full: with them the scene can be read back.
-            let origin = camera.origin();
-            self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
-            self.attribute(
-                "data-drystone-origin",
-                &format!("{} {}", origin.x, origin.y),
-            );
-        }
+        self.group_attributes(group, clip);
         self.put(">");
         if !group.title.is_empty() {
             self.put(&format!("<title>{}</title>", xml(&group.title)));
@@ -314,6 +271,52 @@ impl Writer<'_> {
             self.item(item);
         }
         self.put("</g>\n");
+    }
+
+    /// Writes a clip path, and returns its id.
+    fn clip_path(&mut self, rect: PageRect) -> String {
+        self.clips += 1;
+        let id = format!("{}-clip{}", self.mark, self.clips);
+        self.put(&format!(
+            "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
+            number(rect.at.x),
+            number(rect.at.y),
+            number(rect.width),
+            number(rect.height)
+        ));
+        id
+    }
+
+    /// Writes the attributes of a group: id, class, what readers for the blind need, clip and camera.
+    fn group_attributes(&mut self, group: &Group, clip: Option<String>) {
+        if let Some(id) = &group.id {
+            let id = format!("{}-{}", self.mark, xml(id));
+            self.attribute("id", &id);
+        }
+        if !group.class.is_empty() {
+            self.attribute("class", &xml(&group.class));
+        }
+        if !group.title.is_empty() {
+            // Readers enter a group that contains titles; any other group is one picture.
+            let is_group = holds_titles(&group.items);
+            self.attribute("role", if is_group { "group" } else { "img" });
+        }
+        if group.echo {
+            self.attribute("aria-hidden", "true");
+            self.attribute("pointer-events", "none");
+        }
+        if let Some(id) = clip {
+            self.attribute("clip-path", &format!("url(#{id})"));
+        }
+        if let Some(camera) = &group.camera {
+            // Pixels per metre and the position of the origin, with all digits, so that the scene can be read back.
+            let origin = camera.origin();
+            self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
+            self.attribute(
+                "data-drystone-origin",
+                &format!("{} {}", origin.x, origin.y),
+            );
+        }
     }
 
     fn path(&mut self, path: &Path) {
@@ -349,67 +352,6 @@ impl Writer<'_> {
             self.attribute("stroke-dasharray", &dash.join(" "));
         }
     }
-
-    fn words(&mut self, text: &Text) {
-        self.texts += 1;
-        if let Form::Outlines(outlines) = self.form {
-            // Words without ink, spaces for one, have no outlines.
-            if let Some(steps) = outlines.get(&self.texts).filter(|steps| !steps.is_empty()) {
-                self.put("<path");
-                self.attribute("role", "img");
-                self.attribute("aria-label", &xml(&text.words));
-                self.attribute("d", steps);
-                self.ink(text);
-                self.put("/>\n");
-            }
-            return;
-        }
-        self.put("<text");
-        #[cfg(feature = "png")]
-        if let Form::Numbered = self.form {
-            self.attribute("id", &format!("t{}", self.texts));
-        }
-        self.attribute("x", &number(text.at.x));
-        self.attribute("y", &number(text.at.y));
-        match text.anchor {
-            Anchor::Start => {}
-            Anchor::Middle => self.attribute("text-anchor", "middle"),
-            Anchor::End => self.attribute("text-anchor", "end"),
-        }
-        if text.face.families() != USUAL.families() {
-            let families = self.families(text.face);
-            self.attribute("font-family", &families);
-        }
-        self.attribute("font-size", &number(text.size));
-        if text.face.weight() != 400 {
-            self.attribute("font-weight", &text.face.weight().to_string());
-        }
-        if text.face.italic() {
-            self.attribute("font-style", "italic");
-        }
-        self.ink(text);
-        self.put(">");
-        let words = xml(&text.words);
-        self.put(&words);
-        self.put("</text>\n");
-    }
-
-    fn ink(&mut self, text: &Text) {
-        self.attribute("fill", &text.fill.css());
-        if let Some((colour, width)) = text.halo {
-            self.stroke(&Stroke::new(colour, 2.0 * width));
-        }
-    }
-
-    fn families(&self, face: Face) -> String {
-        match self.form {
-            #[cfg(feature = "embed")]
-            Form::Embedded(_) => {
-                format!("'{}', {}", font::family(face, self.mark), face.families())
-            }
-            _ => face.families().to_owned(),
-        }
-    }
 }
 
 fn holds_titles(items: &[Item]) -> bool {
@@ -418,7 +360,7 @@ fn holds_titles(items: &[Item]) -> bool {
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
 }
 
-/// 32 bits that differ for different texts, as a rule: the two halves of a hash, folded.
+/// A 32-bit hash of a text: both halves of a 64-bit hash, combined.
 fn fold(text: &str) -> u32 {
     let hash = crate::text::hash(text.as_bytes());
     (hash ^ (hash >> 32)) as u32

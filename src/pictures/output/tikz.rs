@@ -1,4 +1,4 @@
-//! [`write()`]: a drawing as a TikZ picture, for documents that are set in LaTeX: its words in the document's own fonts.
+//! [`write()`]: a drawing as a TikZ picture for LaTeX documents. Its text uses the fonts of the document.
 //!
 //! It needs the packages `tikz` and nothing else; `\input` the file where the figure is to stand.
 
@@ -13,7 +13,7 @@ use crate::drawing::{
 /// PostScript points per inch, of which TeX has its own name.
 const BIG_POINTS: f64 = 72.0;
 
-/// A drawing as a `tikzpicture`, `width_mm` wide or, where nothing is given, a 96th of an inch per pixel.
+/// A drawing as a `tikzpicture`, `width_mm` wide; for `None` one pixel is 1/96 inch.
 ///
 /// # Panics
 /// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
@@ -129,7 +129,7 @@ impl TikzWriter {
             stated.push_str(",dash pattern=");
             for (i, length) in stroke.dash.iter().enumerate() {
                 let what = if i % 2 == 0 { "on" } else { "off" };
-                // A `String` takes every character; this cannot fail.
+                // Writing to a `String` cannot fail.
                 let _ = write!(stated, "{what} {}bp ", number(length * self.unit));
             }
         }
@@ -201,14 +201,14 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// Text that may stand after a percent sign: one line of it.
+/// The first line of a text, for a comment after a percent sign.
 fn comment(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect()
 }
 
-/// Words as LaTeX reads them. Letters of other scripts stay, for the fonts of the document.
+/// Escapes text for LaTeX. Letters of other scripts are not changed.
 fn escaped(words: &str) -> String {
     let mut out = String::with_capacity(words.len());
     for c in words.chars() {

@@ -1,4 +1,4 @@
-//! [`read`]: an SVG of ours as resvg understands it, every word set in our own fonts.
+//! [`read`]: reads an SVG with resvg, with all text laid out in the built-in and added fonts.
 //!
 //! What is drawn in pixels, written as PDF or turned into outlines all begins here, so that words stand in the same
 //! places everywhere. Whatever fonts the machine has, none of them is looked at but those that were given. A character that
@@ -13,7 +13,7 @@ use resvg::usvg::{self, Group, Node, fontdb};
 use super::fonts::Fonts;
 use crate::drawing::Face;
 
-/// An SVG document as a tree of shapes and words that are laid out.
+/// Reads an SVG document as a tree of shapes and laid-out text.
 ///
 /// # Errors
 /// What resvg has against the text.
@@ -22,7 +22,7 @@ pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     let options = usvg::Options {
         font_family: "Libertinus Serif".to_owned(),
         fontdb: database(more),
-        // A drawing is whole in itself: nothing is fetched from the machine it is drawn on.
+        // A drawing is self-contained: it loads no files and no images.
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_string: Box::new(|_, _| None),
             ..usvg::ImageHrefResolver::default()
@@ -42,7 +42,7 @@ fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
     Cow::Owned(svg.chars().map(shown).collect())
 }
 
-/// Our fonts, and behind them those that were given.
+/// The built-in fonts, followed by the added ones.
 fn database(more: &Fonts) -> Arc<fontdb::Database> {
     let ours = &fonts().0;
     if more.more().is_empty() {
@@ -55,14 +55,14 @@ fn database(more: &Fonts) -> Arc<fontdb::Database> {
     Arc::new(all)
 }
 
-/// Whether some glyph of a line of words is of a font that is not ours.
+/// Whether a glyph of a line of text comes from an added font.
 pub(super) fn foreign(text: &usvg::Text) -> bool {
     let spans = text.layouted().iter();
     let mut glyphs = spans.flat_map(|span| &span.positioned_glyphs);
     glyphs.any(|glyph| face(glyph.font).is_none())
 }
 
-/// The words of a tree, the lowest first.
+/// The texts of a tree in the order of drawing.
 pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
     let mut found = Vec::new();
     for node in group.children() {
@@ -97,7 +97,7 @@ pub(super) struct Run {
     pub glyphs: Vec<Placed>,
 }
 
-/// The glyphs of a line of words.
+/// The glyphs of a line of text, grouped by font.
 pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for glyph in &span.positioned_glyphs {
@@ -124,7 +124,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     runs
 }
 
-/// Which of our faces a font of the tree is.
+/// The built-in face of a font in the tree.
 pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
     known

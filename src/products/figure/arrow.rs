@@ -2,7 +2,7 @@
 //!
 //! From tail to tip an arrow is proportional to its force. One too short to be seen is not drawn, and counted.
 
-use super::words::quantity;
+use super::words::{counted, listed, quantity};
 use crate::drawing::Colour;
 use crate::drawing::arrow::{HEAD_LENGTH, head_size};
 use crate::geometry::{Point, Vector};
@@ -155,16 +155,21 @@ impl Marks {
         // That of a load is drawn with a least length.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        let count = forces + torques;
-        let what = match (count, torques) {
-            (0, _) => return None,
-            (1, 0) => "force",
-            (1, _) => "torque",
-            (_, 0) => "forces",
-            _ => "forces and torques",
-        };
-        let amount = quantity(round_above(least / unit * self.newtons_per_unit), "N");
-        Some(format!("{count} {what} under {amount} not drawn"))
+        // A length is so many newtons for a force, and as many newton metres for a torque on an arm of one metre.
+        let amount = round_above(least / unit * self.newtons_per_unit);
+        let parts = [("force", forces, "N"), ("torque", torques, "N·m")];
+        let parts = parts.into_iter().filter(|part| part.1 > 0);
+        let parts = parts.map(|(what, count, of)| {
+            format!("{} under {}", counted(count, what), quantity(amount, of))
+        });
+        let parts: Vec<String> = parts.collect();
+        (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
+    }
+
+    /// The largest force of an arrow, N, and at least the force that is one unit edge long.
+    pub(crate) fn largest(&self) -> f64 {
+        let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
+        forces.fold(self.newtons_per_unit, f64::max)
     }
 }
 

@@ -1,4 +1,4 @@
-//! [`Bearing`]: what an interface bears, and how near that is to what it can: to its edge, and to sliding.
+//! [`Bearing`]: the force of an interface, and its distance from opening and from sliding.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
@@ -21,7 +21,7 @@ pub(crate) struct Bearing {
     pub friction: Option<f64>,
 }
 
-/// What each contact of a frame bears, `None` where it bears nothing.
+/// The bearing of each contact of a frame; `None` for a contact without force.
 pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
     let largest = found.contacts.iter().map(pressed).fold(0.0, f64::max);
@@ -43,7 +43,8 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
     found.contacts.iter().map(bearing).collect()
 }
 
-/// The force up to which one on a block of this weight may be noise where the largest force is so large, N.
+/// The largest force, in newtons, that may be solver noise on a block of this weight, if the largest force of the frame is
+/// `largest`.
 pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     if weight > 0.0 {
         f64::min(NOISE * largest, SHARE * weight)

@@ -1,4 +1,4 @@
-//! [`broken`]: the outlines of a scene that is refused, with its problems marked and numbered, and no forces.
+//! [`broken`]: draws the outlines of a refused scene with its problems marked and numbered. There are no forces.
 
 use super::layout::MAX_MARGIN;
 use super::option::Options;
@@ -31,8 +31,8 @@ struct Marked {
     number: usize,
 }
 
-/// A scene file's outlines with its problems, each numbered beside its place and listed below, and the gaps that are nearly
-/// contacts. Of the options only the theme and the width are looked at.
+/// The outlines of a scene file with its problems. Each problem has a number at its place and an entry in the list below.
+/// Gaps that are nearly contacts are marked too. Of the options only the theme and the width are used.
 ///
 /// # Example
 /// ```
@@ -113,7 +113,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
 }
 
-/// What is marked, and the list below it with the numbers of the marks.
+/// The marked places, and the list below the picture with the numbers of the marks.
 fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     let mut marks = Vec::new();
     let mut entries = Vec::new();
@@ -150,7 +150,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     if more > 0 {
         entries.push((None, format!("And {more} more problems.")));
     }
-    // Gaps are looked for where every body is sound by itself; overlaps do not stand in the way.
+    // Near misses are only found if each body is valid. Overlaps do not matter.
     let near = sketch
         .scene
         .as_ref()
@@ -182,7 +182,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     (marks, entries)
 }
 
-/// Two digits, as many decimals as that takes.
+/// A number with two significant digits.
 fn digits(x: f64) -> String {
     if !(x > 0.0) {
         return "0".into();
@@ -191,7 +191,7 @@ fn digits(x: f64) -> String {
     format!("{x:.*}", decimals as usize)
 }
 
-/// What the picture shows: all blocks and marks; the ground only where there is nothing else.
+/// The part of the scene that is shown: all blocks and marks. The ground is included only if there is nothing else.
 fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
@@ -202,11 +202,11 @@ fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let shown = [corners(true).or_else(|| corners(false)), places];
     let around = shown.into_iter().flatten().reduce(Bounds::union)?;
     let size = around.width().max(around.height());
-    // A single point has no size to go by.
+    // A single point has no size that could give a scale.
     (size > 0.0 && size.is_finite()).then(|| around.grown(0.1 * size))
 }
 
-/// The bodies, and what they have in common where they may not.
+/// The bodies, and the areas in which they overlap.
 fn structure(
     sketch: &Sketch,
     marks: &[Marked],
@@ -260,7 +260,7 @@ fn structure(
     group
 }
 
-/// A body's rings on the page.
+/// The rings of a body on the page.
 fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     for ring in &body.rings {
@@ -269,7 +269,7 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     outline
 }
 
-/// A block's name in its middle, or below a mark that is there, where there is room.
+/// The name of a block at its centre, or below a mark that is there. `None` if there is no space.
 fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
@@ -292,7 +292,7 @@ fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Option
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }
 
-/// The parts of hatched lines that lie on hatched lines of another body.
+/// The parts of hatch lines that lie on hatch lines of another body.
 fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let level = |line: &[PagePoint; 2]| line[0].y - line[0].x;
     let mut common = Vec::new();
@@ -311,7 +311,7 @@ fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     common
 }
 
-/// The numbers, each in a disc beside its place and clear of the others.
+/// The numbers, each in a disc next to its place. The discs do not overlap.
 fn numbers(marks: &[Marked], camera: &Camera, options: &Options) -> Group {
     let theme = &options.theme;
     let mut group = Group::with_class("marks");
@@ -350,7 +350,7 @@ fn arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
-/// A place for a disc beside a point: the nearest of those around it that touches no disc.
+/// The nearest position for a disc next to a point at which it overlaps no other disc.
 fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const AROUND: [(f64, f64); 8] = [
         (0.7, -0.7),
@@ -373,7 +373,7 @@ fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     places.next().unwrap_or(place)
 }
 
-/// A number in a disc.
+/// A disc with a number.
 fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
     let theme = &options.theme;
     let size = 1.2 * DISC;

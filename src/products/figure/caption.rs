@@ -1,11 +1,11 @@
-//! [`caption`]: what a figure shows, in plain words, written from the result.
+//! [`caption`]: describes a figure in plain words, from the result of the analysis.
 
 use super::verdict::word;
 use super::words::letter;
 use crate::analysis::{Analysis, Verdict};
 use crate::wording::verdict::reasons;
 
-/// What a figure of an analysis shows: its title, and for every frame its verdict and what it lacks to stand.
+/// The caption of a figure: the title, and for every frame the verdict and the reason why it falls.
 ///
 /// ```
 /// use drystone::{Analysis, Scene, figure};

@@ -1,6 +1,6 @@
 //! [`reason`]: a mechanism in words: which blocks turn about what, which slide, and how many hinges there are.
 
-use super::displacement::connected_groups;
+use super::displacement::rigid_bodies;
 use super::joint::{Joint, joints};
 use super::words::{counted, listed};
 use crate::analysis::{Analysis, Motion, Verdict};
@@ -27,7 +27,7 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
 
 fn collapse(analysis: &Analysis, frame: usize) -> String {
     let joints = joints(analysis, frame);
-    let bodies = bodies(analysis, frame, &joints);
+    let bodies = rigid_bodies(analysis, frame, &joints);
     let sentences = Sentences {
         analysis,
         frame,
@@ -57,16 +57,6 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
     };
     let bodies = bodies.len();
     format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
-}
-
-/// The moving blocks in rigid bodies: blocks without a hinge or slip between them move as one. In the order of their first
-/// blocks.
-fn bodies(analysis: &Analysis, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
-    let mut separated = vec![false; analysis.frames[frame].contacts.len()];
-    for joint in joints {
-        separated[joint.contact] = true;
-    }
-    connected_groups(analysis, frame, |contact| !separated[contact])
 }
 
 struct Sentences<'a> {

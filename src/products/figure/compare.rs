@@ -1,4 +1,4 @@
-//! What changed from one frame to the next: blocks that came and went, and interfaces whose forces grew, shrank or turned.
+//! The differences between two consecutive frames: blocks that were added or removed, and interfaces whose forces changed.
 //!
 //! Each frame is compared with the one before it, arrows to one scale in all of them. Where an interface's force changed
 //! by more than a twentieth of the larger of the two, it is ringed, and its force before lies faint below the one now.
@@ -36,7 +36,7 @@ struct Change<'a> {
     before: &'a Contact,
 }
 
-/// Blocks that a frame has and the one before it has not, and the other way round.
+/// The blocks that were added since the previous frame, and those that were removed.
 fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let Some(earlier) = frame.checked_sub(1) else {
         return [Vec::new(), Vec::new()];
@@ -48,13 +48,13 @@ fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     [without(now, before), without(before, now)]
 }
 
-/// The two bodies of a contact, in one order in all frames.
+/// The two bodies of a contact, in the same order in all frames.
 fn between(contact: &Contact) -> [BodyId; 2] {
     let [a, b] = contact.interface.bodies;
     [a.min(b), a.max(b)]
 }
 
-/// The force of a contact on the first of its two bodies in that order, N.
+/// The force of a contact on the first of these two bodies, in newtons.
 fn force(contact: &Contact) -> Vector {
     if contact.resultant.on == between(contact)[0] {
         contact.resultant.force
@@ -63,7 +63,7 @@ fn force(contact: &Contact) -> Vector {
     }
 }
 
-/// The interfaces of both frames whose forces differ, and how many interfaces the two share.
+/// The interfaces of both frames whose forces differ, and the number of interfaces that both frames have.
 fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
@@ -121,6 +121,10 @@ impl PanelContent for Comparison {
     }
 
     fn draws_forces(&self) -> bool {
+        true
+    }
+
+    fn stretches_arrows(&self) -> bool {
         true
     }
 
@@ -259,7 +263,7 @@ impl PanelContent for Comparison {
             names.collect()
         };
         let (came, went) = (names(&came), names(&went));
-        // A block of one name in both frames that differs in outline, weight or loads.
+        // Blocks with the same name in both frames, but with another outline, weight or load.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
         let alone = |names: &[String]| -> Vec<String> {
             names
@@ -291,8 +295,8 @@ impl PanelContent for Comparison {
     }
 }
 
-/// How far the arrow of this force, N, on a body from another was set aside from others on its line, metres: the force
-/// before goes with it. `true_lines` are the frame's arrows where their forces act.
+/// The distance in metres by which an arrow was moved off its line of action. The arrow of the previous force is moved by
+/// the same distance. `true_lines` are the arrows of the frame before they were moved.
 fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
     let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
     let far = |a: &ForceArrow| (a.force - force).norm();

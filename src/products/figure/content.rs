@@ -3,18 +3,20 @@
 //! A kind of figure is a type without fields that implements the trait in a file of its own;
 //! [`Kind`](super::Kind) lists them all. A new kind starts from the smallest one, `kernel.rs`.
 
-use core::cell::Cell;
+use core::cell::{Cell, OnceCell};
 
 use super::apart::apart;
-use super::arrow::Marks;
+use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::context::FigureContext;
-use super::displacement::Displacement;
+use super::displacement::Course;
 use super::fill::Fills;
+use super::layout::Layout;
 use super::legend::Entry;
 use super::option::{ArrowScale, Options};
 use super::unit::unit;
+use super::verdict;
 use super::view;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, MarginKind};
 use crate::drawing::{Camera, Group};
 use crate::geometry::{Bounds, Point};
 
@@ -34,8 +36,15 @@ pub(crate) trait PanelContent: Sync {
         false
     }
 
-    /// Whether each part that falls is shown with one elementary mechanism
-    /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), in steps where the figure is animated.
+    /// The margins that the figure states or draws from if the analysis has them. Unlike those of
+    /// [`needs_margins`](PanelContent::needs_margins) the figure is complete without them.
+    fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
+        &[]
+    }
+
+    /// Whether each falling part is shown with one elementary mechanism
+    /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
+    /// motion.
     fn needs_elementary_mechanisms(&self) -> bool {
         false
     }
@@ -52,6 +61,11 @@ pub(crate) trait PanelContent: Sync {
 
     /// Whether the forces on each block are drawn. They often lie on one line and are then moved apart.
     fn draws_forces(&self) -> bool {
+        false
+    }
+
+    /// Whether arrows are longer than a unit edge where the figure has room for that.
+    fn stretches_arrows(&self) -> bool {
         false
     }
 
@@ -76,16 +90,15 @@ pub(crate) trait PanelContent: Sync {
         Marks::default()
     }
 
-    /// How each block of a frame is displaced along this share of its motion, by the block's number. Empty where all
-    /// blocks are drawn in their places. `unit` is the unit edge in metres.
-    fn displacements(
-        &self,
-        _analysis: &Analysis,
-        _frame: usize,
-        _unit: f64,
-        _share: f64,
-    ) -> Vec<Option<Displacement>> {
-        Vec::new()
+    /// The way along which the blocks of a frame are displaced; nothing moves where all blocks are drawn in their places.
+    /// `unit` is the unit edge in metres.
+    fn course(&self, _analysis: &Analysis, _frame: usize, _unit: f64) -> Course {
+        Course::default()
+    }
+
+    /// The words beside the mark of a verdict.
+    fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        verdict::badge(&context.analysis.frames[frame]).to_owned()
     }
 
     /// A box around what a frame shows in addition to blocks, ground, robots and arrows, metres.
@@ -112,7 +125,7 @@ pub(crate) trait PanelContent: Sync {
     /// The entries of the key: every sign that occurs in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
-    /// The line below a frame's verdict.
+    /// The line below the verdict of a frame.
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String;
 }
 
@@ -128,10 +141,18 @@ impl<'a> FigureContext<'a> {
         let frames = 0..analysis.frames.len();
         let marks = scaled_marks(analysis, options, content);
         let unit = unit(scene, options.zoom);
+        let courses: Vec<Course> = frames
+            .clone()
+            .map(|frame| content.course(analysis, frame, unit))
+            .collect();
         let shown = match options.zoom {
             Some(block) => vec![view::around(scene, block); marks.len()],
             None => {
-                let extent = |frame| content.extent(analysis, frame, unit, &marks[frame], options);
+                let extent = |frame: usize| {
+                    let own = content.extent(analysis, frame, unit, &marks[frame], options);
+                    let reach = courses[frame].reach(scene, &marks[frame]);
+                    own.into_iter().chain(reach).reduce(Bounds::union)
+                };
                 let extents: Vec<Option<Bounds>> = frames.clone().map(extent).collect();
                 view::shown(scene, &marks, &extents, options.theme.widths.disc, unit)
             }
@@ -141,7 +162,6 @@ impl<'a> FigureContext<'a> {
             max: Point::origin(),
         };
         let view = shown.iter().copied().reduce(Bounds::union);
-        let displacements = |frame| content.displacements(analysis, frame, unit, options.way);
         let mut context = FigureContext {
             analysis,
             colours_show_amplitudes: content.colours_show_amplitudes(),
@@ -151,11 +171,15 @@ impl<'a> FigureContext<'a> {
             view: view.unwrap_or(nothing.grown(unit)),
             shown,
             fills: Fills::new(analysis, options.fill),
-            marks,
-            displaced: frames.clone().map(displacements).collect(),
+            marks: Vec::new(),
+            displaced: Vec::new(),
+            still: marks,
+            courses,
             statements: Vec::new(),
+            thrust: OnceCell::new(),
             cramped: Cell::new(0),
         };
+        context.go(options.way);
         context.statements = frames
             .map(|frame| content.reason(&context, frame))
             .collect();
@@ -173,12 +197,20 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     let zoomed = options
         .zoom
         .map(|block| view::around(&analysis.scene, block));
+    let (stretch, least_load) = match content.stretches_arrows() && !options.printed() {
+        true => stretch(analysis, options),
+        false => (1.0, 0.0),
+    };
     let scaled = |(frame, own): (usize, f64)| {
         let newtons_per_unit = match options.scale {
-            ArrowScale::Panel => own,
-            ArrowScale::Strip => shared,
+            ArrowScale::Panel => own / stretch,
+            ArrowScale::Strip => shared / stretch,
         };
         let mut marks = content.marks(analysis, frame, options, newtons_per_unit);
+        for arrow in &mut marks.arrows {
+            arrow.width *= stretch.sqrt();
+        }
+        lengthen_loads(&mut marks, least_load);
         if let Some(near) = zoomed {
             marks.arrows.retain(|arrow| view::holds(near, arrow.at));
             marks.turns.retain(|turn| view::holds(near, turn.at));
@@ -189,4 +221,77 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
         marks
     };
     own.iter().copied().enumerate().map(scaled).collect()
+}
+
+/// Length that the longest arrow has at least, pixels (9 mm).
+const LONG_ARROW: f64 = 34.0;
+/// Arrows are at most this many times as long as a unit edge, in frames of at most `FEW_BLOCKS` blocks and in others.
+const MOST_STRETCH: (f64, f64) = (3.0, 1.5);
+const FEW_BLOCKS: usize = 40;
+/// The longest arrow is at most this share of the longer side of what the figure shows.
+const LONGEST_SHARE: f64 = 0.25;
+
+/// Length that the longest arrow of a load has at least, pixels.
+const LONG_LOAD: f64 = 24.0;
+
+/// How many unit edges the longest arrow is long: more than one where unit edges are so short that small arrows would
+/// consist of their heads alone. And the least length of the longest arrow of a load, metres.
+fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
+    let unit = unit(&analysis.scene, options.zoom);
+    let bare = FigureContext::new(analysis, options, &Bare);
+    let scale = Layout::new(&bare, analysis.frames.len()).scale;
+    let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
+    let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
+        true => MOST_STRETCH.1,
+        false => MOST_STRETCH.0,
+    };
+    let longest = LONGEST_SHARE * bare.view.width().max(bare.view.height());
+    let stretch = (LONG_ARROW / (unit * scale)).min(longest / unit).min(most);
+    let load = (LONG_LOAD / scale).min(longest);
+    match stretch.is_finite() && load.is_finite() {
+        true => (stretch.max(1.0), load),
+        false => (1.0, 0.0),
+    }
+}
+
+/// Draws loads to a scale of their own if the longest arrow of a load is shorter than this, metres: loads are given, and a
+/// reader has to see their directions.
+fn lengthen_loads(marks: &mut Marks, least: f64) {
+    let is_load = |arrow: &&mut ForceArrow| arrow.kind == ArrowKind::Load;
+    let lengths = marks.arrows.iter_mut().filter(is_load);
+    let longest = lengths.map(|a| a.vector.norm()).fold(0.0, f64::max);
+    if longest > 0.0 && longest < least {
+        for arrow in marks.arrows.iter_mut().filter(is_load) {
+            arrow.vector *= least / longest;
+        }
+    }
+}
+
+/// A picture without arrows, by which the scale of a figure is known before its arrows are.
+struct Bare;
+
+impl PanelContent for Bare {
+    fn name(&self) -> &'static str {
+        ""
+    }
+
+    fn help(&self) -> &'static str {
+        ""
+    }
+
+    fn title(&self) -> &'static str {
+        ""
+    }
+
+    fn picture(&self, _: &FigureContext<'_>, _: usize, _: Bounds, _: &Camera) -> Group {
+        Group::default()
+    }
+
+    fn entries(&self, _: &FigureContext<'_>, _: f64) -> Vec<Entry> {
+        Vec::new()
+    }
+
+    fn reason(&self, _: &FigureContext<'_>, _: usize) -> String {
+        String::new()
+    }
 }

@@ -1,14 +1,14 @@
-//! [`FigureContext`]: what all panels of a figure share: the unit edge, the view, the colours and the arrows of each frame.
-//! `content.rs` computes it.
+//! [`FigureContext`]: the data that all panels of a figure share: the unit edge, the view, the colours and the arrows of
+//! each frame. `content.rs` computes it.
 
-use core::cell::Cell;
+use core::cell::{Cell, OnceCell};
 
 use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks};
-use super::displacement::Displacement;
+use super::displacement::{self, Course, Displacement};
 use super::fill::{FillScale, Fills};
 use super::option::Options;
 use super::view;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, ThrustStates};
 use crate::geometry::{Bounds, Point, Vector};
 
 /// In frames with more blocks than this, shapes of one colour are drawn as one path, without names: thousands of elements
@@ -38,17 +38,43 @@ pub(crate) struct FigureContext<'a> {
     /// A box around all of them.
     pub view: Bounds,
     pub fills: Fills,
-    /// One entry per frame.
+    /// The arrows of each frame, those on displaced blocks where the blocks are.
     pub marks: Vec<Marks>,
+    /// The arrows of each frame with all blocks in their places.
+    pub still: Vec<Marks>,
+    /// The way that the blocks of each frame take.
+    pub courses: Vec<Course>,
     /// For each frame the displacement of each block, by its number; empty if all blocks are drawn in their places.
     pub displaced: Vec<Vec<Option<Displacement>>>,
     /// The line below each frame's verdict.
     pub statements: Vec<String>,
+    /// The families of lines of thrust of all frames, once a figure asks for them.
+    pub thrust: OnceCell<Vec<ThrustStates>>,
     /// How many labels had no position so far, or only one inside another block.
     pub cramped: Cell<usize>,
 }
 
 impl<'a> FigureContext<'a> {
+    /// Displaces the blocks of every frame along this share of their way, 0 … 1, and the arrows on them.
+    pub fn go(&mut self, way: f64) {
+        self.displaced = self.courses.iter().map(|course| course.at(way)).collect();
+        let frames = self.still.iter().zip(&self.displaced);
+        self.marks = frames
+            .map(|(marks, displaced)| displacement::moved_marks(marks, displaced))
+            .collect();
+    }
+
+    /// The states between which the forces of a frame may vary; computed when they are first asked for.
+    pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
+        let frames = 0..self.analysis.frames.len();
+        let all = || {
+            frames
+                .map(|frame| self.analysis.thrust_states(frame))
+                .collect()
+        };
+        &self.thrust.get_or_init(all)[frame]
+    }
+
     /// The same context with more space around what each frame shows, metres to the left and right, and up and down.
     pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
         // The lower edge of visible ground is the lower edge of the picture.
@@ -83,7 +109,7 @@ impl<'a> FigureContext<'a> {
             && !self.options.printed()
     }
 
-    /// Whether nearly all arrows are too short to be seen. The few that are left would show some joints only.
+    /// Whether nearly all arrows are too short to be visible. Showing only the few visible ones would be misleading.
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;

@@ -1,4 +1,4 @@
-//! What a hovering mouse and a screen reader are given of blocks and arrows: their numbers, with units.
+//! Describes blocks and arrows with their numbers and units, for tooltips and screen readers.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::context::FigureContext;
@@ -7,7 +7,7 @@ use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
 pub(crate) use crate::wording::failure::{named, pair};
 
-/// A block's numbers in words.
+/// The description of a block.
 pub(crate) fn block(
     context: &FigureContext<'_>,
     frame: usize,
@@ -37,7 +37,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     !seen && !twice && (arrow.kind == ArrowKind::Load || arrow.kind.is_failure())
 }
 
-/// An arrow's numbers in words.
+/// The description of an arrow.
 pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
@@ -71,7 +71,7 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     }
 }
 
-/// A turning arrow's numbers in words.
+/// The description of a torque arrow.
 pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     let scene = &context.analysis.scene;
     let direction = if turn.torque > 0.0 {
@@ -96,7 +96,7 @@ pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     }
 }
 
-/// A block's motion in words.
+/// The description of a block's motion.
 pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     let name = &scene.blocks[motion.block.0].id;
     let degrees = libm::atan2(motion.velocity.y, motion.velocity.x).to_degrees();

@@ -1,5 +1,5 @@
-//! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture; of a neighbourhood, the
-//! block in its middle.
+//! Dimension lines at the edges of a picture: the width and height of all blocks, or of the block in the centre of a zoomed
+//! picture.
 
 use super::context::FigureContext;
 use super::words::quantity;
@@ -14,7 +14,7 @@ pub(crate) const ASIDE: f64 = 58.0;
 /// Half the length of the stroke across an end, pixels.
 const TICK: f64 = 4.0;
 
-/// The lines of a frame's picture, of what lies in `view`; nothing for a frame without blocks.
+/// The dimension lines of a frame's picture, for the part of the scene in `view`; empty for a frame without blocks.
 pub(crate) fn lines(
     context: &FigureContext<'_>,
     frame: usize,
@@ -23,7 +23,7 @@ pub(crate) fn lines(
 ) -> Group {
     let group = Group::with_class("dimensions");
     let scene = &context.analysis.scene;
-    // Of a neighbourhood it is the block in its middle that is measured.
+    // A zoomed picture measures the block at its centre.
     let meant = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
     let blocks = scene.frames[frame].placed.iter().filter(meant);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
@@ -53,7 +53,7 @@ pub(crate) fn lines(
     let label = |at: PagePoint, value: f64, anchor| {
         Text::new(at, words(value), Face::Sans, size, theme.faint).anchored(anchor)
     };
-    // On the line where it is long enough, else beside its end.
+    // Put the number on the line if the line is long enough, otherwise next to its end.
     let wide = text::width(&words(all.width()), Face::Sans, size);
     let below = if wide + 4.0 < measured.width {
         label(

@@ -1,4 +1,4 @@
-//! [`draw`], and the other ways to a figure of an analysis: pages for an animation, panels, and pages for print.
+//! [`draw`] and its variants: pages for an animation, separate panels, and pages for print.
 
 use std::borrow::Cow;
 
@@ -9,8 +9,12 @@ use super::strip::{self, strip};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Drawing;
 
-/// Steps of an animated motion, in addition to the first picture.
-const MOTION_STEPS: u32 = 12;
+/// Pictures of an animated motion are this far apart, seconds.
+const MOTION_STEP: f64 = 0.1;
+/// The least and the largest number of steps of a motion, in addition to the first picture.
+const MOTION_STEPS: (f64, f64) = (12.0, 150.0);
+/// How long the end of a motion is shown, seconds.
+const MOTION_REST: f64 = 1.0;
 
 /// A figure of this kind, one panel per frame.
 ///
@@ -20,7 +24,7 @@ pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     strip(&analysis, kind.content(), &kind.options(options))
 }
 
-/// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
+/// The figure of an analysis with one panel per frame: the forces, the caption and the verdict.
 ///
 /// An arrow has the colour of the block it acts on; missing forces are thick and red; the colours of blocks show amplitudes
 /// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
@@ -45,14 +49,44 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
     draw(analysis, Kind::Forces, options)
 }
 
-/// The panels of [`draw`], one page each, all of one size and scale: the pictures of an animation. A frame that falls by a
-/// mechanism has several pages, along its motion.
-pub fn pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
+/// The panels of [`draw`], one page each, all of one size and scale: the pictures of an animation, and how long each is
+/// shown. A frame is shown for `seconds`. A frame that falls moves for that time along its mechanism, slowly at both ends,
+/// and then rests for a second.
+///
+/// Units: seconds.
+pub fn film(
+    analysis: &Analysis,
+    kind: Kind,
+    options: &Options,
+    seconds: f64,
+) -> Vec<(Drawing, f64)> {
     let (analysis, options) = (shown(analysis, kind), kind.options(options));
-    if kind.content().needs_elementary_mechanisms() {
-        return motion_pages(&analysis, kind, &options);
+    if !kind.content().needs_elementary_mechanisms() {
+        let pages = frame_pages(&analysis, kind, &options).into_iter();
+        return pages.map(|page| (page, seconds)).collect();
     }
-    frame_pages(&analysis, kind, &options)
+    let mut steps: Vec<(usize, f64)> = Vec::new();
+    let mut times = Vec::new();
+    let count = (seconds / MOTION_STEP)
+        .round()
+        .clamp(MOTION_STEPS.0, MOTION_STEPS.1) as u32;
+    for (frame, found) in analysis.frames.iter().enumerate() {
+        if found.verdict != Verdict::Unstable {
+            steps.push((frame, 1.0));
+            times.push(seconds);
+            continue;
+        }
+        steps.extend((0..=count).map(|step| (frame, eased(f64::from(step) / f64::from(count)))));
+        times.extend((0..count).map(|_| (seconds / f64::from(count)).max(0.01)));
+        times.push(MOTION_REST);
+    }
+    let pages = strip::steps_of(&analysis, kind.content(), &options, steps.into_iter());
+    pages.into_iter().zip(times).collect()
+}
+
+/// A share of the way for a share of the time: slow at both ends.
+fn eased(time: f64) -> f64 {
+    time * time * (3.0 - 2.0 * time)
 }
 
 /// The panels of [`draw`], one page per frame, all of one size and scale.
@@ -100,27 +134,4 @@ fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
 /// One page per frame.
 fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     strip::pages(analysis, kind.content(), options, 0..analysis.frames.len())
-}
-
-/// Each frame that falls in steps along its motion, each other frame once.
-fn motion_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    let at = |step: u32| {
-        let options = Options {
-            way: f64::from(step) / f64::from(MOTION_STEPS),
-            ..options.clone()
-        };
-        frame_pages(analysis, kind, &options)
-    };
-    let steps: Vec<Vec<Drawing>> = (0..=MOTION_STEPS).map(at).collect();
-    let mut pages = Vec::new();
-    for (frame, found) in analysis.frames.iter().enumerate() {
-        let falls = found.verdict == Verdict::Unstable;
-        let pictures = if falls { steps.len() } else { 1 };
-        pages.extend(
-            steps[..pictures]
-                .iter()
-                .filter_map(|s| s.get(frame).cloned()),
-        );
-    }
-    pages
 }

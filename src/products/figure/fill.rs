@@ -1,4 +1,4 @@
-//! [`Fills`]: the colours of blocks, and the one thing they tell.
+//! [`Fills`]: the colours of blocks, and the quantity that they show.
 //!
 //! What a colour tells is [chosen](Fill), and the key says it: amplitudes, stresses or friction, always of every block
 //! alike. Under the rule of the source a held block tells how far its robot is used, and every other block its
@@ -36,7 +36,7 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// The shares of every frame.
+    /// The shares of the blocks of every frame.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -64,7 +64,7 @@ impl Fills {
         }
     }
 
-    /// Whether the colours differ enough that a key to them says something.
+    /// Whether the colours differ enough to need a key.
     pub fn vary(&self) -> bool {
         let all = || self.shares.iter().flatten().copied();
         let (least, most) = (
@@ -79,12 +79,12 @@ impl Fills {
         ramp(self.rule)(theme, share)
     }
 
-    /// How a rule turns a share into a colour.
+    /// The function that turns a share into a colour.
     pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
         ramp(self.rule)
     }
 
-    /// What the ends of the scale stand for, and what it tells.
+    /// The labels of both ends of the colour scale, and the name of the quantity.
     pub fn key(&self) -> ([String; 2], String) {
         let ends = |most: String| ["0".to_owned(), most];
         match self.scale {
@@ -111,7 +111,7 @@ impl Fills {
         }
     }
 
-    /// What a block's colour says, in words; empty for plain blocks.
+    /// The meaning of a block's colour in words; empty for plain blocks.
     pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
@@ -134,7 +134,7 @@ impl Fills {
 fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     match rule {
         Fill::Source => |_, share| {
-            // `as` holds on at the ends and takes a share that is no number as 0.
+            // `as` saturates, and turns a share that is not a number into 0.
             let entry = ((share * PLASMA.len() as f64) as usize).min(PLASMA.len() - 1);
             Colour::hex(PLASMA[entry])
         },
@@ -142,7 +142,7 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     }
 }
 
-/// Amounts as shares of the largest.
+/// Amounts as shares of the largest amount.
 fn to_largest(
     amounts: Vec<Vec<f64>>,
     scale: impl Fn(f64) -> FillScale,
@@ -153,7 +153,7 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// The source's rule.
+/// The colour rule of the source.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
@@ -174,7 +174,7 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
     (FillScale::Limit(limit), shares)
 }
 
-/// A share of a limit; all of it where the limit is 0 and something is asked of it.
+/// The share of a limit that is used. If the limit is 0, every amount above 0 counts as the whole limit.
 fn share(amount: f64, limit: f64) -> f64 {
     if limit > 0.0 {
         amount / limit
@@ -185,7 +185,8 @@ fn share(amount: f64, limit: f64) -> f64 {
     }
 }
 
-/// How far the robot that holds a block is used; `None` for a block nobody holds and a robot without limits.
+/// The largest share of a limit that the robot uses on this block; `None` if no robot holds the block, or the robot has no
+/// limits.
 fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = found.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
@@ -195,7 +196,7 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-/// For each placed block the largest amount of its interfaces.
+/// The largest amount of the interfaces of each placed block.
 fn largest(
     scene: &Scene,
     frame: &Frame,
@@ -224,7 +225,8 @@ fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
         .collect()
 }
 
-/// Normal force over the area of its interface, N/m². A corner has no area, and no stress that could be told.
+/// The normal force divided by the length and the thickness of the interface, in N/m². A corner has no area, so it has no
+/// stress.
 fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, found, |contact| {
         let area = contact.interface.length() * scene.thickness;

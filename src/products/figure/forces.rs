@@ -1,9 +1,10 @@
 //! The figure of forces: every force as an arrow on the block it acts on.
 
-use super::arrow::Marks;
+use super::arrow::{ForceArrow, Marks};
 use super::content::PanelContent;
 use super::context::FigureContext;
 use super::legend::{self, Entry};
+use super::limit;
 use super::mark;
 use super::option::Options;
 use super::panel;
@@ -25,6 +26,18 @@ pub(crate) const BUILD: Forces = Forces {
     help: "The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other",
     shares_arrow_scale: true,
 };
+
+/// Whether missing forces are drawn to another scale than the other forces.
+fn own_scale(marks: &Marks) -> bool {
+    let ratio = |arrow: &ForceArrow| arrow.vector.norm() / arrow.force.norm();
+    let of = |missing: bool| {
+        let mut arrows = marks.arrows.iter();
+        arrows.find(|a| a.kind.is_failure() == missing).map(ratio)
+    };
+    of(true)
+        .zip(of(false))
+        .is_some_and(|(missing, other)| missing > 1.01 * other)
+}
 
 /// A figure of forces.
 pub(crate) struct Forces {
@@ -58,6 +71,10 @@ impl PanelContent for Forces {
         true
     }
 
+    fn stretches_arrows(&self) -> bool {
+        true
+    }
+
     fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
         mark::largest(analysis, frame, options)
     }
@@ -83,10 +100,21 @@ impl PanelContent for Forces {
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-        legend::entries(context, unit)
+        let mut entries = legend::entries(context, unit);
+        let frames = &context.analysis.frames;
+        if frames.iter().any(|f| !f.failures.is_empty()) && !context.options.printed() {
+            let own = context.marks.iter().any(own_scale);
+            let scale = if own { ", which are drawn larger" } else { "" };
+            let note = format!("arrows and fills include the missing forces{scale}");
+            entries.push(Entry::Note(note));
+        }
+        entries
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        verdict::reason(&context.analysis.scene, &context.analysis.frames[frame])
+        let why = verdict::reason(&context.analysis.scene, &context.analysis.frames[frame]);
+        let parts = [why, limit::sentence(context, frame)];
+        let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
+        parts.join("; ")
     }
 }

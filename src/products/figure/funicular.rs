@@ -7,9 +7,10 @@
 //! 2. Where it meets the line of action of a load or of the weight, it goes on along the line of their resultant.
 //! 3. Step 2 is repeated for every load. At last it must arrive at the second joint, along the line of that joint's force.
 //!
-//! It is drawn only if every vertex and every segment lies inside the block. The order of the loads is not known, so all
-//! orders are tried, and at last the sum of all loads. If none works (three bodies press, the forces are parallel and apart,
-//! or they do not balance), there is no single line: each joint shows a short segment on the line of its own resultant.
+//! It is drawn only if every vertex and every segment lies inside the block, or nearly. The order of the loads is not known,
+//! so all orders are tried, and at last the sum of all loads. If none works (three bodies press, the forces are parallel and
+//! apart, or they do not balance), there is no single line of action. Then the path is schematic: a straight line between
+//! the two joints, or one from every joint and load to the point where they meet. So the line has no gaps.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
@@ -21,8 +22,8 @@ use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
 const LENGTH_TOL: f64 = 1e-6;
 /// Forces on a block are in equilibrium up to this share of their sum.
 const BALANCE_TOL: f64 = 1e-6;
-/// Least length of the segment at a joint where no line runs through the block, unit edges.
-const MIN_STUB: f64 = 0.5;
+/// A line of action runs through the block if it leaves it by at most this share of the mean thickness of the block.
+const NEARLY_INSIDE: f64 = 0.06;
 /// With more loads than this on a block their orders are not tried (4! with the weight); their sum is used.
 const MAX_ORDERED_LOADS: usize = 3;
 
@@ -52,17 +53,12 @@ pub(crate) struct ThrustSegment {
     pub to: Point,
     /// The force that acts along it, N.
     pub force: Vector,
-    /// Whether the line runs through the block; otherwise it ends here.
+    /// Whether it lies on a line of action; otherwise it is schematic.
     pub through: bool,
 }
 
-/// The segments of the line of thrust, block by block in placing order. `unit` is the unit edge in metres.
-pub(crate) fn segments(
-    scene: &Scene,
-    frame: &Frame,
-    found: &FrameAnalysis,
-    unit: f64,
-) -> Vec<ThrustSegment> {
+/// The segments of the line of thrust, block by block in placing order.
+pub(crate) fn segments(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<ThrustSegment> {
     let (pressing, loads) = (pressing(scene, found), loads(scene));
     let mut segments = Vec::new();
     for id in &frame.placed {
@@ -71,11 +67,10 @@ pub(crate) fn segments(
             block: &scene.blocks[id.0],
             pressing: &pressing[id.0],
             loads: &loads[id.0],
-            unit,
         };
         match forces.path() {
             Some(path) => segments.extend(path),
-            None => segments.extend(forces.stubs()),
+            None => segments.extend(forces.schematic()),
         }
     }
     segments
@@ -175,7 +170,6 @@ struct BlockForces<'a> {
     block: &'a Block,
     pressing: &'a [Line],
     loads: &'a [Line],
-    unit: f64,
 }
 
 impl BlockForces<'_> {
@@ -304,9 +298,9 @@ impl BlockForces<'_> {
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
-    /// Whether the straight line between two points stays in the block or on its outline, tested at nine points.
+    /// Whether the straight line between two points stays in the block, or nearly, tested at nine points.
     fn within(&self, from: Point, to: Point) -> bool {
-        let near = 10.0 * LENGTH_TOL * self.size();
+        let near = NEARLY_INSIDE * self.polygon().area() / self.size();
         (0..=8).all(|i| {
             let p = from + (to - from) * (f64::from(i) / 8.0);
             self.polygon().contains(p)
@@ -317,61 +311,47 @@ impl BlockForces<'_> {
         })
     }
 
-    /// A short segment on the line of action of each force, from where it enters the block; between two joints at most half the
-    /// distance.
-    fn stubs(&self) -> Vec<ThrustSegment> {
-        let between = match self.pressing {
-            [one, other] => other.at - one.at,
-            _ => Vector::zeros(),
-        };
+    /// The path where no line of action runs through the block: straight between two joints, else from every joint and load
+    /// to the point where they meet.
+    fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
-        let long = |line: &Line| {
-            let half = 0.5 * between.dot(&line.force.normalize()).abs();
-            let half = match line.origin {
-                ForceOrigin::Load(_) => 0.0,
-                _ => half,
-            };
-            half.max(MIN_STUB * self.unit)
-        };
-        let piece = |line: &Line| {
-            let along = line.force.normalize();
-            // A push enters the block along the force; a pull, or a load within, leaves it that way.
-            let ways = [along, -along].map(|way| (way, self.distance_to_outline(line.at, way)));
-            let (way, room) = if ways[0].1 > LENGTH_TOL * self.size() {
-                ways[0]
-            } else {
-                ways[1]
-            };
-            ThrustSegment {
-                on: self.id,
-                origin: line.origin,
-                from: line.at,
-                to: line.at + way * room.min(long(line)),
-                force: line.force,
+        let given: Vec<&Line> = given.collect();
+        let piece = |line: &Line, to: Point| {
+            let segment = self.segment(line.origin, (line.at, to), line.force)?;
+            Some(ThrustSegment {
                 through: false,
-            }
+                ..segment
+            })
         };
-        given.map(piece).filter(|s| s.from != s.to).collect()
+        if let [one, other] = given[..] {
+            let stronger = if one.force.norm() < other.force.norm() {
+                [other, one]
+            } else {
+                [one, other]
+            };
+            return piece(stronger[0], stronger[1].at).into_iter().collect();
+        }
+        let meeting = self.meeting(&given);
+        given
+            .iter()
+            .filter_map(|line| piece(line, meeting))
+            .collect()
     }
 
-    /// The distance from a point of the block to its outline in a direction, metres.
-    fn distance_to_outline(&self, at: Point, way: Vector) -> f64 {
-        let near = 10.0 * LENGTH_TOL * self.size();
-        if !self.polygon().contains(at + way * (2.0 * near)) {
-            return 0.0;
+    /// Where the paths of several forces meet: the mean of their points by their amounts, if it lies in the block.
+    fn meeting(&self, given: &[&Line]) -> Point {
+        let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
+        let centroid = self.block.centroid;
+        let arms = given
+            .iter()
+            .map(|line| (line.at - centroid) * line.force.norm());
+        let mean = centroid + arms.sum::<Vector>() / sum.max(f64::MIN_POSITIVE);
+        if given.len() > 2 && self.polygon().contains(mean) {
+            mean
+        } else {
+            centroid
         }
-        let beyond = |edge: crate::geometry::Edge| {
-            let along = edge.to - edge.from;
-            let across = cross(way, along);
-            let (far, share) = (
-                cross(edge.from - at, along) / across,
-                cross(edge.from - at, way) / across,
-            );
-            (across != 0.0 && far > near && (0.0..=1.0).contains(&share)).then_some(far)
-        };
-        let crossings = self.polygon().edges().filter_map(beyond);
-        crossings.fold(f64::INFINITY, f64::min).min(self.size())
     }
 }
 

@@ -1,4 +1,4 @@
-//! [`gallery`]: the figures of the source in our hand, drawn from scenes that come with the program.
+//! [`gallery`]: the figures of the source, redrawn from the scenes of this crate.
 
 use super::caption::caption;
 use super::freebody::freebody;
@@ -118,7 +118,7 @@ const PLATES: [(&str, Subject); 10] = [
     ),
 ];
 
-/// Every figure of the source, each beside what it refuses with the effect switched on that it leaves out.
+/// All figures of the source. Next to each is the variant with the effect that the source leaves out.
 ///
 /// Arrows and their lengths are the source's: normal and friction force apart, the largest single unknown one edge long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
@@ -150,7 +150,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
             let id = crate::scene::BlockId(id.expect("the block is in our own scene"));
-            // The source's figures name every unknown.
+            // The figures of the source name every unknown.
             let options = Options {
                 corners: Corners::All,
                 ..options

@@ -1,4 +1,4 @@
-//! [`Joint`]: what a mechanism does at an interface: a hinge where one end keeps contact, a slip where it slides.
+//! [`Joint`]: the motion of a mechanism at an interface: a hinge if one end keeps contact, a slip if the interface slides.
 //!
 //! Along a mechanism nothing admissible can object to, a contact opens with at least μ times the speed at which it
 //! slides. One that opens with just that still rubs: it slips. One that opens faster is free.
@@ -16,15 +16,19 @@ const SPEED_TOL: f64 = 2e-3;
 pub(crate) struct Joint {
     /// The contact's number in the frame.
     pub contact: usize,
-    /// The application point about which it turns, where one keeps contact and the other opens.
+    /// The application point about which it turns, where one keeps contact, the other opens, and nothing slides.
     pub hinge: Option<Point>,
+    /// The application point that slides, where only one keeps contact and slides.
+    pub touch: Option<Point>,
+    /// The middle of what is in contact.
+    pub at: Point,
     /// Speed of the first body past the second along (−n_y, n_x), 0 where it does not slide or no longer touches.
     pub slip: f64,
     /// Speed at which a joint that slides opens, 0 where it goes along the joint.
     pub lift: f64,
 }
 
-/// Every interface of a frame whose bodies move against each other.
+/// The joints of a frame: all interfaces whose bodies move relative to each other.
 pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let found = &analysis.frames[frame];
     let motions = by_block(analysis, found);
@@ -62,21 +66,21 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     found.contacts.iter().enumerate().filter_map(one).collect()
 }
 
-/// `None` where the two bodies stay together.
+/// The joint at a contact; `None` if the two bodies move together.
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
     let opening = relative.map(|v| v.dot(&interface.normal));
-    // In touch is what opens by just the friction coefficient, or goes along the joint.
+    // An end keeps contact if it opens only by the dilation μ of sliding, or if it moves along the joint.
     let touches = [0, 1].map(|k| {
         let free = opening[k] - interface.friction * along[k].abs();
         opening[k] <= noise || free.abs() <= noise
     });
     let points = contact.application_points;
-    let hinge = match touches {
+    let turns_about = match touches {
         [true, false] => Some(points[0]),
         [false, true] => Some(points[1]),
-        // The two points are one, or nearly: they keep contact together while the bodies turn about them.
+        // Both points nearly coincide: they keep contact while the bodies turn about them.
         [true, true] if turning > 5.0 * noise => Some(points[0]),
         _ => None,
     };
@@ -96,15 +100,22 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
         0.0
     };
     let parted = touches == [false, false];
+    let (hinge, touch) = if slip == 0.0 {
+        (turns_about, None)
+    } else {
+        (None, turns_about)
+    };
     (hinge.is_some() || slip != 0.0 || parted).then_some(Joint {
         contact: 0,
         hinge,
+        touch,
+        at: touch.unwrap_or(interface.middle()),
         slip,
         lift,
     })
 }
 
-/// The motion of each block by its number, `None` for those that stay.
+/// The motion of each block by its number; `None` for a block at rest.
 fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
     for motion in &found.mechanism {

@@ -1,4 +1,4 @@
-//! The kernel: the stretch of each interface within which its resultant is safe, and where in it the resultant sits.
+//! The kernel: the safe part of each interface, and the position of its resultant in it.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -136,7 +136,7 @@ impl PanelContent for Kernel {
     }
 }
 
-/// Whether a resultant sits at an end of its safe stretch.
+/// Whether a resultant lies at an end of the safe part.
 fn at_end(bearing: &Bearing) -> bool {
     bearing.eccentricity.is_some_and(|share| share >= FULL)
 }
@@ -146,7 +146,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Radius of a dot, pixels.
+/// The radius of a dot in pixels.
 fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
@@ -193,7 +193,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
                 .with(casing(rests.clone()))
                 .with(Path::stroked(rests, rest(theme, bold)));
         }
-        // A line that is no longer than a point shows as a dot only where its ends are round.
+        // A very short line is visible as a dot only if its ends are round.
         let path = if scene.kernel < 1.0 && length > 0.0 {
             let stroke = Stroke::new(theme.safe, bold).mitred();
             Path::stroked(Outline::line(points), stroke)
@@ -213,7 +213,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     group
 }
 
-/// A mark where each resultant sits, in a frame that stands.
+/// A mark at the position of each resultant, in a frame that stands.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
@@ -250,7 +250,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// A disc within a safe stretch, a diamond at its end; red where it lies beyond.
+/// The mark of a resultant: a disc inside the safe part, a diamond at its end, and red outside.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;

@@ -3,6 +3,7 @@
 use super::compare::Comparison;
 use super::content::PanelContent;
 use super::context::FigureContext;
+use super::flow::ForceFlow;
 use super::forces::{BUILD, FORCES};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
@@ -11,7 +12,7 @@ use super::option::{ArrowScale, Options};
 use super::polygon::ForcePolygon;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, MarginKinds};
 
 /// What the panels of a figure show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,6 +21,9 @@ pub enum Kind {
     /// Every force as an arrow on the block it acts on, and the forces that are missing.
     #[default]
     Forces,
+    /// How the forces run through the blocks: lines as wide as the forces, from where forces enter a block to where they
+    /// leave it.
+    Flow,
     /// How the blocks of a frame that falls begin to move: dashed outlines where they stand, the blocks displaced as
     /// rigid bodies, hinges and slips.
     Mechanism,
@@ -43,8 +47,9 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds, in the order in which help lists them.
-    pub const ALL: [Kind; 9] = [
+    pub const ALL: [Kind; 10] = [
         Kind::Forces,
+        Kind::Flow,
         Kind::Mechanism,
         Kind::Thrust,
         Kind::Kernel,
@@ -59,6 +64,7 @@ impl Kind {
     pub(crate) fn content(self) -> &'static dyn PanelContent {
         match self {
             Kind::Forces => &FORCES,
+            Kind::Flow => &ForceFlow,
             Kind::Mechanism => &Mechanism,
             Kind::Thrust => &ThrustLine,
             Kind::Kernel => &Kernel,
@@ -83,6 +89,12 @@ impl Kind {
     /// One line that says what it shows, for a list of all kinds.
     pub fn help(self) -> &'static str {
         self.content().help()
+    }
+
+    /// The margins that a figure of this analysis states or draws from, where they were computed; `None` for none.
+    pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
+        let kinds = self.content().stated_margins(analysis);
+        (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
     /// Whether it shows margins, which the analysis computes only on request

@@ -14,7 +14,7 @@ pub(crate) use obstacle::ink;
 use solid::Solids;
 use spoken::names;
 
-use super::arrow::{ArrowKind, ForceArrow, TurnKind};
+use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::context::FigureContext;
 use super::pen::{DOT_RADIUS, Pen};
 use super::view;
@@ -28,6 +28,8 @@ use crate::scene::{BlockId, BodyId};
 
 /// No labels in frames with more blocks than this, except those that the text names.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
+/// In such frames about this many amounts of loads and missing forces at most.
+const MAX_WRITTEN: usize = 16;
 /// If a unit edge is at least this long, pixels, any name may stand at any distance from its block.
 const ROOMY_UNIT_EDGE: f64 = 26.0;
 /// In frames of at most this many blocks, too.
@@ -73,10 +75,34 @@ struct Label {
 /// The class of a frame's labels. The description of their group counts those without a position.
 pub(crate) const CLASS: &str = "labels";
 
+/// Words at a point of a picture.
+pub(crate) struct Callout {
+    /// The point.
+    pub at: PagePoint,
+    /// How far from the point the words stand at least, pixels.
+    pub clear: f64,
+    /// The words.
+    pub words: String,
+    /// The colour of what they belong to.
+    pub colour: Colour,
+}
+
 /// The labels of a frame, clear of all `ink`, which is computed only if there are labels.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
+    labels_with(pen, view, Vec::new(), ink)
+}
+
+/// As [`labels`]; callouts come first.
+pub(crate) fn labels_with(
+    pen: &Pen<'_>,
+    view: Bounds,
+    callouts: Vec<Callout>,
+    ink: impl FnOnce() -> Ink,
+) -> Group {
     let mut group = Group::with_class(CLASS);
-    let labels = all_labels(pen, view);
+    let callouts = callouts.into_iter().filter(|_| pen.context.options.labels);
+    let callouts = callouts.map(|callout| called_out(pen, callout));
+    let labels: Vec<Label> = callouts.chain(all_labels(pen, view)).collect();
     if labels.is_empty() {
         return group;
     }
@@ -172,7 +198,12 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
 fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.context.options;
     let frame = &pen.context.analysis.scene.frames[pen.number];
-    let few = frame.placed.len() <= MAX_LABELLED_BLOCKS;
+    let scene = &pen.context.analysis.scene;
+    let shown = |id: &&BlockId| {
+        let body = &scene.blocks[id.0].body;
+        options.zoom.is_none() || view::common(view, body.polygon.bounds()).is_some()
+    };
+    let few = frame.placed.iter().filter(shown).count() <= MAX_LABELLED_BLOCKS;
     let mut labels = Vec::new();
     if options.labels {
         let first = mentioned(pen.context, pen.number);
@@ -196,9 +227,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             }));
         }
     }
-    if few {
-        labels.extend(amounts(pen));
-    }
+    labels.extend(amounts(pen, few));
     labels.retain(|label| label.lines.iter().any(|line| !line.is_empty()));
     labels
 }
@@ -347,24 +376,55 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     shown.map(named).collect()
 }
 
-fn amounts(pen: &Pen<'_>) -> Vec<Label> {
-    let (marks, options) = (&pen.context.marks[pen.number], pen.context.options);
-    // The amount of a load is part of the problem, not of the result: it is always shown.
-    let is_shown = |load: bool| options.amounts || (load && options.labels);
-    let size = (0.2 * pen.unit())
+/// Size of the letters of amounts, pixels.
+fn amount_size(pen: &Pen<'_>) -> f64 {
+    (0.2 * pen.unit())
         .max(MIN_SIZE)
-        .min(pen.context.options.theme.sizes.amount);
+        .min(pen.context.options.theme.sizes.amount)
+}
+
+/// A callout as a label. Without room it is left out and counted; the line below the verdict says the same.
+fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
+    let request = LabelRequest {
+        anchor: callout.at,
+        first_ring: callout.clear,
+        size: (0.0, 0.0),
+        preferred: Vec::new(),
+        padding: 0.0,
+        max_distance: Some(f64::INFINITY),
+    };
+    let size = pen.context.options.theme.sizes.amount;
+    Label {
+        colour: Some(callout.colour),
+        ..label(callout.words, Face::SansBold, size, "amount", request)
+    }
+}
+
+/// The amounts that are written next to arrows. In a frame that has not `few` blocks they are those of what is given and
+/// what is missing, and of that the largest.
+fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
+    let marks = &pen.context.marks[pen.number];
+    let size = amount_size(pen);
     // Between two blocks the same amount acts both ways: it is written once, on the block of the lower number.
     let written_here = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
     };
-    let seen = |a: &&ForceArrow| pen.seen(a) || a.kind == ArrowKind::Load;
+    let least = least_written(pen, few);
+    let given = |kind: ArrowKind| kind == ArrowKind::Load || kind.is_failure();
+    let seen = |a: &&ForceArrow| pen.seen(a) || given(a.kind);
+    let first = principal(pen);
+    let is_first = |arrow: &ForceArrow| first.iter().any(|f| core::ptr::eq(*f, arrow));
+    let wanted = |arrow: &&ForceArrow| {
+        is_first(arrow) || (is_written(pen, arrow, few, least) && written_here(arrow))
+    };
     let seen = marks.arrows.iter().filter(seen);
-    let wanted =
-        |arrow: &&ForceArrow| is_shown(arrow.kind == ArrowKind::Load) && written_here(arrow);
     let straight = seen.filter(wanted).map(|arrow| {
-        let words = quantity(arrow.force.norm(), "N");
+        let amount = quantity(arrow.force.norm(), "N");
+        let words = match is_first(arrow) && !pen.context.options.amounts {
+            true => format!("largest: {amount}"),
+            false => amount,
+        };
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
         let request = LabelRequest {
@@ -381,7 +441,9 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
-    let turns = turns.filter(|t| is_shown(t.kind == TurnKind::Load));
+    let options = pen.context.options;
+    let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
+    let turns = turns.filter(|t| (options.amounts && few) || is_given(t));
     let turning = turns.map(|turn| {
         let request = LabelRequest {
             anchor: pen.camera.place(turn.at),
@@ -398,6 +460,54 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         }
     });
     straight.chain(turning).collect()
+}
+
+/// The amount of a load is part of the problem, and that of what is missing is the answer: both are written in any case.
+fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
+    let options = pen.context.options;
+    let missing = arrow.kind.is_failure() && !options.printed();
+    let given = arrow.kind == ArrowKind::Load || missing;
+    (options.amounts && few) || (options.labels && given && arrow.force.norm() >= least)
+}
+
+/// Forces that differ by less than this share are equal: ten times what the proof of a balance allows.
+pub(super) const SAME_FORCE: f64 = 1e-6;
+
+/// The arrows of the largest force between two bodies and of the largest force of a robot, where arrows are readable.
+fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
+    let context = pen.context;
+    let small = context.arrows_too_small(pen.camera.length(1.0));
+    if small || pen.many() || context.options.printed() || !context.options.labels {
+        return Vec::new();
+    }
+    let arrows = &context.marks[pen.number].arrows;
+    let largest = |kind: fn(ArrowKind) -> bool| {
+        let own = arrows.iter().filter(|a| kind(a.kind) && pen.seen(a));
+        own.reduce(|most, a| {
+            // Of forces that are equal but for rounding the first is the largest, so that noise moves no label.
+            if a.force.norm() > (1.0 + SAME_FORCE) * most.force.norm() {
+                a
+            } else {
+                most
+            }
+        })
+    };
+    let contact = largest(|kind| matches!(kind, ArrowKind::Contact(_)));
+    let robot = largest(|kind| matches!(kind, ArrowKind::Robot(_)));
+    contact.into_iter().chain(robot).collect()
+}
+
+/// The least amount of a load or a missing force that is written in a frame, N: of many blocks only the largest have
+/// amounts.
+fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
+    if few {
+        return 0.0;
+    }
+    let arrows = pen.context.marks[pen.number].arrows.iter();
+    let given = arrows.filter(|a| a.kind == ArrowKind::Load || a.kind.is_failure());
+    let mut amounts: Vec<f64> = given.map(|a| a.force.norm()).collect();
+    amounts.sort_by(|a, b| b.total_cmp(a));
+    amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
 }
 
 /// Preferred centres of a label of this size: on either side of an arrow's shaft, and beyond its tip.

@@ -4,9 +4,10 @@ mod sign;
 
 use sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
 
-use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
+use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks, TurnKind};
 use super::context::FigureContext;
 use super::description;
+use super::limit;
 use super::option::{ArrowScale, Options};
 use super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
 use super::words::{counted, quantity, round_below};
@@ -227,7 +228,7 @@ impl Entry {
             }
             Entry::Line(colour, width, meaning) => {
                 let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
-                let path = Path::stroked(line, Stroke::new(*colour, *width));
+                let path = Path::stroked(line, Stroke::new(*colour, *width).mitred());
                 vec![path.into(), words(LINE_LENGTH + 7.0, meaning)]
             }
             Entry::Metres(length, amount) => {
@@ -288,9 +289,11 @@ fn robot(id: &str) -> String {
     }
 }
 
-/// An arrow that tells the scale of a panel of which one unit edge, `unit` pixels, is `newtons` N; `None` for no force.
-pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry> {
-    let amount = round_below(newtons);
+/// An arrow that shows the scale of a panel in which one unit edge, `unit` pixels, is `newtons` N, and whose largest force
+/// is `largest` N; `None` if there is no force.
+pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) -> Option<Entry> {
+    let largest = if options.printed() { newtons } else { largest };
+    let amount = round_below(largest);
     let width = options.theme.widths.force * unit;
     // The scale is drawn as the arrows are.
     let beyond = if options.printed() {
@@ -304,17 +307,19 @@ pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry>
     })
 }
 
+/// The scale that the arrows of all panels share.
+pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
+    let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
+    let newtons = most(|m| m.newtons_per_unit);
+    scale(newtons, most(Marks::largest), unit, context.options)
+}
+
 /// Everything that occurs in the figure, `unit` pixels being one unit edge.
 pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
     if context.options.scale == ArrowScale::Strip {
-        let newtons = context
-            .marks
-            .iter()
-            .map(|m| m.newtons_per_unit)
-            .fold(0.0, f64::max);
-        entries.extend(scale(newtons, unit, context.options));
+        entries.extend(shared_scale(context, unit));
     }
     let scale_of_page = unit / context.unit;
     let is_seen = |a: &ForceArrow| a.reach().norm() * scale_of_page >= LEAST_SEEN;
@@ -349,6 +354,9 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     {
         let words = "weight, from the centroid".to_owned();
         entries.push(Entry::Sign(weight_sign, SAMPLE, words));
+    }
+    if !context.options.printed() && !context.arrows_too_small(scale_of_page) {
+        entries.extend(limits(context));
     }
     entries.extend(loads(context));
     entries.extend(robots(context));
@@ -387,6 +395,14 @@ pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, "m")))
 }
 
+/// The sign of joints at their limit; none where no frame has one.
+pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
+    let scene = &context.analysis.scene;
+    let mut frames = context.analysis.frames.iter();
+    let any = frames.any(|found| !limit::reached(scene, found).is_empty());
+    any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
+}
+
 /// What a load looks like and how large loads are; none where no frame shows one.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
@@ -404,12 +420,26 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         n if least == most => format!("{n} loads of {most} each"),
         n => format!("{n} loads of {least} to {most}"),
     };
+    let words = match own_scale(context) {
+        true => format!("{words}, drawn larger than other forces"),
+        false => words,
+    };
     let words = if turns {
         format!("{words}; {TURNING}")
     } else {
         words
     };
     Some(Entry::Sign(load_sign, SAMPLE, words))
+}
+
+/// Whether the arrows of loads have a scale of their own in any frame.
+fn own_scale(context: &FigureContext<'_>) -> bool {
+    let longer = |marks: &Marks, arrow: &ForceArrow| {
+        let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
+        arrow.kind == ArrowKind::Load && arrow.vector.norm() > 1.01 * usual
+    };
+    let mut frames = context.marks.iter();
+    frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
 }
 
 /// The robots that hold or plan in any frame, and what a plan looks like.

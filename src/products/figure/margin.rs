@@ -11,7 +11,7 @@ use reason::percent_of;
 use super::arrow::Marks;
 use super::content::PanelContent;
 use super::context::FigureContext;
-use super::displacement::{self, Displacement};
+use super::displacement::{Course, Displacement};
 use super::label;
 use super::legend::{self, Entry};
 use super::mechanism;
@@ -197,7 +197,7 @@ fn gone(
     toward: Toward,
 ) -> Option<(Vec<Option<Displacement>>, f64)> {
     let (ghost, edge) = ghost(analysis, frame, toward)?;
-    Some((displacement::displacements(&ghost, frame, unit, 1.0), edge))
+    Some((Course::new(&ghost, frame, unit).at(1.0), edge))
 }
 
 /// Where gravity's arrow begins and ends, metres: as it is, and at the edge.

@@ -21,6 +21,9 @@ const FORCE_TOL: f64 = 1e-6;
 const FULL_WIDTH_LENGTH: f64 = 0.35;
 /// The thinnest shaft, as a share of the full width. With the full width small forces would consist of heads only.
 const MIN_WIDTH_SHARE: f64 = 0.65;
+/// The largest missing force is drawn at least this long, unit edges: if it is shorter on the scale of the other forces, the
+/// missing forces have a scale of their own. None is drawn shorter than the second number.
+const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
 /// The source draws missing forces at this share of the scale of the block they act on.
 const SOURCE_FAILURE_SCALE: f64 = 0.4;
 
@@ -328,6 +331,15 @@ impl ArrowMaker<'_> {
         }
     }
 
+    /// The arrow of a missing force in a frame whose largest one is `largest` N.
+    fn missing(&self, force: Vector, largest: f64) -> Vector {
+        let (longest, least) = MISSING_LENGTHS;
+        let own = longest * self.edge / largest.max(f64::MIN_POSITIVE);
+        let vector = force * self.metres_per_newton.max(own);
+        let length = vector.norm().max(f64::MIN_POSITIVE);
+        vector * (least * self.edge / length).max(1.0)
+    }
+
     fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
         let theme = &self.options.theme;
         // The source's figures keep the source's red; our own is darker, so that a grey print tells it from green.
@@ -341,6 +353,8 @@ impl ArrowMaker<'_> {
             Normalisation::Source => Some(acting(self.scene, found)),
             Normalisation::Drawn => None,
         };
+        let amounts = found.failures.iter().map(|failure| failure.force().norm());
+        let largest = amounts.fold(0.0, f64::max);
         for failure in &found.failures {
             let halves = match *failure {
                 Failure::Tension {
@@ -402,7 +416,8 @@ impl ArrowMaker<'_> {
                     Some(acting) if acting[block.0] > 0.0 => {
                         force * (SOURCE_FAILURE_SCALE * self.edge / acting[block.0])
                     }
-                    _ => force * self.metres_per_newton,
+                    Some(_) => force * self.metres_per_newton,
+                    None => self.missing(force, largest),
                 };
                 marks.arrows.push(ForceArrow {
                     on,

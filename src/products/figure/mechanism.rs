@@ -13,19 +13,22 @@ use super::collapse;
 use super::content::PanelContent;
 use super::context::FigureContext;
 use super::description;
-use super::displacement::{self, Displacement};
+use super::displacement::{Course, Displacement};
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
 use super::option::Options;
 use super::panel::composed;
 use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_EDGE, Pen};
+use super::thrust;
+use super::verdict;
 use super::words::quantity;
-use crate::analysis::{Analysis, Contact, Motion, Verdict};
+use crate::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, Motion, Verdict};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, BodyId};
+use crate::wording;
 
 /// Radius of the ring of a hinge, unit edges.
 const HINGE_RADIUS: f64 = 0.085;
@@ -64,25 +67,36 @@ impl PanelContent for Mechanism {
         true
     }
 
-    fn displacements(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        unit: f64,
-        share: f64,
-    ) -> Vec<Option<Displacement>> {
-        displacement::displacements(analysis, frame, unit, share)
+    fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
+        let falls = |frame: &FrameAnalysis| frame.verdict == Verdict::Unstable;
+        match analysis.frames.iter().any(falls) {
+            true => &[MarginKind::LoadFactor, MarginKind::Friction],
+            false => &[],
+        }
     }
 
-    fn extent(
+    fn course(&self, analysis: &Analysis, frame: usize, unit: f64) -> Course {
+        Course::new(analysis, frame, unit)
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, _: &Options) -> f64 {
+        thrust::largest_load(&analysis.scene, &analysis.scene.frames[frame])
+    }
+
+    fn marks(
         &self,
         analysis: &Analysis,
         frame: usize,
-        unit: f64,
-        _marks: &Marks,
-        _options: &Options,
-    ) -> Option<Bounds> {
-        reach(analysis, &self.displacements(analysis, frame, unit, 1.0))
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        thrust::marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let found = &context.analysis.frames[frame];
+        wording::margin::falls_headline(&context.analysis.scene, found)
+            .unwrap_or_else(|| verdict::badge(found).to_owned())
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
@@ -123,7 +137,8 @@ impl PanelContent for Mechanism {
         if pen.many() {
             (slips, hinges) = (joined(slips), joined(hinges));
         }
-        composed(&pen, view, blocks, vec![slips, hinges], ink)
+        let loads = pen.arrows(false);
+        composed(&pen, view, blocks, vec![slips, hinges, loads], ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
@@ -152,6 +167,7 @@ impl PanelContent for Mechanism {
             };
             entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
         }
+        entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }
@@ -288,9 +304,10 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
     let interface = &contact.interface;
     let unit = pen.context.unit;
     let length = match interface.length() {
-        l if l > 0.0 => f64::min(SLIP_ARROW.0 * unit, 0.8 * l),
+        l if l > 0.0 && joint.touch.is_none() => f64::min(SLIP_ARROW.0 * unit, 0.8 * l),
         _ => SLIP_ARROW.0 * unit,
     };
+    let middle = between(pen, contact, joint.at);
     let pair = description::pair(scene, interface.bodies);
     let mut group = Group::with_class("slip").titled(format!("Slip between {pair}"));
     for (side, body) in [1.0, -1.0].into_iter().zip(interface.bodies) {
@@ -300,7 +317,6 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
         };
         let along = turned(interface.tangent()) * (side * joint.slip.signum() * length);
         let aside = turned(interface.normal) * (side * SLIP_ARROW.1 * unit);
-        let middle = taken(pen, body, interface.middle());
         let from = middle + aside - along * 0.5;
         let (from, along, aside) = (
             pen.camera.place(from),

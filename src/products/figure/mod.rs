@@ -1,4 +1,4 @@
-//! Figures: what was found out about a scene, drawn. The bridge between mechanics and pictures, and the only one.
+//! Draws the results of an analysis. Only this folder uses both mechanics and pictures.
 //!
 //! Mechanics knows nothing of pictures and pictures know nothing of forces; here the numbers of an
 //! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
@@ -18,6 +18,7 @@ mod dimension;
 mod displacement;
 mod draw;
 mod fill;
+mod flow;
 mod forces;
 mod freebody;
 mod funicular;
@@ -28,6 +29,7 @@ mod kind;
 mod label;
 mod layout;
 mod legend;
+mod limit;
 mod margin;
 mod mark;
 mod mechanism;
@@ -51,9 +53,11 @@ mod words;
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 pub use broken::broken;
 pub use caption::caption;
-pub use draw::{draw, forces, least_size, pages, panels, panels_of, split};
+pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
+#[cfg(feature = "report")]
+pub(crate) use joint::{Joint, joints};
 pub use kind::Kind;
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};

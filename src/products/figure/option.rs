@@ -1,4 +1,4 @@
-//! [`Options`]: the choices a reader has about a figure of forces.
+//! [`Options`]: the options of a figure of forces.
 
 use crate::analysis::Toward;
 use crate::drawing::Theme;
@@ -167,7 +167,8 @@ impl Options {
         width: f64, "Width of the page, pixels. Words keep their size whatever the width.";
     }
 
-    /// Whether arrows look as in the source's printed figures: components to the source's scale.
+    /// Whether arrows look like those in the printed figures of the source: separate components, in the scale of the
+    /// source.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
     }

@@ -1,13 +1,15 @@
-//! One frame's picture from its parts: ground, blocks, plans, robots, the arrows or a kind's own marks, and labels on top.
+//! Composes the picture of one frame: ground, blocks, plans, robots, arrows or the marks of the kind, and labels on top.
 
 use super::context::FigureContext;
-use super::label;
+use super::description;
+use super::label::{self, Callout};
+use super::limit;
 use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
 
-/// The forces of a frame: what the camera sees of frame `number`; ground is cut at the edge of `view`.
+/// The picture of the forces of frame `number`. Ground is cut at the edge of `view`.
 pub(crate) fn picture(
     context: &FigureContext<'_>,
     number: usize,
@@ -40,21 +42,52 @@ pub(crate) fn picture(
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
-    group
-        .items
-        .push(label::labels(&pen, view, || label::ink(&pen)).into());
+    let mut ink = label::ink(&pen);
+    if !too_small && !many && !context.options.printed() {
+        group.items.push(limits(&pen, &mut ink).into());
+    }
+    group.items.push(label::labels(&pen, view, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );
     group
 }
 
-/// A picture of plain parts: ground, these blocks, plans, robots, and the kind's own marks, labels clear of `ink`.
+/// The signs of joints at their limit.
+fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let mut group = Group::with_class("limits");
+    for contact in limit::reached(scene, &pen.context.analysis.frames[pen.number]) {
+        let at = pen.camera.place(contact.resultant.at);
+        let radius = (0.06 * pen.unit()).clamp(1.6, 3.2);
+        ink.disc(at, 1.5 * radius);
+        let pair = description::pair(scene, contact.interface.bodies);
+        let title = format!("The joint between {pair} is at its limit");
+        let sign = limit::sign(at, radius, theme);
+        let sign = Group::with_class("limit").titled(title).with(sign);
+        group.items.push(sign.into());
+    }
+    group
+}
+
+/// The picture of a frame without arrows: ground, the given blocks, plans, robots and marks. Labels avoid `ink`.
 pub(crate) fn composed(
     pen: &Pen<'_>,
     view: Bounds,
     blocks: Group,
     marks: Vec<Group>,
+    ink: Ink,
+) -> Group {
+    composed_with(pen, view, blocks, marks, Vec::new(), ink)
+}
+
+/// As [`composed`], with callouts.
+pub(crate) fn composed_with(
+    pen: &Pen<'_>,
+    view: Bounds,
+    blocks: Group,
+    marks: Vec<Group>,
+    callouts: Vec<Callout>,
     ink: Ink,
 ) -> Group {
     let mut group = Group {
@@ -65,7 +98,9 @@ pub(crate) fn composed(
     let parts = [pen.ground(view), blocks, pen.plans(), pen.discs()];
     let parts = parts.into_iter().chain(marks);
     group.items.extend(parts.map(Item::from));
-    group.items.push(label::labels(pen, view, || ink).into());
+    group
+        .items
+        .push(label::labels_with(pen, view, callouts, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );

@@ -16,6 +16,9 @@ pub(crate) const CENTROID_RADIUS: f64 = 1.25;
 /// Radius of the sign of a load or a missing force that is too small for an arrow, pixels.
 pub(crate) const DOT_RADIUS: f64 = 2.8;
 
+/// Radius of the sign of a missing force: smaller than any arrow of a larger one.
+pub(crate) const MISSING_RADIUS: f64 = 1.6;
+
 /// If a unit edge is shorter than this, pixels, arrows are a texture and not read one by one: their small signs are left out.
 pub(crate) const MIN_READABLE_UNIT_EDGE: f64 = 20.0;
 /// Opacity of the fill of a displaced block.

@@ -1,4 +1,4 @@
-//! The force polygon: the forces on a structure from outside, tip to tail beside it.
+//! The force polygon: the external forces on a structure, drawn tip to tail next to it.
 //!
 //! Weights and loads follow each other block by block, then what the ground and the robots give, and at last what is
 //! missing, hollow and dashed: where the structure is in balance the polygon is closed. Where it falls, the polygon closes
@@ -34,12 +34,12 @@ const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
 /// smaller; the forces that fail are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
-/// Whether a force acts on the structure from outside: a side of the polygon.
+/// Whether a force acts on the structure from outside, so that it is a side of the polygon.
 fn outside(arrow: &ForceArrow) -> bool {
     !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
 }
 
-/// The sides of a frame's polygon, in their order.
+/// The sides of a frame's polygon in their order.
 fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
     marks.arrows.iter().filter(|arrow| outside(arrow))
 }
@@ -131,7 +131,8 @@ impl PanelContent for ForcePolygon {
                 chain.sides.last().map(|s| s[1]),
                 chain.sides.first().map(|s| s[0]),
             ];
-            // Drawn apart, the two ends are joined as if they were one place; the last join shows a gap as one.
+            // If the polygon is drawn in two parts, the two ends are joined as if they were one point. The last join shows
+            // a gap as a line.
             let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
             for join in joins {
                 let line = Outline::line(join.map(|p| camera.place(p)));
@@ -151,7 +152,7 @@ impl PanelContent for ForcePolygon {
             }
         }
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // The polygon stands on nothing: ground ends beside it, and no name runs on from there.
+        // The ground ends next to the polygon, so that the polygon does not seem to stand on it.
         let shown =
             view::ground_shown(&context.analysis.scene, unit(&context.analysis.scene, None));
         if let Some(shown) = shown {
@@ -177,7 +178,7 @@ impl PanelContent for ForcePolygon {
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let mut entries = legend::entries(context, unit);
-        // Blocks are plain here: no colour tells an amplitude.
+        // Blocks are plain here: their colour shows no amplitude.
         entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
@@ -234,14 +235,14 @@ struct Chain {
     times: f64,
 }
 
-/// Whether what gives back would cover what acts: both run up and down the same line.
+/// Whether the reactions would cover the loads, because both run along the same line.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Two sides run on each other where the middle of the shorter lies on the longer, and both ends nearly do.
+    // Two sides overlap if the middle of the shorter one lies on the longer one, and both ends nearly do.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
@@ -297,7 +298,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     };
     let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // Its left edge beside the structure and the ground below it, its middle as high as the structure's.
+    // The left edge is next to the structure and its ground; the middle is at the height of the structure's middle.
     let right = view::ground_shown(scene, unit(scene, None))
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
@@ -325,7 +326,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     })
 }
 
-/// How many times as large forces are, in words.
+/// A scale factor in words.
 fn larger(times: f64) -> String {
     if times >= 1.0 {
         format!("{times:.0}")
@@ -334,14 +335,14 @@ fn larger(times: f64) -> String {
     }
 }
 
-/// Whether the forces add up to nothing.
+/// Whether the sum of the forces is zero.
 fn closed(marks: &Marks) -> bool {
     let sum: Vector = outer(marks).map(|a| a.force).sum();
     let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
     sum.norm() <= CLOSURE_TOL * all
 }
 
-/// A missing force as a side of the polygon: nothing gives it.
+/// A missing force as a side of the polygon, marked as missing.
 fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
     let edge = Stroke::new(colour, 1.2).dashed([3.0, 2.0]);
     Path::filled(outline, theme.page).with_stroke(edge)
@@ -352,7 +353,7 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// How many times as large as on the structure the forces of each frame's polygon are drawn; `None` without a polygon.
+/// The scale factors between the forces in the polygon and those on the structure, in words; `None` without a polygon.
 fn scales(times: &[(usize, f64)]) -> Option<String> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, times) in times {

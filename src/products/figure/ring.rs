@@ -1,4 +1,4 @@
-//! [`ring`]: the colours of arrows as a ring of sectors, and those of robots and of what fails below it.
+//! [`ring`]: a colour wheel of the arrow colours, with the colours of robots and failures below it.
 
 use core::f64::consts::TAU;
 
@@ -14,8 +14,8 @@ const RING: (f64, f64) = (58.0, 112.0);
 /// Size of letters, pixels.
 const WORDS: f64 = 14.0;
 
-/// Which colour the forces on a block wear: sectors anticlockwise from the right, entry 0 first, each with the numbers of
-/// the blocks, from 1 in placing order, that wear it.
+/// The colour wheel of the forces on blocks: sectors anticlockwise from the right, entry 0 first. Each sector lists the
+/// numbers of its blocks, from 1 in the order of placing.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {
@@ -25,7 +25,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     let mut items: Vec<Item> = Vec::new();
     for (entry, colour) in theme.arrows.iter().enumerate() {
         let from = sweep * entry as f64;
-        // Block i wears entry i mod n: the first block the second colour.
+        // Block i has entry i mod n, so the first block has the second colour.
         let first = if entry == 0 { count } else { entry };
         let blocks = format!("{first}, {}, …", first + count);
         let sector = Path::filled(sector(centre, from, sweep), *colour)
@@ -96,7 +96,7 @@ fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {
     centre.moved(radius * libm::cos(angle), -radius * libm::sin(angle))
 }
 
-/// A part of the ring, its arcs as many short lines: none longer than a pixel or two.
+/// A sector of the ring. Its arcs consist of lines of one to two pixels.
 fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
     let steps = 72;
     let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);

@@ -21,8 +21,8 @@ pub fn shapes(theme: &Theme) -> Drawing {
     sheet(lattice, &named, theme)
 }
 
-/// Each named set of cells: its outline, the seams between its cells, and a small cross at its lattice origin, the point
-/// that a scene's `at` places.
+/// Each named set of cells with its outline, the lines between its cells, and a small cross at its lattice origin. `at` in
+/// a scene places this origin.
 fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
     let mut sheet = Vec::new();
     for (name, cells) in named {
@@ -56,7 +56,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         if x > MAX_MARGIN && x + width > ACROSS {
             (x, y, height) = (MAX_MARGIN, y + height + 64.0, 0.0);
         }
-        // Every shape of a row stands on the row's own floor; the tallest shape of all gives the height.
+        // The shapes of a row stand on the same base line. The tallest shape gives the height of the row.
         let tallest = sheet
             .iter()
             .map(|s| s.2.height() * scale)

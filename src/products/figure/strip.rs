@@ -72,8 +72,21 @@ pub(crate) fn pages(
     options: &Options,
     frames: impl Iterator<Item = usize>,
 ) -> Vec<Drawing> {
-    let context = FigureContext::new(analysis, options, content);
-    let page = |frame| {
+    let steps = frames.map(|frame| (frame, options.way));
+    steps_of(analysis, content, options, steps)
+}
+
+/// As [`pages`], each frame with its blocks displaced along a share of their way, 0 … 1.
+pub(crate) fn steps_of(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+    steps: impl Iterator<Item = (usize, f64)>,
+) -> Vec<Drawing> {
+    let mut context = FigureContext::new(analysis, options, content);
+    let mut pages: Vec<Drawing> = Vec::new();
+    for (frame, way) in steps {
+        context.go(way);
         let strip = Strip {
             content,
             context: &context,
@@ -81,9 +94,8 @@ pub(crate) fn pages(
             captions: None,
             alike: true,
         };
-        page(&[&strip], &[(0, frame)], &analysis.scene.title)
-    };
-    let mut pages: Vec<Drawing> = frames.map(page).collect();
+        pages.push(page(&[&strip], &[(0, frame)], &analysis.scene.title));
+    }
     let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
     for page in &mut pages {
         page.height = highest;
@@ -381,10 +393,9 @@ impl Strip<'_> {
     fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let theme = &self.context.options.theme;
         let found = &self.context.analysis.frames[frame];
-        let word = verdict::word(found.verdict);
         let size = theme.sizes.verdict;
-        let wide = text::width(word, Face::SansBold, size);
         let radius = size * 7.5 / 13.5;
+        let (word, wide) = self.headline(frame);
         let options = self.context.options;
         let lead = if options.verdicts {
             2.0 * radius + 6.0 + wide + 22.0
@@ -393,11 +404,15 @@ impl Strip<'_> {
         };
         let unit = self.layout.scale * self.context.unit;
         let scale = match self.context.options.scale {
-            ArrowScale::Panel => legend::scale(
-                self.context.marks[frame].newtons_per_unit,
-                unit,
-                self.context.options,
-            ),
+            ArrowScale::Panel => {
+                let marks = &self.context.marks[frame];
+                legend::scale(
+                    marks.newtons_per_unit,
+                    marks.largest(),
+                    unit,
+                    self.context.options,
+                )
+            }
             ArrowScale::Strip => None,
         };
         let scale =
@@ -413,11 +428,18 @@ impl Strip<'_> {
             lead + long
         };
         let start = centre.moved(-total / 2.0, 0.0);
-        let colour = verdict::colour(found.verdict, theme);
+        let colour = verdict::badge_colour(found, theme);
         let at = start.moved(2.0 * radius + 6.0, 0.35 * size);
         let mut items: Vec<Item> = Vec::new();
         let signs: [Item; 2] = [
-            verdict::mark(found.verdict, start.moved(radius, 0.0), radius, theme).into(),
+            verdict::mark_in(
+                colour,
+                found.verdict,
+                start.moved(radius, 0.0),
+                radius,
+                theme,
+            )
+            .into(),
             Text::new(at, word, Face::SansBold, size, colour).into(),
         ];
         if options.verdicts {
@@ -433,6 +455,23 @@ impl Strip<'_> {
             items.extend(legend::single(&scale, at, theme).0);
         }
         (items, below)
+    }
+
+    /// The words beside the mark of a verdict, and their width in pixels; the verdict alone where the words are wider than
+    /// the panel.
+    fn headline(&self, frame: usize) -> (String, f64) {
+        let size = self.context.options.theme.sizes.verdict;
+        let width = |words: &str| text::width(words, Face::SansBold, size);
+        let found = &self.context.analysis.frames[frame];
+        let words = self.content.headline(self.context, frame);
+        let sign = 1.2 * size + 6.0;
+        let words = if sign + width(&words) <= self.layout.panel.max(300.0) {
+            words
+        } else {
+            verdict::badge(found).to_owned()
+        };
+        let wide = width(&words);
+        (words, wide)
     }
 
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;

@@ -1,7 +1,8 @@
 //! The line of thrust: how pressure runs through the blocks, from interface to interface.
 //!
-//! What the line is in each block, [`segments`] says: it runs along true lines of action only, and where there is no
-//! single line it stops at the joints. Loads are arrows that end where they act; between them lengths compare.
+//! What the line is in each block, [`segments`] says: it runs along true lines of action. Where no single one runs through a
+//! block, a lighter line joins the joints; the key says that it is schematic. So the line runs from support to support
+//! without gaps. Loads are arrows that end where they act; between them lengths compare.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
@@ -18,7 +19,8 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
 use super::words::{force, quantity};
-use crate::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
+use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::scene::{BodyId, Frame, Scene};
@@ -31,6 +33,11 @@ const MIN_WIDTH_SHARE: f64 = 0.22;
 const WIDTH_STEPS: f64 = 8.0;
 /// Opacity of a line that is not one of equilibrium.
 const FAINT_OPACITY: f64 = 0.35;
+
+/// Width of the lines of least and of greatest thrust, pixels, and their dashes.
+const THIN: f64 = 1.3;
+const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
+const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;
@@ -46,6 +53,14 @@ impl PanelContent for ThrustLine {
 
     fn title(&self) -> &'static str {
         "The line of thrust in a dry-laid structure"
+    }
+
+    fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
+        let mut frames = 0..analysis.frames.len();
+        match frames.any(|frame| analysis.thrust_states(frame).least.is_some()) {
+            true => &[MarginKind::Kernel],
+            false => &[],
+        }
     }
 
     fn largest_force(&self, analysis: &Analysis, frame: usize, _: &Options) -> f64 {
@@ -72,13 +87,17 @@ impl PanelContent for ThrustLine {
         let pen = Pen::new(context, frame, camera);
         let scene = &context.analysis.scene;
         let found = &context.analysis.frames[frame];
-        let segments = segments(scene, &scene.frames[frame], found, context.unit);
+        let family = context.thrust_states(frame);
+        // The most central state, where it is known.
+        let found = family.central.as_ref().map_or(found, |state| &state.frame);
+        let segments = segments(scene, &scene.frames[frame], found);
         let mut ink = label::ink(&pen);
         for segment in &segments {
             let [from, to] = [segment.from, segment.to].map(|p| camera.place(p));
             ink.line(from, to, width(&pen, segment) + 1.0);
         }
         let seams = seams(&pen, found);
+        let [least, greatest] = limits(&pen, family, &mut ink);
         let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
         let lines = lines(&pen, scene, found, &segments);
         let loads = pen.arrows(false);
@@ -86,7 +105,7 @@ impl PanelContent for ThrustLine {
             &pen,
             view,
             pen.blocks(),
-            vec![seams, lines, dots, loads],
+            vec![seams, least, greatest, lines, dots, loads],
             ink,
         )
     }
@@ -94,28 +113,30 @@ impl PanelContent for ThrustLine {
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let frames = scene.frames.iter().zip(&context.analysis.frames);
-        let (mut through, mut stopped) = (false, false);
+        let (mut through, mut schematic) = (false, false);
         for (frame, found) in frames {
-            let segments = segments(scene, frame, found, context.unit);
+            let segments = segments(scene, frame, found);
             through |= segments.iter().any(|s| s.through);
-            stopped |= segments.iter().any(|s| !s.through);
+            schematic |= segments.iter().any(|s| !s.through);
         }
         let mut entries = Vec::new();
         if context.options.scale == ArrowScale::Strip {
-            let newtons = context.marks.iter().map(|m| m.newtons_per_unit);
-            let newtons = newtons.fold(0.0, f64::max);
-            entries.extend(legend::scale(newtons, unit, context.options));
+            entries.extend(legend::shared_scale(context, unit));
         }
-        if through || stopped {
+        if through || schematic {
             let largest = quantity(largest(context), "N");
-            let line = format!("line of thrust, this thick for {largest}");
+            let line = match central(context) {
+                Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
+                None => format!("line of thrust, this thick for {largest}"),
+            };
             entries.push(Entry::Line(colour(theme), widest(unit), line));
             let dot = "where a joint's resultant acts".to_owned();
             entries.push(Entry::Sign(dot_sign, 8.0, dot));
+            entries.extend(limit_entries(context));
         }
-        if stopped {
-            let what = "ends where no single line runs through a block".to_owned();
-            entries.push(Entry::Sign(end_sign, 26.0, what));
+        if schematic {
+            let what = "schematic: no single line of action runs through the block".to_owned();
+            entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
         }
         entries.extend(legend::robots(context));
         entries
@@ -126,7 +147,11 @@ impl PanelContent for ThrustLine {
 
         let why = verdict::reason(scene, found);
         match found.verdict {
-            Verdict::Stable => why,
+            Verdict::Stable => match other_figures(context, frame) {
+                Some(other) if why.is_empty() => other,
+                Some(other) => format!("{why}; {other}"),
+                None => why,
+            },
             Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
             Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
         }
@@ -173,7 +198,12 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
 
 /// The largest force of all panels, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
-    let frames = &context.analysis.frames;
+    let given = context.analysis.frames.iter().enumerate();
+    let frames = given.map(|(number, found)| {
+        let central = context.thrust_states(number).central.as_ref();
+        central.map_or(found, |state| &state.frame)
+    });
+    let frames: Vec<&FrameAnalysis> = frames.collect();
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);
     let forces = contacts
@@ -186,6 +216,11 @@ fn colour(theme: &Theme) -> Colour {
     theme.motion
 }
 
+/// The colour of a line that is not a line of action.
+fn schematic_colour(theme: &Theme) -> Colour {
+    theme.page.mixed(theme.motion, 0.45)
+}
+
 fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
@@ -196,6 +231,98 @@ fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
     let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
     widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
+}
+
+/// The horizontal thrust of a state in words: ` (28.3 kN)`; nothing where the states of several frames differ.
+fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
+    if context.analysis.frames.len() == 1 {
+        format!(", horizontal thrust {}", quantity(thrust, "N"))
+    } else {
+        String::new()
+    }
+}
+
+/// All families of the figure.
+fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
+    (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
+}
+
+/// What the key says of the thrust of the most central line; `None` where no frame shows it.
+fn central(context: &FigureContext<'_>) -> Option<String> {
+    let state = families(context).find_map(|family| family.central.as_ref())?;
+    Some(amount_in_words(context, state.thrust))
+}
+
+/// The entries of the lines of least and greatest thrust.
+fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
+    let least = families(context).find_map(|family| family.least.as_ref());
+    let greatest = families(context).find_map(|family| family.greatest.as_ref());
+    let entry = |state: Option<&ThrustState>, sign: fn(PagePoint, &Theme) -> Vec<Item>, name| {
+        let words = amount_in_words(context, state?.thrust);
+        let words = words.replace(", horizontal thrust", "");
+        Some(Entry::Sign(sign, 26.0, format!("{name}{words}")))
+    };
+    [
+        entry(least, least_sign, "least thrust"),
+        entry(greatest, greatest_sign, "greatest thrust"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Which of the states all other figures show.
+fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
+    let family = context.thrust_states(frame);
+    family.least.as_ref()?;
+    let present = quantity(family.present, "N");
+    Some(format!(
+        "other figures show the forces of least sum, with a horizontal thrust of {present}"
+    ))
+}
+
+/// The lines of least and of greatest thrust: thin.
+fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Group; 2] {
+    let scene = &pen.context.analysis.scene;
+    let states = [
+        (&family.least, "thrust-least", "Least thrust", LEAST_DASHES),
+        (
+            &family.greatest,
+            "thrust-greatest",
+            "Greatest thrust",
+            GREATEST_DASHES,
+        ),
+    ];
+    states.map(|(state, class, name, dashes)| {
+        let Some(state) = state else {
+            return Group::default();
+        };
+        let mut outline = Outline::default();
+        for piece in segments(scene, &scene.frames[pen.number], &state.frame) {
+            let [from, to] = [piece.from, piece.to].map(|p| pen.camera.place(p));
+            ink.line(from, to, THIN);
+            outline.extend(Outline::line([from, to]));
+        }
+        let thrust = quantity(state.thrust, "N");
+        let title = format!("{name}: {thrust} horizontally");
+        let group = Group::with_class(class).titled(title);
+        group.with(thin(outline, dashes, &pen.context.options.theme))
+    })
+}
+
+fn thin(outline: Outline, dashes: [f64; 2], theme: &Theme) -> Path {
+    let colour = colour(theme).mixed(theme.ink, 0.45);
+    Path::stroked(outline, Stroke::new(colour, THIN).dashed(dashes))
+}
+
+fn least_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(26.0, 0.0)]);
+    vec![thin(line, LEAST_DASHES, theme).into()]
+}
+
+fn greatest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(26.0, 0.0)]);
+    vec![thin(line, GREATEST_DASHES, theme).into()]
 }
 
 /// Every interface as a line.
@@ -215,51 +342,94 @@ fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     seams.with(Path::stroked(outline, stroke))
 }
 
+/// The line: what is schematic below, what is true above.
 fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[ThrustSegment]) -> Group {
+    let mut group = Group::with_class("thrust");
+    for through in [false, true] {
+        let mut alike = segments.iter().filter(|s| s.through == through).peekable();
+        if alike.peek().is_none() {
+            continue;
+        }
+        if pen.many() {
+            group.items.extend(joined_lines(pen, found, alike, through));
+            continue;
+        }
+        for segment in alike {
+            let class = if through { "force" } else { "schematic" };
+            let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
+            let drawn = Group::with_class(class)
+                .titled(title(scene, found, segment))
+                .with(stroked(pen, found, line, width(pen, segment), through));
+            group.items.push(drawn.into());
+        }
+    }
+    group
+}
+
+/// A line of this width, pixels.
+fn stroked(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    outline: Outline,
+    width: f64,
+    through: bool,
+) -> Path {
     let theme = &pen.context.options.theme;
+    let colour = if through {
+        colour(theme)
+    } else {
+        schematic_colour(theme)
+    };
     let opacity = match found.verdict {
         Verdict::Stable => 1.0,
         _ => FAINT_OPACITY,
     };
-    let mut group = Group::with_class("thrust");
-    let line = |s: &ThrustSegment| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
-    let path = |outline, width| {
-        let stroke = Stroke::new(colour(theme), width);
-        Path::stroked(outline, stroke).with_opacity(opacity)
-    };
-    if pen.many() {
-        let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
-        let most = widest(pen.unit());
-        for segment in segments {
-            let step = (WIDTH_STEPS * width(pen, segment) / most).round() as usize;
-            steps[step.min(WIDTH_STEPS as usize)].extend(line(segment));
-        }
-        for (step, outline) in steps.into_iter().enumerate() {
-            if !outline.segments.is_empty() {
-                let width = most * step as f64 / WIDTH_STEPS;
-                group.items.push(path(outline, width).into());
-            }
-        }
-        return group;
-    }
+    Path::stroked(outline, Stroke::new(colour, width)).with_opacity(opacity)
+}
+
+/// The lines of very many blocks: one path for all of about one width.
+fn joined_lines<'s>(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    segments: impl Iterator<Item = &'s ThrustSegment>,
+    through: bool,
+) -> Vec<Item> {
+    let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
+    let most = widest(pen.unit());
     for segment in segments {
-        let on = &scene.blocks[segment.on.0].id;
-        let by = match segment.origin {
-            ForceOrigin::Contact(number) => {
-                let [a, b] = found.contacts[number].interface.bodies;
-                let other = if a == BodyId::Block(segment.on) { b } else { a };
-                description::named(scene, other)
-            }
-            ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
-            ForceOrigin::Load(_) => "a load".to_owned(),
-            ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
-        };
-        let title = format!("Force on block {on} from {by}: {}", force(segment.force));
-        let drawn = Group::with_class("force").titled(title);
-        let drawn = drawn.with(path(line(segment), width(pen, segment)));
-        group.items.push(drawn.into());
+        let step = (WIDTH_STEPS * width(pen, segment) / most).round() as usize;
+        let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
+        steps[step.min(WIDTH_STEPS as usize)].extend(line);
     }
-    group
+    let drawn = steps.into_iter().enumerate();
+    let drawn = drawn.filter(|(_, outline)| !outline.segments.is_empty());
+    drawn
+        .map(|(step, outline)| {
+            let width = most * step as f64 / WIDTH_STEPS;
+            stroked(pen, found, outline, width, through).into()
+        })
+        .collect()
+}
+
+/// What a piece of the line tells: the force along it, or between which joints it runs.
+fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
+    let on = &scene.blocks[segment.on.0].id;
+    let by = match segment.origin {
+        ForceOrigin::Contact(number) => {
+            let [a, b] = found.contacts[number].interface.bodies;
+            let other = if a == BodyId::Block(segment.on) { b } else { a };
+            description::named(scene, other)
+        }
+        ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        ForceOrigin::Load(_) => "a load".to_owned(),
+        ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
+    };
+    let force = force(segment.force);
+    if segment.through {
+        format!("Force on block {on} from {by}: {force}")
+    } else {
+        format!("Schematic path through block {on} of the force from {by}: {force}")
+    }
 }
 
 /// A dot where each interface's resultant sits, and where a robot grips.
@@ -293,14 +463,4 @@ fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
 
 fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
-}
-
-/// A joint with a short piece on either side.
-fn end_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let dot = at.moved(13.0, 0.0);
-    let piece = Outline::line([at.moved(3.0, 0.0), at.moved(23.0, 0.0)]);
-    vec![
-        Path::stroked(piece, Stroke::new(colour(theme), 2.6)).into(),
-        dot_at(dot, 3.2, theme).into(),
-    ]
 }

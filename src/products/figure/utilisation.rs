@@ -1,4 +1,5 @@
-//! Utilisation: how much of the friction available each interface uses, and of its limits each robot.
+//! Utilisation: the share of the available friction that each interface uses, and the share of its limits that each robot
+//! uses.
 //!
 //! The forces are those of one balance of many: another may use less here and more there.
 
@@ -130,7 +131,7 @@ fn limited(scene: &Scene, robot: usize) -> bool {
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
-/// Where most of the friction, and of the robots' limits, is used.
+/// The interface and the robot with the largest utilisation, in words.
 fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
     let bearings = bearings(scene, found);
@@ -160,7 +161,7 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     let robots = || found.robots.iter().filter(|r| limited(scene, r.robot.0));
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
-    // Those that give as much but for rounding are told together: the noise of a solution names none of them.
+    // Robots with equal utilisation are named together: rounding must not select one of them.
     let giving = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
     let giving: Vec<_> = giving.into_iter().flatten().collect();
     match giving.as_slice() {
@@ -204,7 +205,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
     Stroke::new(theme.faint, width).dashed([3.0 * width, 2.4 * width])
 }
 
-/// Interfaces without force, and those with.
+/// The lines of interfaces without force, and of those with force.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -274,7 +275,7 @@ fn bar_width(bold: f64) -> f64 {
     (0.3 * bold).clamp(0.8, 1.6)
 }
 
-/// The rim that sets a line off from blocks of any colour.
+/// A line with a border that makes it visible on blocks of any colour.
 fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
     Path::stroked(line, Stroke::new(edge(theme), bold + 2.0 * rim))
 }
@@ -283,7 +284,7 @@ fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
-    // A unit normal is as long on the page as the scale makes it.
+    // A unit normal has the same length in all directions on the page.
     let (x, y) = (
         contact.interface.normal.x * half,
         -contact.interface.normal.y * half,
@@ -291,7 +292,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
-/// The discs of robots with limits once more, filled by how far those are used.
+/// The discs of robots with limits, filled in proportion to their utilisation.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");

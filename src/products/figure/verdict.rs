@@ -1,10 +1,10 @@
-//! The verdict at a glance: its mark. Its words are those of the room [`wording`](crate::wording). Never colour alone.
+//! Draws the mark of a verdict. Its words come from [`wording`](crate::wording). Colour is never the only sign.
 
-use crate::analysis::Verdict;
+use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 pub(crate) use crate::wording::verdict::{plain as word, reason};
 
-/// The colour of its mark.
+/// The colour of the mark.
 pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     match verdict {
         Verdict::Stable => theme.stands,
@@ -13,11 +13,38 @@ pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     }
 }
 
-/// A disc of radius `r` with a tick, a cross or a question mark.
+/// The word of a frame's badge.
+pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
+    match found.only_by_wedging {
+        Some(true) if found.verdict == Verdict::Stable => "stands only by wedging",
+        _ => word(found.verdict),
+    }
+}
+
+/// The colour of a frame's badge: what stands only by wedging is no plain "stands".
+pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
+    match found.only_by_wedging {
+        Some(true) if found.verdict == Verdict::Stable => theme.undecided,
+        _ => colour(found.verdict, theme),
+    }
+}
+
+/// The mark of a verdict in its own colour.
 pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
+    mark_in(colour(verdict, theme), verdict, centre, r, theme)
+}
+
+/// A disc of radius `r` with a tick, a cross or a question mark.
+pub(crate) fn mark_in(
+    colour: Colour,
+    verdict: Verdict,
+    centre: PagePoint,
+    r: f64,
+    theme: &Theme,
+) -> Group {
     let at = |x: f64, y: f64| centre.moved(x * r, y * r);
     let pen = || Stroke::new(theme.page, 0.24 * r);
-    let disc = Path::filled(Outline::circle(centre, r), colour(verdict, theme));
+    let disc = Path::filled(Outline::circle(centre, r), colour);
     let group = Group::with_class("verdict").with(disc);
     match verdict {
         Verdict::Stable => group.with(Path::stroked(

@@ -1,4 +1,4 @@
-//! [`shown`]: what each frame shows of the scene. Ground that reaches far beyond the blocks is cut.
+//! [`shown`]: the part of the scene that each frame shows. Ground far from the blocks is cut.
 
 use super::arrow::Marks;
 use crate::drawing::arrow::HEAD_WIDTH;
@@ -10,12 +10,12 @@ const GROUND_BEYOND: f64 = 0.12;
 /// A piece of ground near the structure is shown whole if neither side is longer than this, unit edges.
 const WHOLE_GROUND: f64 = 3.0;
 /// A zoomed view reaches this far beyond its block, as a share of the block's larger side.
-const ZOOM_REACH: f64 = 1.1;
+const ZOOM_REACH: f64 = 0.5;
 /// Space around everything that is shown, unit edges.
 const PADDING: f64 = 0.08;
 
-/// For each frame that has `marks` a box around its blocks, plans, arrows, robots, what its kind of picture shows beside
-/// them, and the ground near any frame's blocks.
+/// For each frame with `marks`: a box around its blocks, plans, arrows and robots, the additional marks of its kind, and
+/// the ground near the blocks of any frame.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
@@ -51,7 +51,7 @@ pub(crate) fn shown(
         .collect()
 }
 
-/// The blocks that a frame shows, placed and planned.
+/// The blocks that a frame shows: placed and planned blocks.
 fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockId> + 'a {
     let planned = frame.plans.iter().map(|plan| plan.block);
     frame
@@ -62,7 +62,7 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
         .filter(|id| id.0 < scene.blocks.len())
 }
 
-/// A box around the ground that figures of a scene show, `unit` metres being a unit edge; `None` for no ground near.
+/// A box around the ground that figures of a scene show; `None` if no ground is near. `unit` is the unit edge in metres.
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
@@ -86,7 +86,7 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
-/// A block's neighbourhood: a box that reaches beyond it by as much as it is large.
+/// A block's neighbourhood: a box of which the block fills half.
 pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
     bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))
@@ -101,7 +101,7 @@ fn near(p: Point, radius: f64) -> Bounds {
     Bounds { min: p, max: p }.grown(radius)
 }
 
-/// What two boxes have in common, `None` where they are apart.
+/// The intersection of two boxes; `None` if they do not meet.
 pub(crate) fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
     let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
     let size: Vector = max - min;

@@ -1,4 +1,4 @@
-//! Numbers as figures print them: those of the room [`wording`](crate::wording).
+//! The number formats of figures, which come from [`wording`](crate::wording).
 
 pub use crate::wording::number::quantity;
 pub(crate) use crate::wording::number::{

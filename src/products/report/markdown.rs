@@ -2,12 +2,16 @@
 
 use std::fmt::Write as _;
 
-use super::entry::{Chart, Entry, Grid, Step};
-use super::html::slug;
-use super::page::{OutputFile, Report, ReportError};
+use super::entry::{
+    Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetPart, TableCell, overview,
+};
+use super::head::{Head, OutputFile, ReportError, sign, slug};
 use crate::output::svg::{self, Options, Words};
 use crate::text::{self, markdown, markdown_cell};
 use crate::wording::verdict::plain;
+
+/// The number of characters of a bar.
+const BAR: usize = 24;
 
 /// The folder of a report's figures, beside it.
 fn folder(stem: &str) -> String {
@@ -15,14 +19,14 @@ fn folder(stem: &str) -> String {
 }
 
 /// What stands above the scenes.
-pub(super) fn head(report: &Report, summary: &str) -> String {
-    let mut out = format!("# {}\n\n{summary}.\n\n", markdown(&report.title));
-    for note in &report.notes {
+pub(super) fn head(head: &Head<'_>) -> String {
+    let mut out = format!("# {}\n\n{}.\n\n", markdown(head.title), head.summary);
+    for note in head.notes {
         push(&mut out, &format!("{}\n", markdown(note)));
     }
-    if !report.refused.is_empty() {
+    if !head.refused.is_empty() {
         out.push_str("## Files that are no scenes\n\n");
-        for file in &report.refused {
+        for file in head.refused {
             push(&mut out, &format!("- **{}**", markdown(&file.name)));
             for line in file.lines() {
                 push(&mut out, &format!("  - {}", markdown(&line)));
@@ -30,52 +34,8 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
         }
         out.push('\n');
     }
-    if report.pieces.len() > 1 {
-        let margins = report.pieces.iter().any(|p| p.row.closest.is_some());
-        let mut grid = Grid::new(
-            "",
-            &[
-                "name",
-                "verdict",
-                "closest margin",
-                "#friction used, where it stands",
-                "#blocks",
-                "#largest force, where it stands",
-                if report.compares {
-                    "what changed"
-                } else {
-                    "what fails"
-                },
-            ],
-        );
-        for piece in &report.pieces {
-            let row = &piece.row;
-            let closest = row.closest.as_ref().map_or("–", |c| c.0.as_str());
-            let cells = [
-                row.title.clone(),
-                match row.before {
-                    Some(before) => format!("{} → {}", plain(before), plain(row.verdict)),
-                    None => plain(row.verdict).to_owned(),
-                },
-                closest.to_owned(),
-                row.friction_words(),
-                row.blocks.to_string(),
-                row.largest_words(),
-                row.fails.clone(),
-            ];
-            grid.add("", cells);
-        }
-        if !margins {
-            grid.heads.remove(2);
-            for line in &mut grid.lines {
-                line.cells.remove(2);
-            }
-        }
-        // The names are links to their scenes.
-        table(&mut out, &grid, &|place, words| match place {
-            (line, 0) => format!("[{words}](#scene-{})", line + 1),
-            _ => words,
-        });
+    if head.rows.len() > 1 {
+        table(&mut out, &overview(&head.rows, head.compares, None));
     }
     out
 }
@@ -91,47 +51,30 @@ pub(super) fn section(
     number: usize,
     stem: &str,
 ) -> Result<(String, Vec<OutputFile>), ReportError> {
-    let mut out = String::new();
-    let mut files = Vec::new();
     let row = &entry.row;
-    let place = format!("{}/{number:04}-{}", folder(stem), slug(&row.title));
-    push(
-        &mut out,
-        &format!(
-            "<a id=\"scene-{number}\"></a>\n\n## {}: {}\n",
-            markdown(&row.title),
-            match row.before {
-                Some(before) => format!("{} → {}", plain(before), plain(row.verdict)),
-                None => plain(row.verdict).to_owned(),
-            }
-        ),
-    );
-    push(&mut out, &format!("File: {}\n", markdown(&row.name)));
-    for remark in &entry.remarks {
-        push(&mut out, &format!("{}\n", markdown(remark)));
+    let mut writer = Writer {
+        out: String::new(),
+        files: Vec::new(),
+        place: format!("{}/{number:04}-{}", folder(stem), slug(&row.title)),
+    };
+    let title = format!("{}: {}", markdown(&row.title), row.verdict_words());
+    writer.line(&format!("<a id=\"scene-{number}\"></a>\n\n## {title}\n"));
+    for detail in &entry.details {
+        writer.line(&format!("{}\n", markdown(detail)));
     }
-    for step in &entry.steps {
-        self::step(&mut out, &mut files, step, &place)?;
+    for section in &entry.sections {
+        writer.section(section)?;
     }
-    for (which, chart) in entry.charts.iter().chain(&entry.study).enumerate() {
-        self::chart(
-            &mut out,
-            &mut files,
-            chart,
-            &format!("{place}-over-{}", which + 1),
-        );
-    }
+    let file = markdown(&row.name);
+    writer.line(&format!("File: {file}; {}\n", markdown(&entry.origin)));
     if !entry.commands.is_empty() {
-        push(&mut out, "Make it again:\n");
+        writer.line("Make it again:\n");
         for (what, command) in &entry.commands {
-            push(
-                &mut out,
-                &format!("- {}: {}", markdown(what), code(command)),
-            );
+            writer.line(&format!("- {}: {}", markdown(what), code(command)));
         }
-        out.push('\n');
+        writer.line("");
     }
-    Ok((out, files))
+    Ok((writer.out, writer.files))
 }
 
 /// Words as code, between more backticks than they hold.
@@ -148,89 +91,158 @@ fn code(words: &str) -> String {
     }
 }
 
-fn step(
-    out: &mut String,
-    files: &mut Vec<OutputFile>,
-    step: &Step,
-    place: &str,
-) -> Result<(), ReportError> {
-    if !step.letter.is_empty() {
-        let (letter, title) = (&step.letter, markdown(&step.title));
-        push(
-            out,
-            &format!("### ({letter}) {title}: {}\n", plain(step.verdict)),
-        );
+struct Writer {
+    out: String,
+    files: Vec<OutputFile>,
+    /// The beginning of the names of the figures.
+    place: String,
+}
+
+impl Writer {
+    fn line(&mut self, line: &str) {
+        push(&mut self.out, line);
     }
-    push(out, &format!("{}\n", markdown(&step.sentence)));
-    for remark in &step.remarks {
-        push(out, &format!("{}\n", markdown(remark)));
+
+    fn section(&mut self, section: &Section) -> Result<(), ReportError> {
+        match (section.letter.as_str(), section.title.as_str()) {
+            ("", "") => {}
+            ("", title) => self.line(&format!("### {}\n", markdown(title))),
+            (letter, title) => {
+                let verdict = plain(section.verdict);
+                self.line(&format!("### ({letter}) {}: {verdict}\n", markdown(title)));
+            }
+        }
+        self.parts(&section.parts)
     }
-    for (number, plate) in step.plates.iter().enumerate() {
+
+    fn parts(&mut self, parts: &[SheetPart]) -> Result<(), ReportError> {
+        for part in parts {
+            match part {
+                SheetPart::Badge(badge) => self.badge(badge),
+                SheetPart::Heading(words) => self.line(&format!("#### {}\n", markdown(words))),
+                SheetPart::Text(words) | SheetPart::Note(words) => {
+                    self.line(&format!("{}\n", markdown(words)));
+                }
+                SheetPart::Figures(figures) => {
+                    for figure in figures {
+                        self.figure(figure)?;
+                    }
+                }
+                SheetPart::Table(grid) => table(&mut self.out, grid),
+                SheetPart::Columns(columns) => {
+                    for column in columns {
+                        self.parts(column)?;
+                    }
+                }
+                SheetPart::Charts(charts) => charts.iter().for_each(|chart| self.chart(chart)),
+                SheetPart::NewPage => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn badge(&mut self, badge: &Badge) {
+        let mark = sign(badge.verdict);
+        let verdict = plain(badge.verdict);
+        let headline = match badge.headline.as_str() {
+            "" => String::new(),
+            words => format!(" {}.", markdown(words)),
+        };
+        self.line(&format!("**{mark} {verdict}.{headline}**\n"));
+        if let Some(bar) = &badge.bar {
+            let words = markdown(&bar.short());
+            self.line(&format!("`{}` {words}\n", drawn(bar)));
+        }
+        self.line(&format!("{}\n", markdown(&badge.sentence)));
+    }
+
+    fn file(&mut self, svg: Vec<u8>) -> String {
+        let name = format!("{}-{}.svg", self.place, self.files.len() + 1);
+        self.files.push((name.clone(), svg));
+        name
+    }
+
+    fn figure(&mut self, figure: &Figure) -> Result<(), ReportError> {
         // Letters as outlines: whoever shows the page may have other fonts.
         let options = Options {
             words: Words::Outlines,
             ..Options::default()
         };
-        let svg = svg::write_with(&plate.drawing, &options)?;
-        let name = format!("{place}{}-{}.svg", dash(&step.letter), number + 1);
-        let caption = markdown(&plate.caption);
-        push(out, &format!("![{caption}](<{name}>)\n\n*{caption}*\n"));
-        files.push((name, svg.into_bytes()));
+        let svg = svg::write_with(&figure.drawing, &options)?;
+        let name = self.file(svg.into_bytes());
+        let caption = markdown(&figure.caption);
+        self.line(&format!("![{caption}](<{name}>)\n\n*{caption}*\n"));
+        Ok(())
     }
-    if !step.bullets.is_empty() {
-        let mut grid = Grid::new("Margins", &["margin", "in words"]);
-        for bullet in &step.bullets {
-            grid.add("", [bullet.name.clone(), bullet.words.clone()]);
-        }
-        table(out, &grid, &|_, words| words);
-    }
-    for grid in &step.grids {
-        table(out, grid, &|_, words| words);
-    }
-    if !step.proof.is_empty() {
-        push(out, &format!("{}\n", markdown(&step.proof)));
-    }
-    for (number, chart) in step.charts.iter().enumerate() {
-        let name = format!("{place}{}-chart-{}", dash(&step.letter), number + 1);
-        self::chart(out, files, chart, &name);
-    }
-    Ok(())
-}
 
-fn dash(letter: &str) -> String {
-    if letter.is_empty() {
-        String::new()
-    } else {
-        format!("-{letter}")
+    fn chart(&mut self, chart: &Chart) {
+        // A file of its own says what it is.
+        let name = self.file(chart.document().into_owned().into_bytes());
+        let caption = markdown(&chart.caption);
+        self.line(&format!("![{caption}](<{name}>)\n\n*{caption}*\n"));
     }
 }
 
-fn chart(out: &mut String, files: &mut Vec<OutputFile>, chart: &Chart, name: &str) {
-    let caption = markdown(&chart.caption);
-    push(out, &format!("![{caption}](<{name}.svg>)\n\n*{caption}*\n"));
-    // A file of its own says what it is.
-    let svg = chart.document().into_owned();
-    files.push((format!("{name}.svg"), svg.into_bytes()));
+/// A margin as a row of characters: full where it stands, a disc or a cross where it is now.
+fn drawn(bar: &MarginBar) -> String {
+    let place = |value: f64| {
+        let share = bar.share(value);
+        // A share is within 0 … 1.
+        ((share * BAR as f64) as usize).min(BAR - 1)
+    };
+    let mut cells = ['─'; BAR];
+    if let Some((from, to)) = bar.safe {
+        cells[place(from)..=place(to)].fill('█');
+    }
+    if let Some((least, _)) = bar.now {
+        cells[place(least)] = match bar.is_inside() {
+            true => '●',
+            false => '✗',
+        };
+    }
+    cells.iter().collect()
 }
 
-fn table(out: &mut String, grid: &Grid, cell: &dyn Fn((usize, usize), String) -> String) {
+fn cell(cell: &TableCell) -> String {
+    if let Some(bar) = &cell.bar {
+        return format!("`{}`", drawn(bar));
+    }
+    let words = markdown_cell(&cell.words);
+    match (cell.scene, cell.strong && !words.is_empty()) {
+        (Some(scene), _) => format!("[{words}](#scene-{scene})"),
+        (None, true) => format!("**{words}**"),
+        (None, false) => words,
+    }
+}
+
+fn table(out: &mut String, grid: &Grid) {
+    if grid.lines.is_empty() {
+        return;
+    }
+    // Pictures are left out: a table of Markdown holds words.
+    let pictured = |column: &usize| {
+        let mut cells = grid.lines.iter().filter_map(|l| l.cells.get(*column));
+        cells.any(|c| c.picture.is_some())
+    };
+    let columns: Vec<usize> = (0..grid.heads.len()).filter(|c| !pictured(c)).collect();
     if !grid.caption.is_empty() {
         push(out, &format!("**{}**\n", markdown(&grid.caption)));
     }
-    let heads: Vec<String> = grid.heads.iter().map(|h| markdown_cell(&h.0)).collect();
-    push(out, &format!("| {} |", heads.join(" | ")));
-    let rules: Vec<&str> = grid
-        .heads
+    let heads = columns.iter().map(|c| markdown_cell(&grid.heads[*c].0));
+    push(
+        out,
+        &format!("| {} |", heads.collect::<Vec<_>>().join(" | ")),
+    );
+    let rules = columns
         .iter()
-        .map(|h| if h.1 { "---:" } else { "---" })
-        .collect();
-    push(out, &format!("|{}|", rules.join("|")));
-    for (number, line) in grid.lines.iter().enumerate() {
-        let cells = line.cells.iter().enumerate();
-        let cells: Vec<String> = cells
-            .map(|(i, words)| cell((number, i), markdown_cell(words)))
-            .collect();
-        push(out, &format!("| {} |", cells.join(" | ")));
+        .map(|c| if grid.heads[*c].1 { "---:" } else { "---" });
+    push(out, &format!("|{}|", rules.collect::<Vec<_>>().join("|")));
+    for line in &grid.lines {
+        let cells = columns.iter().filter_map(|c| line.cells.get(*c)).map(cell);
+        push(
+            out,
+            &format!("| {} |", cells.collect::<Vec<_>>().join(" | ")),
+        );
     }
     out.push('\n');
 }

@@ -10,6 +10,8 @@ pub mod book;
 #[cfg(feature = "report")]
 pub mod entry;
 #[cfg(feature = "report")]
+mod head;
+#[cfg(feature = "report")]
 mod html;
 #[cfg(feature = "report")]
 mod markdown;

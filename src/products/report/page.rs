@@ -4,13 +4,13 @@
 //! and its analysis are then dropped. A report on a thousand scenes therefore needs only the memory of its own text, and
 //! several threads can write the pieces in any order.
 
+pub use super::head::{OutputFile, Refused, ReportError};
+
 use super::entry::{Entry, Row};
+use super::head::Head;
 use super::{html, markdown, print};
 use crate::analysis::Verdict;
-use crate::output::pdf::PdfError;
 use crate::result::{Counts, Layout, refusal, report_json};
-use crate::scene::Problem;
-use crate::text;
 use crate::wording::number::counted;
 
 /// The form of a report.
@@ -27,18 +27,6 @@ pub enum Form {
     /// JSON for programs.
     Json,
 }
-
-/// A file that is not a valid scene, with its problems.
-#[derive(Clone, Debug)]
-pub struct Refused {
-    /// The path as given by the user.
-    pub name: String,
-    /// The problems of the scene. A file that cannot be read has one problem without a place.
-    pub problems: Vec<Problem>,
-}
-
-/// A file to write: its name, with `/` between folders, and its content.
-pub type OutputFile = (String, Vec<u8>);
 
 /// The part of a report for one scene.
 #[derive(Debug)]
@@ -72,23 +60,6 @@ pub struct Report {
     pub dark: Option<bool>,
 }
 
-/// An error while writing a report.
-#[derive(Debug, thiserror::Error)]
-#[error("the report could not be written: {0}")]
-pub struct ReportError(String);
-
-impl From<PdfError> for ReportError {
-    fn from(error: PdfError) -> ReportError {
-        ReportError(error.to_string())
-    }
-}
-
-impl From<crate::output::svg::OutlineError> for ReportError {
-    fn from(error: crate::output::svg::OutlineError) -> ReportError {
-        ReportError(error.to_string())
-    }
-}
-
 impl Piece {
     /// Writes the part of a report for one scene. `number` counts from 1; `stem` begins the names of figure files.
     ///
@@ -105,7 +76,10 @@ impl Piece {
             Form::Json => Body::Text(json(entry)),
         };
         Ok(Piece {
-            row: entry.row.clone(),
+            row: Row {
+                number,
+                ..entry.row.clone()
+            },
             body,
         })
     }
@@ -116,17 +90,23 @@ fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
         several => {
-            let stated: Vec<String> = entry
-                .steps
+            let stated = entry
+                .changes
                 .iter()
-                .map(|s| crate::result::quoted(&s.sentence))
-                .collect();
+                .map(|words| crate::result::quoted(words));
+            let stated: Vec<String> = stated.collect();
             format!(
                 "{{\"changes\":[{}],\"scenes\":[{}]}}",
                 stated.join(","),
                 several.join(",")
             )
         }
+    }
+}
+
+impl Default for Body {
+    fn default() -> Body {
+        Body::Text(String::new())
     }
 }
 
@@ -183,45 +163,57 @@ impl Report {
         words
     }
 
+    /// What stands above the scenes.
+    fn head(&self) -> Head<'_> {
+        Head {
+            title: &self.title,
+            summary: self.summary(),
+            notes: &self.notes,
+            refused: &self.refused,
+            rows: self.pieces.iter().map(|p| &p.row).collect(),
+            compares: self.compares,
+            dark: self.dark,
+        }
+    }
+
     /// The files of the report, the main file first. `stem` is its name without the extension.
     ///
     /// # Errors
     /// If a PDF cannot be written.
-    pub fn files(self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
-        let summary = self.summary();
+    pub fn files(mut self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
+        let bodies: Vec<Body> = self
+            .pieces
+            .iter_mut()
+            .map(|p| std::mem::take(&mut p.body))
+            .collect();
+        let head = self.head();
+        let texts = || bodies.iter().map(Body::text).collect::<Vec<_>>();
         match form {
             Form::Html => {
-                let bodies: Vec<&str> = self.pieces.iter().map(Piece::text).collect();
-                let page = html::whole(&self, &summary, &bodies);
+                let page = html::whole(&head, &texts());
                 Ok(vec![(format!("{stem}.html"), page.into_bytes())])
             }
-            Form::Split => Ok(html::split(&self, &summary)),
+            Form::Split => Ok(html::split(&head, &texts())),
             Form::Markdown => {
-                let head = markdown::head(&self, &summary);
-                let mut text = head;
-                let mut files = Vec::new();
-                for piece in self.pieces {
-                    if let Body::Files(words, made) = piece.body {
-                        text.push_str(&words);
+                let text = markdown::head(&head) + &texts().concat();
+                let mut files = vec![(format!("{stem}.md"), text.into_bytes())];
+                for body in bodies {
+                    if let Body::Files(_, made) = body {
                         files.extend(made);
                     }
                 }
-                files.insert(0, (format!("{stem}.md"), text.into_bytes()));
                 Ok(files)
             }
             Form::Pdf => {
-                let mut pages = print::head(&self, &summary);
-                for piece in self.pieces {
-                    if let Body::Sheets(more) = piece.body {
-                        pages.extend(more);
-                    }
-                }
-                let bytes = print::written(&mut pages, &self.title, &summary)?;
+                let scenes = bodies.into_iter().map(|body| match body {
+                    Body::Sheets(pages) => pages,
+                    _ => Vec::new(),
+                });
+                let bytes = printed(&head, scenes.collect())?;
                 Ok(vec![(format!("{stem}.pdf"), bytes)])
             }
             Form::Json => {
-                let mut objects: Vec<String> =
-                    self.pieces.iter().map(|p| p.text().to_owned()).collect();
+                let mut objects: Vec<String> = texts().into_iter().map(str::to_owned).collect();
                 let refused = self.refused.iter();
                 objects.extend(refused.map(|r| refusal(&r.name, &r.problems, Layout::OneLine)));
                 let list = if self.compares {
@@ -236,33 +228,39 @@ impl Report {
     }
 }
 
-impl Piece {
-    pub(super) fn text(&self) -> &str {
-        match &self.body {
-            Body::Text(text) => text,
-            Body::Files(text, _) => text,
+impl Body {
+    fn text(&self) -> &str {
+        match self {
+            Body::Text(text) | Body::Files(text, _) => text,
             Body::Sheets(_) => "",
         }
     }
 }
 
-impl Refused {
-    /// The problems, one line each: place, message and remedy.
-    pub fn lines(&self) -> Vec<String> {
-        let described = self.problems.iter().map(|problem| {
-            let place = match (problem.line, problem.path.as_str()) {
-                (0, "") => String::new(),
-                (0, path) => format!("{path}: "),
-                (line, "") => format!("line {line}, column {}: ", problem.column),
-                (line, path) => format!("line {line}, column {}, {path}: ", problem.column),
-            };
-            let help = if problem.help.is_empty() {
-                String::new()
-            } else {
-                format!(" ({})", problem.help)
-            };
-            text::line(&format!("{place}{}{help}", problem.message))
-        });
-        described.collect()
+/// The PDF of a report. A report on one scene has no pages before it, unless there is more to say.
+fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, ReportError> {
+    let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
+    // The page numbers in the table of contents do not change its length.
+    let first = if is_short {
+        0
+    } else {
+        print::head(head, &vec![999; scenes.len()]).len()
+    };
+    // By the numbers of the scenes, which may have been sorted.
+    let mut starts = vec![0; scenes.len()];
+    let mut next = first;
+    for (row, pages) in head.rows.iter().zip(&scenes) {
+        if let Some(start) = starts.get_mut(row.number - 1) {
+            *start = next;
+        }
+        next += pages.len();
     }
+    let numbers: Vec<usize> = starts.iter().map(|page| page + 1).collect();
+    let mut pages = if is_short {
+        Vec::new()
+    } else {
+        print::head(head, &numbers)
+    };
+    pages.extend(scenes.into_iter().flatten());
+    print::written(&mut pages, head.title, &head.summary, &starts)
 }

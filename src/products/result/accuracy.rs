@@ -71,7 +71,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// A study as one JSON object, times in seconds, forces in newtons, errors relative; ends with a line feed.
+/// A study as one JSON object that ends with a line feed. Times are in seconds, forces in newtons, and errors are relative.
 pub fn accuracy_json(study: &Study) -> String {
     let page = Page {
         drystone: env!("CARGO_PKG_VERSION"),

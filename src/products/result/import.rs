@@ -1,4 +1,4 @@
-//! What an import did, for programs.
+//! The log of an import as JSON.
 
 use serde::Serialize;
 
@@ -6,8 +6,8 @@ use crate::import::Imported;
 use crate::scene::format::Lines;
 use crate::text;
 
-/// What an import did as one JSON object: how the drawing was understood, what was not taken, and what was moved so that it
-/// touches. Ends with a line feed.
+/// The log of an import as one JSON object that ends with a line feed: how the drawing was interpreted, what was ignored,
+/// and what was moved to close gaps.
 ///
 /// # Units
 /// Metres.

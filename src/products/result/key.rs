@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::scene::Code;
 
-/// What stands behind a key.
+/// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
     /// Any text.
@@ -15,7 +15,7 @@ pub enum Type {
     Word(&'static [&'static str]),
     /// `true` or `false`.
     Flag,
-    /// `true`, `false`, or `null` where it stays open.
+    /// `true`, `false`, or `null` if it could not be decided.
     FlagOrOpen,
     /// A whole number, at least 0.
     Count,
@@ -25,9 +25,9 @@ pub enum Type {
     Number,
     /// A number, or `"unbounded"`.
     Bound,
-    /// A number, `null` where no value will do, or `"unbounded"` where any will.
+    /// A number; `null` if the frame stands at no value; `"unbounded"` if it stands at every value.
     Margin,
-    /// Two ends, `[low, high]`: each a number, `null` without end or `"withheld"`; `null` where the interval is empty.
+    /// Two ends, `[low, high]`: each a number, `null` for no limit, or `"withheld"`; `null` for an empty interval.
     Interval,
     /// Two lists of motions, beyond the lower and beyond the upper end.
     MotionPairs,
@@ -52,13 +52,13 @@ pub enum Type {
 /// A key of a result.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Where it stands: `frames[].robots[].force`; `*` is any robot's name.
+    /// Its path, for example `frames[].robots[].force`; `*` stands for the name of any robot.
     pub path: &'static str,
-    /// What stands behind it.
+    /// The type of its value.
     pub kind: Type,
     /// Its unit; empty where it has none.
     pub unit: &'static str,
-    /// When it is there; empty for always.
+    /// When the key is present; empty for always.
     pub when: &'static str,
     /// What it means.
     pub meaning: &'static str,
@@ -82,7 +82,7 @@ const fn key(
 
 const ASKED: &str = "with `--margins`";
 /// Present only if this margin was requested; without names all are.
-const NAMED: &str = "where asked for";
+const NAMED: &str = "where requested";
 
 /// Every key of a result, in the order in which a result has them.
 #[rustfmt::skip]
@@ -90,86 +90,86 @@ pub const KEYS: &[Key] = &[
     key("drystone", Type::Text, "", "", "version of the program"),
     key("file", Type::Text, "", "from the command line", "the path as given, with the file's name where that is a folder; `-` for standard input"),
     key("scene", Type::Text, "", "", "the scene's title; empty where it has none"),
-    key("contact_tolerance", Type::Object, "", "", "how close is close, and what was moved within it"),
-    key("contact_tolerance.gap", Type::Number, "m", "", "edges this close touch; 0 on a lattice"),
-    key("contact_tolerance.from", Type::Word(&["lattice", "given", "decimals", "significant_digits", "float32", "size", "noise"]), "", "", "where it comes from: the lattice is exact, it was given, or it was estimated from how coordinates are written or from the scene's size"),
-    key("contact_tolerance.digits", Type::Count, "", "from decimals or digits", "how many digits the coordinates have"),
-    key("contact_tolerance.healed_within", Type::Number, "m", "", "corners and edges this close were made one"),
-    key("contact_tolerance.moved_corners", Type::Count, "", "", "how many corners that moved"),
-    key("contact_tolerance.largest_move", Type::Number, "m", "", "how far the farthest moved"),
-    key("notes", Type::Objects, "", "where there are some, unless `--no-notes`", "what is allowed in the scene and seldom meant"),
-    key("notes[].code", Type::Text, "", "", "what sort of note, a stable word; see the list"),
-    key("notes[].path", Type::Text, "", "", "where in the scene, as `robots[0].at`"),
+    key("contact_tolerance", Type::Object, "", "", "how close two edges must be to touch, and which corners were moved within that distance"),
+    key("contact_tolerance.gap", Type::Number, "m", "", "edges at most this far apart touch; 0 on a lattice"),
+    key("contact_tolerance.from", Type::Word(&["lattice", "given", "decimals", "significant_digits", "float32", "size", "noise"]), "", "", "the source of the tolerance: the lattice (exact), a given value, or an estimate from the way coordinates are written or from the size of the scene"),
+    key("contact_tolerance.digits", Type::Count, "", "from decimals or digits", "the number of digits of the coordinates"),
+    key("contact_tolerance.healed_within", Type::Number, "m", "", "corners and edges at most this far apart were merged"),
+    key("contact_tolerance.moved_corners", Type::Count, "", "", "the number of corners that were moved by the merging"),
+    key("contact_tolerance.largest_move", Type::Number, "m", "", "the largest distance by which a corner was moved"),
+    key("notes", Type::Objects, "", "where there are some, unless `--no-notes`", "what the scene may contain but its author probably did not intend"),
+    key("notes[].code", Type::Text, "", "", "the kind of note, one of the codes listed below"),
+    key("notes[].path", Type::Text, "", "", "the place in the scene, for example `robots[0].at`"),
     key("notes[].line", Type::Place, "", "", "line in the text, from 1; null where there is none"),
     key("notes[].message", Type::Text, "", "", "what was found"),
-    key("notes[].hint", Type::Text, "", "", "what to do about it, and how to silence it"),
+    key("notes[].hint", Type::Text, "", "", "how to change it, and how to silence the note"),
     key("frames", Type::Objects, "", "", "one for each step; one for a scene without steps"),
     key("frames[].title", Type::Text, "", "", "the step's title; empty where it has none"),
-    key("frames[].verdict", Type::Word(&["stable", "unstable", "undecided"]), "", "", "a balance of forces exists; a motion exists that nothing stops; neither is proved"),
+    key("frames[].verdict", Type::Word(&["stable", "unstable", "undecided"]), "", "", "stable: admissible forces balance all blocks; unstable: a collapse mechanism exists; undecided: neither is proved"),
     key("frames[].doubt", Type::Text, "", "where there is one", "why the frame is undecided"),
-    key("frames[].length", Type::Number, "m", "", "the length L by which torques are weighed against forces in the sums: the median length of the frame's interfaces, corner contacts apart (of two in the middle the shorter); without any the square root of the median block's area, and 1 in an empty frame"),
+    key("frames[].length", Type::Number, "m", "", "the length L that turns torques into forces in the sums: the median length of the frame's interfaces without corner contacts (the shorter of the two in the middle); in a frame without interfaces the square root of the median block's area; 1 in an empty frame"),
     key("frames[].total_force", Type::Number, "N", "", "sum of the amounts of all forces, Σ(N₁ + N₂ + \\|T\\|) + Σ(\\|Fx\\| + \\|Fy\\| + \\|M\\|/L)"),
-    key("frames[].total_force_least", Type::Flag, "", "where `false`", "whether that sum is the least possible"),
-    key("frames[].total_force_bound", Type::Number, "N", "where it stands and was shown", "a sum that no balance can do without, from a motion that bounds it"),
-    key("frames[].total_sticking", Type::Number, "N", "", "the same sum over what would have to stick, the `failures`; 0 where stable, but also where nothing that sticks would help (`unsupported`) and where it was not sought (`--verdict-only`)"),
-    key("frames[].weight", Type::Number, "N", "", "weight of all blocks placed, whether they stand or not"),
-    key("frames[].interfaces", Type::Objects, "", "", "where bodies touch; forces are those on `bodies[0]`"),
-    key("frames[].interfaces[].bodies", Type::Names, "", "", "who touches; `ground` is the ground"),
-    key("frames[].interfaces[].kind", Type::Word(&["corner"]), "", "at corner contacts", "a tip that touches an edge or a tip"),
-    key("frames[].interfaces[].ends", Type::Pairs, "m", "", "the ends of the stretch"),
+    key("frames[].total_force_least", Type::Flag, "", "where `false`", "whether that sum is the least possible sum"),
+    key("frames[].total_force_bound", Type::Number, "N", "where it stands and a bound was found", "a lower bound of `total_force` for all balances, from a motion of the blocks (weak duality)"),
+    key("frames[].total_sticking", Type::Number, "N", "", "the same sum over the missing forces in `failures`; 0 where stable, where no adhesion would help (`unsupported`), and with `--verdict-only`, which does not compute it"),
+    key("frames[].weight", Type::Number, "N", "", "the weight of all placed blocks"),
+    key("frames[].interfaces", Type::Objects, "", "", "the contacts between bodies; forces act on `bodies[0]`"),
+    key("frames[].interfaces[].bodies", Type::Names, "", "", "the two bodies that touch; `ground` is the ground"),
+    key("frames[].interfaces[].kind", Type::Word(&["corner"]), "", "at corner contacts", "a corner that touches an edge or another corner"),
+    key("frames[].interfaces[].ends", Type::Pairs, "m", "", "the two ends of the interface"),
     key("frames[].interfaces[].application_points", Type::Pairs, "m", "", "where its two normal forces act: the ends, moved inward by the kernel"),
-    key("frames[].interfaces[].normal", Type::Pair, "", "", "unit vector into `bodies[0]`"),
+    key("frames[].interfaces[].normal", Type::Pair, "", "", "the unit normal, which points into `bodies[0]`"),
     key("frames[].interfaces[].mu", Type::Number, "", "", "friction coefficient"),
     key("frames[].interfaces[].normal_forces", Type::Pair, "N", "", "the two normal forces, at least 0"),
-    key("frames[].interfaces[].friction_force", Type::Number, "N", "", "along (−n_y, n_x), n the normal"),
-    key("frames[].interfaces[].resultant", Type::Object, "", "", "the force of the whole interface"),
-    key("frames[].interfaces[].resultant.at", Type::Pair, "m", "", "where it acts"),
+    key("frames[].interfaces[].friction_force", Type::Number, "N", "", "the friction force, positive along (−n_y, n_x), where n is the normal"),
+    key("frames[].interfaces[].resultant", Type::Object, "", "", "the sum of the forces at the interface"),
+    key("frames[].interfaces[].resultant.at", Type::Pair, "m", "", "the point at which it acts"),
     key("frames[].interfaces[].resultant.force", Type::Pair, "N", "", "the force"),
-    key("frames[].interfaces[].friction_used", Type::Number, "", "", "share of the available friction that is used, 0 to 1, and 0 without friction; where it falls, in the balance that the missing forces complete"),
-    key("frames[].robots", Type::Objects, "", "", "robots that hold a block in this frame, in the scene's order"),
+    key("frames[].interfaces[].friction_used", Type::Number, "", "", "the friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction; in a falling frame for the balance that includes the missing forces"),
+    key("frames[].robots", Type::Objects, "", "", "the robots that hold a block in this frame, in the order of the scene"),
     key("frames[].robots[].id", Type::Text, "", "", "the robot"),
     key("frames[].robots[].holds", Type::Text, "", "", "the block it holds"),
     key("frames[].robots[].at", Type::Pair, "m", "", "its grip point"),
     key("frames[].robots[].force", Type::Pair, "N", "", "its force on the block"),
     key("frames[].robots[].torque", Type::Number, "N·m", "", "its torque on the block, anticlockwise positive"),
-    key("frames[].robots[].limit_used", Type::Number, "", "", "largest share of a limit that is used, 0 to 1, and 0 where there is none or nothing may be given; where it falls, in the balance that the missing forces complete"),
-    key("frames[].failures", Type::Objects, "", "", "what would have to stick; empty where stable, and of what is `unsupported`"),
-    key("frames[].failures[].kind", Type::Word(&["tension", "friction", "robot_force", "robot_torque"]), "", "", "a contact pulled open, one that slides, a robot's missing force or torque"),
-    key("frames[].failures[].bodies", Type::Names, "", "at contacts", "between whom"),
-    key("frames[].failures[].robot", Type::Text, "", "at robots", "which robot"),
+    key("frames[].robots[].limit_used", Type::Number, "", "", "the largest share of a limit that the robot uses, from 0 to 1; 0 for a robot without limits, or with all limits 0; in a falling frame for the balance that includes the missing forces"),
+    key("frames[].failures", Type::Objects, "", "", "the forces that are missing, where the structure would have to stick together; empty where stable; blocks that are `unsupported` have none"),
+    key("frames[].failures[].kind", Type::Word(&["tension", "friction", "robot_force", "robot_torque"]), "", "", "a contact that opens, a contact that slides, a force or a torque that a robot cannot give"),
+    key("frames[].failures[].bodies", Type::Names, "", "at contacts", "the two bodies in contact"),
+    key("frames[].failures[].robot", Type::Text, "", "at robots", "the robot"),
     key("frames[].failures[].holds", Type::Text, "", "at robots", "the block it holds"),
-    key("frames[].failures[].at", Type::Pair, "m", "", "where"),
+    key("frames[].failures[].at", Type::Pair, "m", "", "the point at which the force is missing"),
     key("frames[].failures[].force", Type::Pair, "N", "unless a torque is missing", "the missing force, on `bodies[0]` or on the block"),
     key("frames[].failures[].torque", Type::Number, "N·m", "where a torque is missing", "the missing torque"),
-    key("frames[].failures[].amount", Type::Number, "N or N·m", "", "how much is missing: the force's amount, \\|Fx\\| + \\|Fy\\| of a robot, N·m for a torque"),
-    key("frames[].unsupported", Type::NameList, "", "where there are some", "blocks that no sticking at the contacts and grips could hold"),
-    key("frames[].mechanism", Type::Motions, "", "", "how the blocks that move begin to; empty where stable"),
-    key("frames[].margins", Type::Object, "", ASKED, "how far the frame is from its edge; a margin is null where no value will do or none was confirmed, which a notice says"),
-    key("frames[].margins.friction", Type::Margin, "", NAMED, "least friction coefficient, the same everywhere, at which it stands"),
-    key("frames[].margins.tilt", Type::Object, "", NAMED, "largest turn of gravity at which it still stands; null where it falls unturned"),
-    key("frames[].margins.tilt.left", Type::Margin, "°", "", "gravity's tip moves to the left"),
-    key("frames[].margins.tilt.right", Type::Margin, "°", "", "gravity's tip moves to the right"),
-    key("frames[].margins.horizontal_load", Type::Object, "", NAMED, "largest horizontal share of all weights"),
+    key("frames[].failures[].amount", Type::Number, "N or N·m", "", "the size of the missing force; \\|Fx\\| + \\|Fy\\| for a robot; in N·m for a torque"),
+    key("frames[].unsupported", Type::NameList, "", "where there are some", "blocks that would fall even if all contacts and grips could stick"),
+    key("frames[].mechanism", Type::Motions, "", "", "the velocities of the blocks as the collapse begins; empty where stable"),
+    key("frames[].margins", Type::Object, "", ASKED, "the distance of the frame from collapse; a margin is null if the frame stands at no value, or if no value was confirmed, which a notice says"),
+    key("frames[].margins.friction", Type::Margin, "", NAMED, "the least friction coefficient, the same at all interfaces, at which the frame stands"),
+    key("frames[].margins.tilt", Type::Object, "", NAMED, "the largest turn of gravity at which the frame stands; null if it falls without a turn"),
+    key("frames[].margins.tilt.left", Type::Margin, "°", "", "gravity turns to the left (clockwise)"),
+    key("frames[].margins.tilt.right", Type::Margin, "°", "", "gravity turns to the right (anticlockwise)"),
+    key("frames[].margins.horizontal_load", Type::Object, "", NAMED, "the largest horizontal force on every block, as a share of its weight"),
     key("frames[].margins.horizontal_load.left", Type::Margin, "", "", "to the left"),
     key("frames[].margins.horizontal_load.right", Type::Margin, "", "", "to the right"),
-    key("frames[].margins.kernel", Type::Margin, "", NAMED, "largest kernel"),
-    key("frames[].margins.load_factor", Type::Margin, "", NAMED, "largest factor on the loads; null also without loads"),
-    key("frames[].margins.robots", Type::ByRobot, "", "", "least limits of each robot that holds a block, by its name; empty where they are not asked for"),
-    key("frames[].margins.robots.*.fx", Type::Margin, "N", "", "least limit of its horizontal force"),
-    key("frames[].margins.robots.*.fy", Type::Margin, "N", "", "least limit of its vertical force"),
-    key("frames[].margins.robots.*.torque", Type::Margin, "N·m", "", "least limit of its torque"),
-    key("frames[].margins.intervals", Type::Object, "", "", "the values of each parameter at which the frame stands, all other things as they are; `null` at an end: without end; `null` for an interval: it stands at no value; `\"withheld\"`: no verdict confirms it, and a notice says why"),
-    key("frames[].margins.intervals.friction", Type::Interval, "", NAMED, "one friction coefficient for every interface, from 0 to 1000"),
-    key("frames[].margins.intervals.tilt", Type::Interval, "°", NAMED, "turn of gravity, negative to the left; loads do not turn"),
-    key("frames[].margins.intervals.horizontal_load", Type::Interval, "", NAMED, "share of all weights that acts across gravity, negative to the left"),
-    key("frames[].margins.intervals.kernel", Type::Interval, "", NAMED, "kernel, from 0 to 1; no upper end where it stands at 1"),
-    key("frames[].margins.intervals.load_factor", Type::Interval, "", "where asked for and there are loads", "factor on the loads, at least 0; 1 is as they are listed"),
-    key("frames[].margins.intervals.robots", Type::ByRobot, "", "where asked for and robots hold blocks", "limits of each robot, each alone, by its name"),
-    key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "limit of its horizontal force"),
-    key("frames[].margins.intervals.robots.*.fy", Type::Interval, "N", "", "limit of its vertical force"),
-    key("frames[].margins.intervals.robots.*.torque", Type::Interval, "N·m", "", "limit of its torque"),
-    key("frames[].margins.notes", Type::NameList, "", "where there are some", "what must be known about an interval, a sentence each"),
-    key("frames[].margins.mechanisms", Type::Object, "", "", "how the blocks begin to move just beyond each margin; empty beyond what has no end or is null"),
+    key("frames[].margins.kernel", Type::Margin, "", NAMED, "the largest kernel"),
+    key("frames[].margins.load_factor", Type::Margin, "", NAMED, "the largest factor on the loads; null also for a frame without loads"),
+    key("frames[].margins.robots", Type::ByRobot, "", "", "the least limits of each robot that holds a block, by its name; empty if they were not requested"),
+    key("frames[].margins.robots.*.fx", Type::Margin, "N", "", "the least sufficient limit of its horizontal force"),
+    key("frames[].margins.robots.*.fy", Type::Margin, "N", "", "the least sufficient limit of its vertical force"),
+    key("frames[].margins.robots.*.torque", Type::Margin, "N·m", "", "the least sufficient limit of its torque"),
+    key("frames[].margins.intervals", Type::Object, "", "", "for each parameter the interval of values at which the frame stands, with all else unchanged; `null` at an end: no limit; `null` for an interval: it stands at no value; `\"withheld\"`: not confirmed by a verdict, and a notice says why"),
+    key("frames[].margins.intervals.friction", Type::Interval, "", NAMED, "the friction coefficient, the same at all interfaces, from 0 to 1000"),
+    key("frames[].margins.intervals.tilt", Type::Interval, "°", NAMED, "the turn of gravity, negative to the left; loads do not turn"),
+    key("frames[].margins.intervals.horizontal_load", Type::Interval, "", NAMED, "the horizontal force on every block as a share of its weight, negative to the left"),
+    key("frames[].margins.intervals.kernel", Type::Interval, "", NAMED, "the kernel, from 0 to 1; no upper end if the frame stands at 1"),
+    key("frames[].margins.intervals.load_factor", Type::Interval, "", "where requested and there are loads", "the factor on the loads, at least 0; 1 stands for the loads of the scene"),
+    key("frames[].margins.intervals.robots", Type::ByRobot, "", "where requested and robots hold blocks", "the limits of each robot by its name; each limit is varied alone"),
+    key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "the limit of its horizontal force"),
+    key("frames[].margins.intervals.robots.*.fy", Type::Interval, "N", "", "the limit of its vertical force"),
+    key("frames[].margins.intervals.robots.*.torque", Type::Interval, "N·m", "", "the limit of its torque"),
+    key("frames[].margins.notes", Type::NameList, "", "where there are some", "remarks on the intervals, one sentence each"),
+    key("frames[].margins.mechanisms", Type::Object, "", "", "the motion of the blocks just beyond each margin; empty for a margin that is unbounded or null"),
     key("frames[].margins.mechanisms.friction", Type::Motions, "", "", "beyond the friction margin"),
     key("frames[].margins.mechanisms.tilt", Type::Object, "", "", "beyond the tilts"),
     key("frames[].margins.mechanisms.tilt.left", Type::Motions, "", "", "to the left"),
@@ -183,79 +183,79 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.mechanisms.robots.*.fx", Type::Motions, "", "", "below its least horizontal limit"),
     key("frames[].margins.mechanisms.robots.*.fy", Type::Motions, "", "", "below its least vertical limit"),
     key("frames[].margins.mechanisms.robots.*.torque", Type::Motions, "", "", "below its least limit of torque"),
-    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "how the blocks begin to move beyond both ends of an interval"),
-    key("frames[].margins.mechanisms.intervals.tilt", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the tilt"),
-    key("frames[].margins.mechanisms.intervals.horizontal_load", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the horizontal load"),
-    key("frames[].margins.mechanisms.intervals.load_factor", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the factor on the loads"),
-    key("frames[].only_by_wedging", Type::FlagOrOpen, "", "with `--wedging`, where it stands", "whether it stands only because blocks are pressed together by their own tightness; null where that stays open, with the reason in the effect"),
-    key("frames[].wedging", Type::Object, "", "with `--wedging`, where `only_by_wedging` is `true`", "what shows it"),
-    key("frames[].wedging.must_press", Type::Objects, "", "", "interfaces that have to press, though nothing presses them"),
+    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "the motion of the blocks just beyond each end of an interval; where an interval is `null` the frame falls as it is, and its `mechanism` is the motion"),
+    key("frames[].margins.mechanisms.intervals.tilt", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the tilt"),
+    key("frames[].margins.mechanisms.intervals.horizontal_load", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the horizontal load"),
+    key("frames[].margins.mechanisms.intervals.load_factor", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the factor on the loads"),
+    key("frames[].only_by_wedging", Type::FlagOrOpen, "", "with `--wedging`, where it stands", "whether the frame stands only because blocks are wedged: they press on each other although no load presses them together; null if this could not be decided, with the reason in the effect"),
+    key("frames[].wedging", Type::Object, "", "with `--wedging`, where `only_by_wedging` is `true`", "the proof of it"),
+    key("frames[].wedging.must_press", Type::Objects, "", "", "interfaces that must carry a normal force in every balance although no load causes one"),
     key("frames[].wedging.must_press[].interface", Type::Count, "", "", "its number in `interfaces`, from 0"),
-    key("frames[].wedging.must_press[].bodies", Type::Names, "", "", "between whom"),
-    key("frames[].wedging.normal_force_at_least", Type::Number, "N", "where it was shown", "with so much in all"),
-    key("frames[].wedging.bound", Type::Objects, "", "where that was shown", "the motion that bounds it from below"),
+    key("frames[].wedging.must_press[].bodies", Type::Names, "", "", "the two bodies"),
+    key("frames[].wedging.normal_force_at_least", Type::Number, "N", "where a bound was found", "a lower bound of the sum of their normal forces"),
+    key("frames[].wedging.bound", Type::Objects, "", "where a bound was found", "the motion that proves the bound"),
     key("frames[].wedging.bound[].block", Type::Text, "", "", "the block"),
-    key("frames[].wedging.bound[].at", Type::Pair, "m", "", "the place about which its spin counts"),
+    key("frames[].wedging.bound[].at", Type::Pair, "m", "", "the point at which the velocity is given"),
     key("frames[].wedging.bound[].velocity", Type::Pair, "", "", "its velocity there"),
     key("frames[].wedging.bound[].spin", Type::Number, "1/m", "", "its spin, anticlockwise"),
-    key("frames[].wedging.gives_way", Type::Objects, "", "", "how blocks move as the joints yield a little"),
+    key("frames[].wedging.gives_way", Type::Objects, "", "", "the motion of the blocks if the joints are slightly elastic"),
     key("frames[].wedging.gives_way[].block", Type::Text, "", "", "the block"),
-    key("frames[].wedging.gives_way[].at", Type::Pair, "m", "", "the place about which its spin counts"),
+    key("frames[].wedging.gives_way[].at", Type::Pair, "m", "", "the point at which the velocity is given"),
     key("frames[].wedging.gives_way[].velocity", Type::Pair, "", "", "its velocity there"),
     key("frames[].wedging.gives_way[].spin", Type::Number, "1/m", "", "its spin, anticlockwise"),
-    key("frames[].wedging.presses_nothing", Type::Flag, "", "", "whether that motion presses no interface at all"),
-    key("frames[].wedging.cases", Type::Count, "", "", "how many ways of pressing and sliding were ruled out"),
-    key("frames[].wedging.ruled_out", Type::Objects, "", "", "these ways; springs at rest have none of them, and there is no other"),
-    key("frames[].wedging.ruled_out[].points", Type::Objects, "", "", "application points of which the case says something"),
-    key("frames[].wedging.ruled_out[].points[].interface", Type::Count, "", "", "its interface, as a number in `interfaces`"),
-    key("frames[].wedging.ruled_out[].points[].point", Type::Count, "", "", "which of its application points, 0 or 1"),
-    key("frames[].wedging.ruled_out[].points[].presses", Type::Flag, "", "", "whether it presses"),
-    key("frames[].wedging.ruled_out[].faces", Type::Objects, "", "", "interfaces with friction of which the case says something"),
-    key("frames[].wedging.ruled_out[].faces[].interface", Type::Count, "", "", "its number in `interfaces`"),
+    key("frames[].wedging.presses_nothing", Type::Flag, "", "", "whether no interface presses in that motion"),
+    key("frames[].wedging.cases", Type::Count, "", "", "the number of cases of pressing and sliding that were ruled out"),
+    key("frames[].wedging.ruled_out", Type::Objects, "", "", "these cases; together they are all possible cases, and no springs at rest belong to any of them"),
+    key("frames[].wedging.ruled_out[].points", Type::Objects, "", "", "the application points that the case restricts"),
+    key("frames[].wedging.ruled_out[].points[].interface", Type::Count, "", "", "the number of its interface in `interfaces`, from 0"),
+    key("frames[].wedging.ruled_out[].points[].point", Type::Count, "", "", "the application point of the interface, 0 or 1"),
+    key("frames[].wedging.ruled_out[].points[].presses", Type::Flag, "", "", "whether the point presses"),
+    key("frames[].wedging.ruled_out[].faces", Type::Objects, "", "", "the interfaces with friction that the case restricts"),
+    key("frames[].wedging.ruled_out[].faces[].interface", Type::Count, "", "", "its number in `interfaces`, from 0"),
     key("frames[].wedging.ruled_out[].faces[].slides", Type::Text, "", "", "`forth` along (−n_y, n_x) of its normal, `back` against it, or `sticks`"),
-    key("frames[].effects", Type::Objects, "", "", "what the frame's mechanics consists of"),
+    key("frames[].effects", Type::Objects, "", "", "the effects that were considered for this frame"),
     key("frames[].effects[].effect", Type::Text, "", "", "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`"),
-    key("frames[].effects[].simulated", Type::Flag, "", "", "whether the frame calls for it"),
-    key("frames[].effects[].why", Type::Text, "", "", "why, or why not"),
-    key("frames[].effects[].unknowns", Type::Count, "", "", "how many unknowns it adds, or would have added"),
-    key("frames[].proof", Type::Object, "", "", "how well the verdict is proved, from outlines and forces alone: of forces where it stands, of a motion where it falls, of either where undecided"),
-    key("frames[].proof.worst_imbalance", Type::Number, "", "of forces", "the share by which each force on a block would have to change, and to move of the block's radius, for balance; the worst block"),
-    key("frames[].proof.worst_share", Type::Number, "", "of forces", "worst imbalance of a block in parts of its own load"),
-    key("frames[].proof.worst_pull", Type::Number, "", "of forces", "largest pull at a contact, in parts of its forces"),
-    key("frames[].proof.worst_slip", Type::Number, "", "of forces", "largest friction beyond μN, or robot's force beyond its limit, in parts of the forces there"),
-    key("frames[].proof.power", Type::Number, "", "of a motion", "power of the loads along the motion less what robots can hold, in parts of the loads of what moves"),
-    key("frames[].proof.worst_violation", Type::Number, "", "of a motion", "worst velocity against which an admissible force could act, the fastest point moving with 1"),
-    key("frames[].proof.no_balance_below", Type::Bound, "", "of a motion", "below this sum of forces, in loads of what moves, nothing balances"),
-    key("frames[].solve", Type::Object, "", "", "how it was found"),
-    key("frames[].solve.method", Type::Text, "", "", "what decided: `closed form`, `kinematic`, `kinematic, refined`, `least residual` or `least sticking`"),
-    key("frames[].solve.iterations", Type::Count, "", "", "iterations of the solver"),
-    key("frames[].solve.programs", Type::Count, "", "", "programs that were solved"),
-    key("frames[].solve.groups", Type::Count, "", "", "groups of blocks that do not touch each other"),
-    key("frames[].solve.reused", Type::Count, "", "", "groups that were taken over from an earlier frame"),
-    key("frames[].solve.seconds", Type::Number, "s", "unless `--no-timing`", "time taken; it and its `stages` are the only values that may differ from run to run"),
-    key("frames[].solve.stages", Type::Object, "", "unless `--no-timing`", "where that time went"),
-    key("frames[].solve.stages.assembly", Type::Number, "s", "", "posing the frame from what each effect contributes"),
-    key("frames[].solve.stages.solution", Type::Number, "s", "", "solving and proving: verdict, forces, what fails, motion"),
-    key("frames[].solve.stages.wedging", Type::Number, "s", "", "whether it stands by wedging only; 0 where not asked for"),
-    key("frames[].solve.stages.margins", Type::Number, "s", "", "the margins; 0 where not asked for"),
-    key("frames[].notices", Type::NameList, "", "where there are some", "what a person should know of this frame"),
+    key("frames[].effects[].simulated", Type::Flag, "", "", "whether the frame needs this effect"),
+    key("frames[].effects[].why", Type::Text, "", "", "the reason"),
+    key("frames[].effects[].unknowns", Type::Count, "", "", "the number of unknowns that it adds, or would have added"),
+    key("frames[].proof", Type::Object, "", "", "how exactly the verdict is proved, computed from outlines, forces and motions alone: by forces where it stands, by a motion where it falls, by either where undecided"),
+    key("frames[].proof.worst_imbalance", Type::Number, "", "of forces", "the smallest share such that the block balances if each force on it changes by at most this share of its amount and moves by at most this share of the block's radius; the largest value of all blocks"),
+    key("frames[].proof.worst_share", Type::Number, "", "of forces", "the unbalanced force on a block as a share of its own load; the largest value of all blocks"),
+    key("frames[].proof.worst_pull", Type::Number, "", "of forces", "the largest tension at a contact as a share of its forces"),
+    key("frames[].proof.worst_slip", Type::Number, "", "of forces", "the largest excess of friction over μN, or of a robot's force over its limit, as a share of the forces there"),
+    key("frames[].proof.power", Type::Number, "", "of a motion", "the power of the loads along the motion, less the power that robots can absorb, as a share of the loads on the moving blocks"),
+    key("frames[].proof.worst_violation", Type::Number, "", "of a motion", "the largest velocity against which an admissible force could act; the fastest point moves with 1"),
+    key("frames[].proof.no_balance_below", Type::Bound, "", "of a motion", "no forces whose sum is below this value balance the blocks, as a multiple of the loads on the moving blocks"),
+    key("frames[].solve", Type::Object, "", "", "how the verdict was found"),
+    key("frames[].solve.method", Type::Text, "", "", "the method that decided: `closed form`, `kinematic`, `kinematic, refined`, `least residual` or `least sticking`"),
+    key("frames[].solve.iterations", Type::Count, "", "", "the number of iterations of the solvers"),
+    key("frames[].solve.programs", Type::Count, "", "", "the number of programs that were solved"),
+    key("frames[].solve.groups", Type::Count, "", "", "the number of groups of blocks that do not touch each other"),
+    key("frames[].solve.reused", Type::Count, "", "", "the number of groups whose result was reused from an earlier frame"),
+    key("frames[].solve.seconds", Type::Number, "s", "unless `--no-timing`", "the time taken; only this value and `stages` may differ from run to run"),
+    key("frames[].solve.stages", Type::Object, "", "unless `--no-timing`", "the same time by stage"),
+    key("frames[].solve.stages.assembly", Type::Number, "s", "", "assembling the bodies, contacts and loads of the frame"),
+    key("frames[].solve.stages.solution", Type::Number, "s", "", "solving and proving: verdict, forces, failures, mechanism"),
+    key("frames[].solve.stages.wedging", Type::Number, "s", "", "the test for wedging; 0 if it was not requested"),
+    key("frames[].solve.stages.margins", Type::Number, "s", "", "the margins; 0 if they were not requested"),
+    key("frames[].notices", Type::NameList, "", "where there are some", "remarks on this frame for a person"),
 ];
 
-/// Every key of what stands in the place of a result where a file is refused.
+/// Every key of the object that replaces the result of a refused file.
 #[rustfmt::skip]
 pub const REFUSAL_KEYS: &[Key] = &[
     key("file", Type::Text, "", "", "the path as given"),
-    key("problems", Type::Objects, "", "", "all that is wrong with it, at least one"),
-    key("problems[].code", Type::Text, "", "", "what sort of problem, a stable word; see the list"),
-    key("problems[].path", Type::Text, "", "", "where in the scene, as `blocks[3].polygon[1]`; empty for the whole file"),
+    key("problems", Type::Objects, "", "", "all problems of the file, at least one"),
+    key("problems[].code", Type::Text, "", "", "the kind of problem, one of the codes listed below"),
+    key("problems[].path", Type::Text, "", "", "the place in the scene, for example `blocks[3].polygon[1]`; empty for the whole file"),
     key("problems[].line", Type::Place, "", "", "line in the text, from 1; null where there is none"),
     key("problems[].column", Type::Place, "", "", "column in characters, from 1; null where there is none"),
-    key("problems[].message", Type::Text, "", "", "what is wrong, with the numbers found"),
-    key("problems[].hint", Type::Text, "", "", "what to do about it"),
+    key("problems[].message", Type::Text, "", "", "the problem, with the numbers found"),
+    key("problems[].hint", Type::Text, "", "", "the remedy"),
 ];
 
 impl Type {
-    /// What stands there, in words.
+    /// The type in words, for the table of keys.
     pub fn words(self) -> String {
         let fixed = match self {
             Type::Word(words) => {
@@ -325,7 +325,8 @@ impl Type {
     }
 }
 
-/// The JSON Schema (draft 2020-12) of what `check --json` prints for one file: a result, or the problems of a refused file.
+/// The JSON Schema (draft 2020-12) of the output of `check --json` for one file: a result, or the problems of a refused
+/// file.
 ///
 /// Later versions add keys; so a program should not refuse those it does not know, and neither does the schema.
 ///
@@ -365,7 +366,7 @@ fn described(kind: Type, meaning: &str) -> Value {
     schema
 }
 
-/// The schema of an object with these keys, and with the objects in it.
+/// The schema of an object with these keys and of the objects inside it.
 fn object(keys: &[Key]) -> Value {
     let mut root = json!({ "type": "object" });
     for key in keys {

@@ -1,4 +1,4 @@
-//! A result as one line of a batch: the scene's origin, and the selected fields of the result.
+//! A result as one line of a batch: the origin of the scene, and the selected fields.
 
 mod name;
 
@@ -21,7 +21,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// The origin that a line of a batch has; `None` where it is not JSON.
+    /// The origin in a line of a batch; `None` if the line is not JSON.
     pub fn of_line(line: &[u8]) -> Option<Origin> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let line = value["line"].as_u64().and_then(|n| usize::try_from(n).ok());
@@ -55,7 +55,7 @@ pub struct Fields {
 }
 
 impl Default for Fields {
-    /// The title and the worst verdict.
+    /// The default fields: the title and the worst verdict.
     fn default() -> Fields {
         Fields {
             chosen: vec![vec!["scene"], vec!["verdict"]],
@@ -103,8 +103,8 @@ impl Fields {
         }
     }
 
-    /// Whether a field is selected by its name, by a part of it, or by the part that contains it. `all` and `frames`
-    /// ask for nothing that results have on request only.
+    /// Whether a field is selected: by its own name, by the name of a part of it, or by the name of the object that
+    /// contains it. `all` and `frames` do not select fields that a result has on request only.
     pub fn ask(&self, path: &[&str]) -> bool {
         let within = |chosen: &Vec<&str>| {
             let short = chosen.len().min(path.len());
@@ -113,13 +113,13 @@ impl Fields {
         self.chosen.iter().any(within)
     }
 
-    /// These, and the margins of every frame unless they or one of them are among them.
+    /// These fields and the margins of every frame, unless some margins are already selected.
     #[must_use]
     pub fn with_margins(self) -> Fields {
         self.with(&["frames", "margins"])
     }
 
-    /// These, and whether every frame stands by wedging only.
+    /// These fields, and whether each frame stands by wedging only.
     #[must_use]
     pub fn with_wedging(self) -> Fields {
         self.with(&["frames", "only_by_wedging"])
@@ -136,7 +136,7 @@ impl Fields {
         self.chosen.iter().any(|path| path == &["all"])
     }
 
-    /// Whether nothing but the title and the worst verdict is wanted, so that [`verdict_line`] does.
+    /// Whether only the title and the worst verdict are selected. Then [`verdict_line`] is sufficient.
     pub fn are_few(&self) -> bool {
         let few = |path: &Vec<&str>| matches!(path[..], ["scene"] | ["verdict"]);
         self.chosen.iter().all(few)
@@ -162,8 +162,7 @@ pub enum PictureOutcome {
     Refused(String),
 }
 
-/// The line for an analysis. Ends with a line feed; the same analysis gives the same bytes, unless `solve.seconds` is
-/// among the fields.
+/// The line for an analysis, with a line feed. The same analysis gives the same bytes, unless `solve.seconds` is selected.
 ///
 /// # Example
 /// ```
@@ -221,7 +220,7 @@ pub fn line_of(
     ended(out)
 }
 
-/// The line of a verdict, where no more than that and the scene's title are wanted. Ends with a line feed.
+/// The line for a verdict and the title of the scene, with a line feed.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
     let mut out = begun(origin);
     put_few(&mut out, title, verdict, fields);
@@ -270,13 +269,13 @@ fn put(out: &mut String, name: &str, value: &Value) {
     out.push_str(&value.to_string());
 }
 
-/// What of the chosen paths lies below a name: an empty path where the name itself is chosen.
+/// The rest of each selected path below a name. The rest is empty if the name itself is selected.
 fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     let under = chosen.iter().filter(|path| path.first() == Some(&name));
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes of a value what is chosen, in the order of the names.
+/// Writes the selected parts of a value, in the order of the names.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

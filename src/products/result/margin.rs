@@ -1,4 +1,4 @@
-//! Margins as JSON: a number, `null` where a frame falls at any value, `"unbounded"` where it stands at any.
+//! Margins as JSON: a number; `null` if the frame falls at every value; `"unbounded"` if it stands at every value.
 //!
 //! A tilt of `null` says that the frame falls unturned; it may stand turned. A margin that no verdict confirms is `null` as
 //! well, and a notice of the frame says between which values it lies. What was not requested is absent.
@@ -15,7 +15,7 @@ use crate::analysis::{
 use crate::scene::Scene;
 use crate::text;
 
-/// The margins of a frame as one JSON object on one line: the same as the frame's `margins` in a result.
+/// The margins of a frame as one JSON object on one line, as in `margins` of the frame's result.
 pub fn margins_json(scene: &Scene, margins: &Found) -> String {
     let json = serde_json::to_string(&Margins::new(scene, margins));
     text::json(&json.expect("plain structures with text keys always serialise into memory"))

@@ -1,4 +1,4 @@
-//! [`to_json`]: an analysis as the JSON object that other programs read.
+//! [`to_json`]: an analysis as a JSON object for other programs.
 //!
 //! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
@@ -11,6 +11,7 @@
 
 #[cfg(feature = "report")]
 mod accuracy;
+mod force;
 #[cfg(feature = "import")]
 mod import;
 #[doc(hidden)]
@@ -28,6 +29,7 @@ use serde::{Serialize, Serializer};
 
 #[cfg(feature = "report")]
 pub use accuracy::accuracy_json;
+use force::{Interface, Missing, Motion, Robot};
 #[cfg(feature = "import")]
 pub use import::import_json;
 pub use key::schema;
@@ -40,13 +42,10 @@ pub use refusal::{problem_line, refusal};
 use solve::Solve;
 use wedging::Wedging;
 
-use crate::analysis::{
-    Analysis, Contact, EffectName, Failure, FrameAnalysis, Motion as Moved, RobotForce,
-};
+use crate::analysis::{Analysis, EffectName, FrameAnalysis};
 use crate::geometry::{Point, Vector};
-use crate::interface::ContactKind;
 use crate::scene::format::Lines;
-use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
+use crate::scene::{BlockId, Scene, ToleranceSource};
 use crate::text;
 pub use crate::wording::verdict::word;
 
@@ -92,7 +91,7 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     written(&Result::new(analysis, timing), layout)
 }
 
-/// Likewise, with the `file` that the scene was read from, as it was given.
+/// Like [`to_json`], with the path of the scene file as `file`.
 pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let mut result = Result::new(analysis, timing);
     result.file = Some(file);
@@ -137,7 +136,7 @@ struct Tolerance {
     largest_move: Number,
 }
 
-/// A total is the least unless the result says that it is not.
+/// For serde: the key is left out if the total is the least.
 fn is_least(least: &bool) -> bool {
     *least
 }
@@ -177,62 +176,6 @@ struct Frame<'a> {
 }
 
 #[derive(Serialize)]
-struct Interface<'a> {
-    bodies: [&'a str; 2],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    kind: Option<&'static str>,
-    ends: [Pair; 2],
-    application_points: [Pair; 2],
-    normal: Pair,
-    mu: Number,
-    normal_forces: [Number; 2],
-    friction_force: Number,
-    resultant: Resultant,
-    friction_used: Number,
-}
-
-#[derive(Serialize)]
-struct Resultant {
-    at: Pair,
-    force: Pair,
-}
-
-#[derive(Serialize)]
-struct Robot<'a> {
-    id: &'a str,
-    holds: &'a str,
-    at: Pair,
-    force: Pair,
-    torque: Number,
-    limit_used: Number,
-}
-
-/// A failure. Exactly one of `bodies` and `robot` is there, and exactly one of `force` and `torque`.
-#[derive(Serialize)]
-struct Missing<'a> {
-    kind: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bodies: Option<[&'a str; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    robot: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    holds: Option<&'a str>,
-    at: Pair,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    force: Option<Pair>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    torque: Option<Number>,
-    amount: Number,
-}
-
-#[derive(Serialize)]
-struct Motion<'a> {
-    block: &'a str,
-    velocity: Pair,
-    spin: Number,
-}
-
-#[derive(Serialize)]
 struct Effect<'a> {
     effect: &'static str,
     simulated: bool,
@@ -246,7 +189,7 @@ struct Number(f64);
 
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        // Adding 0 turns −0 into 0 and leaves every other number alone.
+        // Adding 0 turns −0 into 0 and does not change any other number.
         serializer.serialize_f64(self.0 + 0.0)
     }
 }
@@ -361,99 +304,6 @@ fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
         .effects
         .iter()
         .any(|e| e.effect == effect && e.simulated)
-}
-
-impl<'a> Motion<'a> {
-    fn new(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
-        Motion {
-            block: &scene.blocks[motion.block.0].id,
-            velocity: arrow(motion.velocity),
-            spin: Number(motion.spin),
-        }
-    }
-}
-
-impl<'a> Interface<'a> {
-    fn new(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
-        let interface = &contact.interface;
-        Interface {
-            bodies: interface.bodies.map(|b| scene.name(b)),
-            kind: (interface.kind == ContactKind::Corner).then_some("corner"),
-            ends: interface.ends.map(place),
-            application_points: contact.application_points.map(place),
-            normal: arrow(interface.normal),
-            mu: Number(interface.friction),
-            normal_forces: contact.normal_forces.map(Number),
-            friction_force: Number(contact.friction_force),
-            resultant: Resultant {
-                at: place(contact.resultant.at),
-                force: arrow(contact.resultant.force),
-            },
-            friction_used: Number(contact.friction_used),
-        }
-    }
-}
-
-impl<'a> Robot<'a> {
-    fn new(scene: &'a Scene, robot: &RobotForce) -> Robot<'a> {
-        Robot {
-            id: &scene.robots[robot.robot.0].id,
-            holds: &scene.blocks[robot.block.0].id,
-            at: place(robot.at),
-            force: arrow(robot.force),
-            torque: Number(robot.torque),
-            limit_used: Number(robot.limit_used),
-        }
-    }
-}
-
-impl<'a> Missing<'a> {
-    fn new(scene: &'a Scene, failure: &Failure) -> Missing<'a> {
-        let contact = |kind, bodies: [BodyId; 2], at, force: Vector| Missing {
-            kind,
-            bodies: Some(bodies.map(|b| scene.name(b))),
-            robot: None,
-            holds: None,
-            at: place(at),
-            force: Some(arrow(force)),
-            torque: None,
-            amount: Number(force.norm()),
-        };
-        let grip = |kind, robot: RobotId, block: BlockId, at| Missing {
-            kind,
-            bodies: None,
-            robot: Some(&scene.robots[robot.0].id),
-            holds: Some(&scene.blocks[block.0].id),
-            at: place(at),
-            force: None,
-            torque: None,
-            amount: Number(0.0),
-        };
-        match *failure {
-            Failure::Tension { bodies, at, force } => contact("tension", bodies, at, force),
-            Failure::Friction { bodies, at, force } => contact("friction", bodies, at, force),
-            Failure::RobotForce {
-                robot,
-                block,
-                at,
-                force,
-            } => Missing {
-                force: Some(arrow(force)),
-                amount: Number(force.x.abs() + force.y.abs()),
-                ..grip("robot_force", robot, block, at)
-            },
-            Failure::RobotTorque {
-                robot,
-                block,
-                at,
-                torque,
-            } => Missing {
-                torque: Some(Number(torque)),
-                amount: Number(torque.abs()),
-                ..grip("robot_torque", robot, block, at)
-            },
-        }
-    }
 }
 
 #[cfg(test)]

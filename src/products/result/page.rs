@@ -1,4 +1,4 @@
-//! [`report_json`]: a report for other programs: how many stand, and the object of `check --json` of every scene.
+//! [`report_json`]: a report as JSON: the number of scenes per verdict, and the result of every scene.
 
 use serde::Serialize;
 
@@ -17,13 +17,13 @@ pub struct Counts {
     pub refused: usize,
 }
 
-/// Words as a JSON string.
+/// Text as a JSON string.
 pub fn quoted(words: &str) -> String {
     let string = serde_json::to_string(words).expect("a string always serialises into memory");
     text::json(&string)
 }
 
-/// A report as one JSON object: counts, and a list of objects that are JSON already, one line each. Ends with a line feed.
+/// A report as one JSON object that ends with a line feed: the counts, and the JSON objects of the scenes, one per line.
 ///
 /// ```
 /// use drystone::result::{Counts, report_json};

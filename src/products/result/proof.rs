@@ -1,4 +1,4 @@
-//! [`ProofNumbers`]: how well a verdict is proved, as results have it.
+//! [`ProofNumbers`]: the numbers of a proof in a result.
 
 use serde::Serialize;
 

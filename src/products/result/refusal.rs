@@ -1,4 +1,4 @@
-//! A refused file as one JSON object, in the place where its result would stand.
+//! The problems of a refused file as a JSON object, which takes the place of its result.
 
 use serde::Serialize;
 
@@ -26,7 +26,7 @@ struct Entry<'a> {
     hint: &'a str,
 }
 
-/// All that is wrong with a file, as one JSON object: `{ "file", "problems": [{ code, path, line, column, message, hint }] }`.
+/// The problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message, hint }] }`.
 ///
 /// Lines and columns count from 1, columns in characters; both are `null` where the problem has no place in a text.
 ///
@@ -50,7 +50,7 @@ pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
     )
 }
 
-/// The same on one line, for a scene that may be a line among many; ends with a line feed.
+/// The problems of one scene of a batch, as one line that ends with a line feed.
 ///
 /// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
@@ -65,7 +65,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     )
 }
 
-/// Problems of a text that has this number of lines before it.
+/// The problems of a text that starts after this number of lines of its file.
 fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
     problems

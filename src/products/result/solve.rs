@@ -1,4 +1,4 @@
-//! [`Solve`]: how a frame was solved, as it is written.
+//! [`Solve`]: the solution method and its cost, as in the result.
 
 use serde::Serialize;
 

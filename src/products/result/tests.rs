@@ -2,10 +2,12 @@
 
 use super::*;
 use crate::analysis::{
-    EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, UndecidedReason, Verdict,
+    Contact, EffectName, EffectReport, Failure, Motion as Moved, Proof, Resultant as Sum,
+    RobotForce, SolveReport, UndecidedReason, Verdict,
 };
 use crate::geometry::{Polygon, Tolerance as Closeness};
-use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
+use crate::interface::ContactKind;
+use crate::scene::{Block, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
 
 fn scene() -> Scene {
     let corners = vec![
@@ -30,6 +32,9 @@ fn scene() -> Scene {
     };
     Scene {
         title: "A \"wedge\"".into(),
+        author: String::new(),
+        project: String::new(),
+        date: String::new(),
         gravity: Vector::new(0.0, -9.81),
         thickness: 1.0,
         kernel: 0.0,
@@ -55,6 +60,7 @@ fn scene() -> Scene {
             placed: vec![BlockId(0)],
             holds: vec![],
             plans: vec![],
+            expected: None,
         }],
         notes: vec![],
         silenced: vec![],

@@ -1,4 +1,4 @@
-//! What shows that a frame stands only by wedging, as JSON.
+//! The proof that a frame stands by wedging only, as JSON.
 //!
 //! Each motion tells the place about which a block's spin counts, so that it can be checked against the interfaces and
 //! their forces in the same result, without the scene.

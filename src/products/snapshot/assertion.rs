@@ -14,9 +14,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::check::{self, Acceptance, CheckOutcome, Snapshot, check, folders};
+use super::check::{self, check};
 use super::discovery::{DiscoveryError, discover};
 use super::layer::Layer;
+use super::outcome::{Acceptance, CheckOutcome, Snapshot, folders};
 use super::reference::parts;
 use super::setting::{self, Settings};
 use super::store::{self, Access};

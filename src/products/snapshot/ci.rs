@@ -1,7 +1,7 @@
 //! Writes findings for continuous integration: JUnit XML, and annotations that GitHub shows next to the code.
 
-use super::check::{CheckOutcome, Snapshot};
 use super::discovery::shown;
+use super::outcome::{CheckOutcome, Snapshot};
 use crate::text::{github, github_property, xml};
 
 /// The findings as JUnit XML: one test case for each snapshot and for each reference without a scene.

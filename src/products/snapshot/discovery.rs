@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::filter::Filter;
 use super::reference::{Part, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::scene::{Scene, SceneError, isolate};
+use crate::scene::{Code, Scene, SceneError, isolate};
 
 /// An error in the input of a check.
 #[derive(Debug, thiserror::Error)]
@@ -70,7 +71,8 @@ pub struct Discovered {
 
 /// Finds all scenes in the given folders and scene files, and all references without a scene.
 ///
-/// A scene is a `.json` file with the key `"drystone"`. Hidden folders and caches are skipped. The filter `only` selects
+/// A scene is a `.json` file with the key `"drystone"`. A file that is no JSON is a scene too if it is empty, is not UTF-8, or
+/// contains `drystone`, `blocks` or `polygon`: it is reported. Hidden folders and caches are skipped. The filter `only` selects
 /// scenes in one of three ways:
 ///
 /// 1. If it equals the name of a scene, it selects this scene alone. Accepting `arch` must not accept `arch2`.
@@ -81,13 +83,7 @@ pub struct Discovered {
 /// All errors in all scenes and settings.
 pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<DiscoveryError>> {
     let mut search = Search::default();
-    for place in places {
-        match fs::metadata(place) {
-            Ok(data) if data.is_dir() => search.add_folder(place),
-            Ok(_) => search.add_scene(place.clone(), place.with_extension("")),
-            Err(error) => search.report_unreadable(place, &error),
-        }
-    }
+    search.add_places(places);
     let names = search.candidates.iter().map(|(_, base)| shown(base));
     let filter = Filter::new(only, names);
     search.candidates.sort();
@@ -111,22 +107,16 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         if !filter.selects(&name) {
             continue;
         }
-        let read = match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
-            Ok(read) => read,
-            Err(fault) => {
-                faults.push((path, fault));
-                continue;
-            }
-        };
-        match read {
-            Ok(scene) => jobs.push(Job {
+        match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
+            Err(fault) => faults.push((path, fault)),
+            Ok(Err(problems)) => search.errors.push(DiscoveryError::Scene { path, problems }),
+            Ok(Ok(scene)) => jobs.push(Job {
                 path,
                 name,
                 scene: Arc::new(scene),
                 settings,
                 parts,
             }),
-            Err(problems) => search.errors.push(DiscoveryError::Scene { path, problems }),
         }
     }
     if !search.errors.is_empty() {
@@ -141,41 +131,6 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         jobs,
         faults,
     })
-}
-
-/// The filter of `--only`.
-enum Filter<'f> {
-    /// Everything.
-    All,
-    /// The scene with this name, and its references.
-    Exactly(&'f str),
-    /// Names that match a pattern with `*`.
-    Pattern(&'f str),
-    /// Names that contain this.
-    Containing(&'f str),
-}
-
-impl<'f> Filter<'f> {
-    fn new(only: Option<&'f str>, mut names: impl Iterator<Item = String>) -> Filter<'f> {
-        match only {
-            None => Filter::All,
-            Some(filter) if names.any(|name| name == filter) => Filter::Exactly(filter),
-            Some(filter) if filter.contains('*') => Filter::Pattern(filter),
-            Some(filter) => Filter::Containing(filter),
-        }
-    }
-
-    fn selects(&self, name: &str) -> bool {
-        match self {
-            Filter::All => true,
-            // The names of its references have one more suffix.
-            Filter::Exactly(scene) => name
-                .strip_prefix(scene)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
-            Filter::Pattern(pattern) => matches_pattern(pattern, name),
-            Filter::Containing(part) => name.contains(part),
-        }
-    }
 }
 
 /// A path with `/` between folders, on every operating system.
@@ -196,6 +151,17 @@ struct Search {
 }
 
 impl Search {
+    /// Adds files, and the scenes of folders.
+    fn add_places(&mut self, places: &[PathBuf]) {
+        for place in places {
+            match fs::metadata(place) {
+                Ok(data) if data.is_dir() => self.add_folder(place),
+                Ok(_) => self.add_scene(place.clone(), place.with_extension("")),
+                Err(error) => self.report_unreadable(place, &error),
+            }
+        }
+    }
+
     fn report_unreadable(&mut self, path: &Path, error: &std::io::Error) {
         self.errors.push(DiscoveryError::Unreadable {
             path: path.to_owned(),
@@ -347,10 +313,8 @@ impl Search {
                 return None;
             }
         };
-        let key = b"\"drystone\"";
-        let is_scene = bytes.windows(key.len()).any(|w| w == key);
         // Skip JSON files of other programs. A file with references is a scene even if it has lost its key: report that.
-        (is_scene || parts.iter().any(|p| p.file.exists())).then_some(bytes)
+        (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
 
     /// Orphaned reference files, each with the reason and remedy.
@@ -391,6 +355,29 @@ impl Search {
             }
         }
         orphans
+    }
+}
+
+/// Whether a file is meant as a scene: it has the key `"drystone"`, or it is no JSON and a damaged scene explains it.
+fn looks_like_scene(bytes: &[u8]) -> bool {
+    let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
+    if has(b"\"drystone\"") {
+        return true;
+    }
+    let is_meant = has(b"drystone") || has(b"blocks") || has(b"polygon");
+    let is_empty = bytes.iter().all(u8::is_ascii_whitespace);
+    if !is_meant && !is_empty && std::str::from_utf8(bytes).is_ok() {
+        return false;
+    }
+    let is_damage = |code| {
+        matches!(
+            code,
+            Code::NotUtf8 | Code::EmptyFile | Code::EndsEarly | Code::NotJson | Code::OtherFormat
+        )
+    };
+    match isolate("a file", || Scene::from_slice(bytes)) {
+        Ok(Err(problems)) => problems.list.iter().any(|problem| is_damage(problem.code)),
+        _ => false,
     }
 }
 

@@ -20,18 +20,21 @@ pub mod assertion;
 pub mod check;
 pub mod ci;
 pub mod discovery;
+mod filter;
 pub mod element;
 pub mod fact;
 mod layer;
+pub mod outcome;
 pub mod picture;
 pub mod reference;
 pub mod review;
 pub mod setting;
 pub mod store;
 
-pub use check::{CheckOutcome, Finding, Snapshot, State, check};
+pub use check::check;
 pub use discovery::{DiscoveryError, Job, discover};
 pub use layer::Layer;
+pub use outcome::{CheckOutcome, Finding, Snapshot, State};
 pub use setting::Settings;
 
 // The language exports macros at the root of the crate. They are exported again here, where users look for them.

@@ -10,9 +10,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::check::{CheckOutcome, Finding, Snapshot, State};
 use super::discovery::shown;
 use super::layer::Layer;
+use super::outcome::{CheckOutcome, Finding, Snapshot, State};
 use crate::text::{line, shell};
 
 const STYLE: &str = include_str!("../../../assets/snapshot/review.css");

@@ -4,7 +4,7 @@ use super::Task;
 use super::outcome::Outcome;
 use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
 use crate::program::{
-    Column, Program, Scale, columns, force_primal, sticking_columns, vallat_program,
+    Column, Program, Scale, adhesion_columns, columns, force_primal, vallat_program,
 };
 use crate::solve::{
     Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual,
@@ -81,7 +81,7 @@ impl Method {
 
 /// Sticking above this (in scaled numbers) means that the frame falls: the band of the proofs, but at least ten times the
 /// tolerance of the solver.
-fn min_counted_sticking(tolerance: f64) -> f64 {
+fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
 
@@ -112,14 +112,14 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
         _ => return Outcome::undecided(effort),
     }
     let n = conic.unknowns / 2;
-    let sticking: f64 = answer.x[n..].iter().map(|v| v.max(0.0)).sum();
-    if sticking > min_counted_sticking(tolerance) {
+    let adhesion: f64 = answer.x[n..].iter().map(|v| v.max(0.0)).sum();
+    if adhesion > min_counted_adhesion(tolerance) {
         let most = answer.x[n..].iter().fold(0.0, |m: f64, v| m.max(*v));
         let points = answer.x[n..]
             .iter()
             .filter(|v| **v > MIN_FAILURE_SHARE * most)
             .count();
-        return Outcome::falls(Some(sticking), points, effort);
+        return Outcome::falls(Some(adhesion), points, effort);
     }
     let mut amounts = Amounts::none(program);
     let mut next = 0;
@@ -151,8 +151,8 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     }
 }
 
-fn sticking_cost(column: &Column) -> f64 {
-    f64::from(u8::from(column.force.is_sticking()))
+fn adhesion_cost(column: &Column) -> f64 {
+    f64::from(u8::from(column.force.is_adhesion()))
 }
 
 /// Forces as unknowns, without a penalty: two programs in sequence.
@@ -170,9 +170,9 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
         return standing(program, &admissible, &hard.x, effort(iterations));
     }
     let mut all = admissible;
-    all.extend(sticking_columns(program));
+    all.extend(adhesion_columns(program));
     let first = solve(
-        &force_primal(loads, &all, sticking_cost, None),
+        &force_primal(loads, &all, adhesion_cost, None),
         tolerance,
         Conditioning::Full,
     );
@@ -184,11 +184,11 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
         _ if certain => return Outcome::falls(None, 0, effort(iterations)),
         _ => return Outcome::undecided(effort(iterations)),
     }
-    let sum = |x: &[f64]| -> f64 { all.iter().zip(x).map(|(c, x)| sticking_cost(c) * x).sum() };
+    let sum = |x: &[f64]| -> f64 { all.iter().zip(x).map(|(c, x)| adhesion_cost(c) * x).sum() };
     let least = sum(&first.x);
     let most = least * (1.0 + tolerance) + tolerance;
     let second = solve(
-        &force_primal(loads, &all, cost, Some((&sticking_cost, most))),
+        &force_primal(loads, &all, cost, Some((&adhesion_cost, most))),
         tolerance,
         Conditioning::Full,
     );
@@ -198,12 +198,12 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     } else {
         &first.x
     };
-    if !certain && least <= min_counted_sticking(tolerance) {
+    if !certain && least <= min_counted_adhesion(tolerance) {
         return standing(program, &all, x, effort(iterations));
     }
-    let sticks = || all.iter().zip(x).filter(|(c, _)| c.force.is_sticking());
-    let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
-    let points = sticks()
+    let adheres = || all.iter().zip(x).filter(|(c, _)| c.force.is_adhesion());
+    let largest = adheres().map(|(_, x)| *x).fold(0.0, f64::max);
+    let points = adheres()
         .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
         .count();
     Outcome::falls(Some(least), points, effort(iterations))
@@ -213,7 +213,7 @@ fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) ->
     let mut amounts = Amounts::none(program);
     let mut own = Vec::with_capacity(columns.len());
     for (column, x) in columns.iter().zip(x) {
-        let x = if column.force.is_sticking() { 0.0 } else { *x };
+        let x = if column.force.is_adhesion() { 0.0 } else { *x };
         own.push(x);
         amounts.add(column.force, x);
     }
@@ -240,22 +240,22 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
         return standing(program, &admissible, &hard.amounts, effort);
     }
     let mut all = admissible;
-    all.extend(sticking_columns(program));
-    let soft = dual(&program.loads, &all, settings, &mut effort, sticking_cost);
-    let sticks = || {
+    all.extend(adhesion_columns(program));
+    let soft = dual(&program.loads, &all, settings, &mut effort, adhesion_cost);
+    let adheres = || {
         all.iter()
             .zip(&soft.amounts)
-            .filter(|(c, _)| c.force.is_sticking())
+            .filter(|(c, _)| c.force.is_adhesion())
     };
-    let least: f64 = sticks().map(|(_, x)| *x).sum();
+    let least: f64 = adheres().map(|(_, x)| *x).sum();
     let certain = hard.status == Status::Unbounded;
     match soft.status {
-        Status::Solved if !certain && least <= min_counted_sticking(tolerance) => {
+        Status::Solved if !certain && least <= min_counted_adhesion(tolerance) => {
             standing(program, &all, &soft.amounts, effort)
         }
         Status::Solved => {
-            let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
-            let points = sticks()
+            let largest = adheres().map(|(_, x)| *x).fold(0.0, f64::max);
+            let points = adheres()
                 .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
                 .count();
             Outcome::falls(Some(least), points, effort)
@@ -278,19 +278,19 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     let effort = hard.effort.and(soft.effort);
     let certain = hard.motion.is_some();
     if soft.balanced == Some(true) {
-        let least = soft.sticking.total();
-        if !certain && least <= min_counted_sticking(tolerance) {
+        let least = soft.adhesion.total();
+        if !certain && least <= min_counted_adhesion(tolerance) {
             let off = soft.forces.unbalanced(program);
             return Outcome::stands(&soft.forces, off, effort);
         }
         let parts = || {
-            let sticking = &soft.sticking;
-            sticking
+            let adhesion = &soft.adhesion;
+            adhesion
                 .normal
                 .iter()
                 .flatten()
-                .chain(&sticking.friction)
-                .chain(sticking.grip.iter().flatten())
+                .chain(&adhesion.friction)
+                .chain(adhesion.grip.iter().flatten())
         };
         let most = parts().fold(0.0, |m: f64, v| m.max(v.abs()));
         let points = parts()

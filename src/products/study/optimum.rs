@@ -126,14 +126,7 @@ impl Guess<'_> {
         let all = 0..self.columns.len();
         let limited: Vec<usize> = all.clone().filter(|j| at_limit(*j)).collect();
         let face: Vec<usize> = all.filter(|j| self.active[*j] && !at_limit(*j)).collect();
-        // Columns at their limit act like loads.
-        let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
-        for j in &limited {
-            let limit = Double::from(self.columns[*j].limit);
-            for (row, value) in &self.sparse[*j] {
-                loads[*row] = loads[*row] - limit * *value;
-            }
-        }
+        let loads = self.loads_with(&limited);
         let heaviest = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let largest = self.amounts.iter().fold(heaviest, |m, v| m.max(*v));
         let weights: Vec<Double> = face
@@ -180,6 +173,18 @@ impl Guess<'_> {
             rest,
             largest,
         }
+    }
+
+    /// The loads together with the columns at their limit, which act like loads.
+    fn loads_with(&self, limited: &[usize]) -> Vec<Double> {
+        let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
+        for j in limited {
+            let limit = Double::from(self.columns[*j].limit);
+            for (row, value) in &self.sparse[*j] {
+                loads[*row] = loads[*row] - limit * *value;
+            }
+        }
+        loads
     }
 
     /// Checks feasibility and the duality gap of a refined solution.

@@ -13,7 +13,7 @@ use super::double::Double;
 use super::least::largest_of_unique;
 use super::optimum::{EXACT, entries, optimum, power, product};
 use crate::analysis::Verdict;
-use crate::program::{Column, Program, columns, sticking_columns};
+use crate::program::{Column, Program, adhesion_columns, columns};
 use crate::solve::{Conditioning, Effort, Status, dual};
 
 /// Largest relative gap of a certificate whose value counts as known to twelve digits.
@@ -56,9 +56,9 @@ impl Reference {
             };
         }
         let mut all = admissible;
-        all.extend(sticking_columns(program));
-        let sticks = |c: &Column| if c.force.is_sticking() { 1.0 } else { 0.0 };
-        if let Some(optimum) = optimum(&program.loads, &all, sticks) {
+        all.extend(adhesion_columns(program));
+        let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
+        if let Some(optimum) = optimum(&program.loads, &all, adheres) {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
             return match least > EXACT * largest {
@@ -90,13 +90,13 @@ impl Reference {
 
 /// Whether there is a motion that even adhesion does not resist.
 fn falls_despite_adhesion(loads: &[f64], all: &[Column]) -> bool {
-    let sticks = |c: &Column| if c.force.is_sticking() { 1.0 } else { 0.0 };
+    let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
     let solved = dual(
         loads,
         all,
         Conditioning::Full,
         &mut Effort::default(),
-        sticks,
+        adheres,
     );
     let y: Vec<Double> = solved.y.iter().map(|v| Double::from(*v)).collect();
     let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs().near()));

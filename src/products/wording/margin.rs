@@ -1,9 +1,9 @@
-//! Margins in words: at which values of a parameter a frame stands, and where its present value is.
+//! Margins in words: the values of a parameter at which a frame stands, and the present value.
 //!
 //! [`StatedMargin`] is the one source for the terminal's lines, for tables, bars and captions, and for the headline.
 
-use super::number::digits;
-use crate::analysis::{End, FrameAnalysis, Interval, Verdict};
+use super::number::{NO_BREAK, digits};
+use crate::analysis::{End, FrameAnalysis, Interval, Intervals, Verdict};
 use crate::scene::Scene;
 use crate::text;
 
@@ -27,7 +27,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// The unit behind a value, with a space before it where one belongs there.
+    /// The unit of a value, with a space before it if needed.
     fn unit(self) -> &'static str {
         match self {
             Parameter::Tilt => "°",
@@ -37,12 +37,12 @@ impl Parameter {
         }
     }
 
-    /// Whether it runs to both sides of 0.
+    /// Whether the values of the parameter may be negative.
     pub fn is_signed(self) -> bool {
         matches!(self, Parameter::Tilt | Parameter::HorizontalLoad)
     }
 
-    /// A value with its unit and, where it has one, its side.
+    /// A value with its unit and, for a signed parameter, its side.
     fn value(self, value: f64) -> String {
         let unit = self.unit();
         if !self.is_signed() {
@@ -84,7 +84,7 @@ pub struct StatedMargin<'a> {
     pub position: Position,
 }
 
-/// The margins of a frame that were computed, the headline first.
+/// All margins of a frame that were computed. The headline comes first.
 pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
     let Some(margins) = &found.margins else {
         return Vec::new();
@@ -95,87 +95,84 @@ pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'
         Verdict::Unstable => Position::Outside,
         Verdict::Undecided => Position::Unknown,
     };
-    let one = |parameter, name: &str, interval: &'a Interval, present: f64| StatedMargin {
-        parameter,
-        name: name.to_owned(),
-        interval,
-        present: Some((present, present)),
-        position,
-    };
-    let (tilt, share) = ("tilt of gravity", "horizontal share of the weights");
-    let mut list = Vec::new();
-    for (parameter, name, interval, present) in [
-        (
-            Parameter::LoadFactor,
-            "factor on the loads",
-            &intervals.load_factor,
-            1.0,
-        ),
-        (
-            Parameter::Friction,
-            "friction coefficient",
-            &intervals.friction,
-            0.0,
-        ),
-        (Parameter::Tilt, tilt, &intervals.tilt, 0.0),
-        (
-            Parameter::HorizontalLoad,
-            share,
-            &intervals.horizontal_load,
-            0.0,
-        ),
-        (
-            Parameter::Kernel,
-            "safety kernel",
-            &intervals.kernel,
-            scene.kernel,
-        ),
-    ] {
-        let Some(interval) = interval else {
-            continue;
-        };
-        let mut margin = one(parameter, name, interval, present);
-        if parameter == Parameter::Friction {
-            margin.present = friction(found);
-            margin.position = friction_position(interval, margin.present, position);
-        }
-        list.push(margin);
-    }
-    for robot in &intervals.robots {
-        let arm = &scene.robots[robot.robot.0];
-        let id = text::line(&arm.id);
-        for (parameter, name, interval, limit) in [
-            (
-                Parameter::RobotForce,
-                "horizontal force",
-                &robot.fx,
-                arm.limits.fx,
-            ),
-            (
-                Parameter::RobotForce,
-                "vertical force",
-                &robot.fy,
-                arm.limits.fy,
-            ),
-            (
-                Parameter::RobotTorque,
-                "torque",
-                &robot.torque,
-                arm.limits.torque,
-            ),
-        ] {
-            let name = format!("limit of the {name} of robot {id}");
-            list.push(one(parameter, &name, interval, limit));
-        }
-    }
+    let mut list = whole_frame(scene, found, intervals, position);
+    list.extend(robot_limits(scene, intervals, position));
     if let Some(first) = headline(&list) {
         list[..=first].rotate_right(1);
     }
     list
 }
 
-/// The number of the margin that matters most: of the factor on the loads, where there are loads; else of the margin with
-/// the least reserve.
+/// The margins that belong to the whole frame.
+fn whole_frame<'a>(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    intervals: &'a Intervals,
+    position: Position,
+) -> Vec<StatedMargin<'a>> {
+    use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
+    let share = "horizontal share of the weights";
+    let all = [
+        (
+            LoadFactor,
+            "factor on the loads",
+            &intervals.load_factor,
+            1.0,
+        ),
+        (Friction, "friction coefficient", &intervals.friction, 0.0),
+        (Tilt, "tilt of gravity", &intervals.tilt, 0.0),
+        (HorizontalLoad, share, &intervals.horizontal_load, 0.0),
+        (Kernel, "safety kernel", &intervals.kernel, scene.kernel),
+    ];
+    let mut list = Vec::new();
+    for (parameter, name, interval, present) in all {
+        let Some(interval) = interval else {
+            continue;
+        };
+        let mut margin = StatedMargin {
+            parameter,
+            name: name.to_owned(),
+            interval,
+            present: Some((present, present)),
+            position,
+        };
+        if parameter == Friction {
+            margin.present = friction(found);
+            margin.position = friction_position(interval, margin.present, position);
+        }
+        list.push(margin);
+    }
+    list
+}
+
+/// The margins of the limits of each robot.
+fn robot_limits<'a>(
+    scene: &Scene,
+    intervals: &'a Intervals,
+    position: Position,
+) -> Vec<StatedMargin<'a>> {
+    use Parameter::{RobotForce, RobotTorque};
+    let mut list = Vec::new();
+    for robot in &intervals.robots {
+        let arm = &scene.robots[robot.robot.0];
+        let (id, limits) = (text::line(&arm.id), arm.limits);
+        let all = [
+            (RobotForce, "horizontal force", &robot.fx, limits.fx),
+            (RobotForce, "vertical force", &robot.fy, limits.fy),
+            (RobotTorque, "torque", &robot.torque, limits.torque),
+        ];
+        list.extend(all.map(|(parameter, name, interval, limit)| StatedMargin {
+            parameter,
+            name: format!("limit of the {name} of robot {id}"),
+            interval,
+            present: Some((limit, limit)),
+            position,
+        }));
+    }
+    list
+}
+
+/// The index of the most important margin: the load factor if there are loads, otherwise the margin with the least reserve.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list
         .iter()
@@ -200,7 +197,7 @@ fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// Where friction coefficients are that differ: the interval is that of one coefficient for all interfaces.
+/// The position of different friction coefficients relative to an interval that holds for one common coefficient.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,
@@ -219,7 +216,7 @@ fn friction_position(
 }
 
 impl StatedMargin<'_> {
-    /// At which values it stands, and where it is now: `stands from 0.3 to 2.4; now 1`.
+    /// The interval and the present value: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         match self.present_words() {
             None => self.stands(),
@@ -227,12 +224,12 @@ impl StatedMargin<'_> {
         }
     }
 
-    /// At which values it stands.
+    /// The interval in words, without the present value.
     pub fn stands(&self) -> String {
         stands(self.parameter, self.interval)
     }
 
-    /// The present value, and whether it is among those at which it stands.
+    /// The present value in words, and whether it lies in the interval.
     fn present_words(&self) -> Option<String> {
         let (low, high) = self.present?;
         let value = |value: f64| self.parameter.value(value);
@@ -249,7 +246,7 @@ impl StatedMargin<'_> {
         })
     }
 
-    /// What is left to the nearest end: 0 at or beyond it, 1 where nothing limits it.
+    /// The relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is no end.
     ///
     /// A value that may grow counts in parts of its end, one that may shrink in parts of itself, tilts in parts of a right
     /// angle and horizontal shares in parts of the whole weight.
@@ -279,7 +276,7 @@ impl StatedMargin<'_> {
     }
 }
 
-/// The farthest value at which it is known to stand.
+/// The end of the interval, or the farthest value at which the frame is known to stand.
 pub fn confirmed(end: &End) -> Option<f64> {
     match end {
         End::At { value, .. } => Some(*value),
@@ -321,7 +318,7 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
 
 /// The values between two ends in words.
 fn range(parameter: Parameter, low: &End, high: &End) -> String {
-    // A parameter that begins at 0 has no lower end there.
+    // Leave out a lower end of 0 for a parameter that cannot be negative.
     let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
     let least = confirmed(low).filter(begins);
     let most = confirmed(high);
@@ -346,13 +343,67 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
         }
         (None, Some(high)) => format!("up to {}", value(high)),
         (Some(low), None) => format!("at {} and more", value(low)),
-        // Ends that read alike are one value at the digits that are written.
+        // Two ends with the same text are one value at the printed precision.
         (Some(low), Some(high)) if value(low) == value(high) => format!("only at {}", value(low)),
         (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
     }
 }
 
-/// The margins of a frame that were computed, a line each, the headline first; then what must be known about them.
+/// What a frame that falls lacks, as far as its margins were computed: `falls: carries 33 % of its load`. `None` for a frame
+/// that does not fall, and where no margin says more than the verdict.
+pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+    if found.verdict != Verdict::Unstable {
+        return None;
+    }
+    let intervals = &found.margins.as_ref()?.intervals;
+    let loads = intervals.load_factor.as_ref();
+    let lack = loads
+        .and_then(|interval| load_lack(scene, interval))
+        .or_else(|| friction_lack(found, intervals.friction.as_ref()?))?;
+    Some(format!("falls: {lack}"))
+}
+
+/// How much of its loads a frame carries, or how much more it needs, where the present loads let it fall.
+fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
+    let loads = match scene.loads.len() {
+        1 => "load",
+        _ => "loads",
+    };
+    let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
+    match (low, high) {
+        // Rounded down: so much it carries.
+        (_, Some(high)) if high < 1.0 => {
+            let share = libm::floor(100.0 * high + 1e-4);
+            Some(match share >= 1.0 {
+                true => format!("carries {share}{NO_BREAK}% of its {loads}"),
+                false => format!("carries less than 1{NO_BREAK}% of its {loads}"),
+            })
+        }
+        (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", above(low))),
+        _ => None,
+    }
+}
+
+/// The friction coefficient with which a frame would stand, where its own is too small.
+fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    let (least, most) = friction(found)?;
+    match interval {
+        Interval::Empty => Some("no friction would hold it".to_owned()),
+        Interval::Undecided => None,
+        Interval::Between { low, .. } => {
+            let low = confirmed(low).filter(|low| *low > least)?;
+            let everywhere = if least < most { " at every joint" } else { "" };
+            Some(format!("would need friction {}{everywhere}", above(low)))
+        }
+    }
+}
+
+/// A number above 0 to two decimals, rounded up: with it the frame stands.
+fn above(value: f64) -> String {
+    format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
+}
+
+/// The margins of a frame, one line each, the headline first. Remarks follow.
 pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, found);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());

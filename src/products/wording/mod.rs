@@ -5,8 +5,9 @@
 //! scene files. Code that writes them to an output escapes them with the function for that format in
 //! [`text`](crate::text).
 
-pub mod effect;
 pub mod failure;
+#[cfg(feature = "report")]
+pub mod headline;
 pub mod margin;
 pub mod number;
 pub mod proof;

@@ -143,7 +143,7 @@ pub fn digits(x: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{x:.3e}");
     }
-    // The power of ten of the first digit: three more digits follow it.
+    // The exponent of the first digit. Three more digits follow it.
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
     let text = format!("{x:.decimals$}");
@@ -152,6 +152,17 @@ pub fn digits(x: f64) -> String {
     } else {
         text
     }
+}
+
+/// Three significant digits, with trailing zeros: `2.40`, `0.334`, `12.0`.
+pub fn three(x: f64) -> String {
+    if x == 0.0 || !(1e-4..1e5).contains(&x.abs()) {
+        return digits(x);
+    }
+    let decimals = |x: f64| usize::try_from(2 - libm::log10(x.abs()).floor() as i32).unwrap_or(0);
+    // 9.999 becomes 10.0, not 10.00.
+    let rounded: f64 = format!("{x:.*}", decimals(x)).parse().unwrap_or(x);
+    format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
 /// One unit for a column of numbers up to `largest`: the unit with its SI prefix, and the factor for the numbers.

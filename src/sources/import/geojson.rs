@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value};
 
+use super::degrees;
 use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
@@ -10,7 +12,12 @@ use crate::geometry::Point;
 ///
 /// # Errors
 /// The reason why the text cannot be read as GeoJSON.
-pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
+pub(super) fn read(
+    text: &str,
+    scale: f64,
+    is_scale_given: bool,
+    naming: &Naming<'_>,
+) -> Result<Draft, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
     let Value::Object(object) = &value else {
@@ -19,9 +26,13 @@ pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
     if object.contains_key("drystone") {
         return Err("it is a scene file already, and no GeoJSON".into());
     }
+    if !is_scale_given && let Some(why) = degrees::problem(object) {
+        return Err(why);
+    }
     let mut reader = Reader {
         draft: Draft::default(),
         scale,
+        naming,
     };
     reader.object(object, "", &Properties::default());
     Ok(reader.draft)
@@ -36,12 +47,13 @@ struct Properties {
     values: Values,
 }
 
-struct Reader {
+struct Reader<'n> {
     draft: Draft,
     scale: f64,
+    naming: &'n Naming<'n>,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn object(&mut self, object: &Map<String, Value>, at: &str, about: &Properties) {
         let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
         match kind {
@@ -130,14 +142,14 @@ impl Reader {
             .or_else(|| text(feature.get("id")))
             .unwrap_or_default();
         let mut about = Properties {
-            kind: Role::from_name(&name),
+            kind: self.naming.role(&name),
             name,
             ..Properties::default()
         };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
             Some("block") => about.kind = Some(Role::Block),
-            Some(word) => match Role::from_name(word) {
+            Some(word) => match self.naming.role(word) {
                 Some(kind) => about.kind = Some(kind),
                 None => {
                     let why = format!(
@@ -259,7 +271,7 @@ mod tests {
             { "type": "Feature", "properties": { "name": "robot a" }, "geometry": { "type": "Point", "coordinates": [0.2, 0.2] } },
             { "type": "Feature", "properties": { "kind": "cloud" }, "geometry": { "type": "LineString", "coordinates": [] } },
             { "type": "Feature", "properties": null, "geometry": null }, 7 ] }"##;
-        let draft = read(text, 2.0).expect("readable");
+        let draft = read(text, 2.0, true, &Naming::default()).expect("readable");
         let kinds: Vec<Role> = draft.parts.iter().map(|p| p.kind).collect();
         assert_eq!(kinds, [Role::Ground, Role::Block, Role::Block, Role::Robot]);
         assert_eq!(draft.parts[0].values.friction, Some(0.4));
@@ -270,6 +282,9 @@ mod tests {
         assert_eq!(remarks.len(), 5, "{remarks:?}");
         assert!(remarks[1].contains("its kind `cloud` is not block, ground, robot or ignore"));
         assert_eq!(draft.remarks[0].element, "features[1] \"12\"");
-        assert!(read("[1]", 1.0).is_err() && read("{", 1.0).is_err());
+        assert!(
+            read("[1]", 1.0, true, &Naming::default()).is_err()
+                && read("{", 1.0, true, &Naming::default()).is_err()
+        );
     }
 }

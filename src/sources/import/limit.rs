@@ -4,8 +4,7 @@
 //! that matter. A thousand outlines in one place are half a million pairs, and not a structure. Such drawings are refused
 //! before the comparisons begin.
 
-use super::outline::Outlines;
-use super::{Remark, Role};
+use super::Remark;
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 
@@ -18,21 +17,14 @@ const MAX_PAIRS_PER_BODY: usize = 10;
 /// The largest number of comparisons of a corner with an edge for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
-/// The reason why a drawing is refused, if it exceeds a limit.
-pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
-    let count = outlines.bodies.len();
+/// The reason why a drawing is refused, if it exceeds a limit. `boxes` are those of the blocks and of the parts of the ground.
+pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
+    let count: usize = boxes.iter().map(Vec::len).sum();
     if count > MAX_BODIES {
         return Some(too_many(count));
     }
-    let boxes = |kind: Role| -> Vec<Bounds> {
-        let bodies = outlines.bodies.iter().filter(|b| b.kind == kind);
-        bodies
-            .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
-            .collect()
-    };
     let max = MAX_PAIRS + MAX_PAIRS_PER_BODY * count;
-    let (blocks, ground) = (boxes(Role::Block), boxes(Role::Ground));
-    (pairs(blocks, max) > max || pairs(ground, max) > max).then(|| Remark {
+    boxes.into_iter().any(|boxes| pairs(boxes, max) > max).then(|| Remark {
         element: String::new(),
         message: format!(
             "more than {max} pairs of its {count} outlines overlap, so they cannot be blocks side by side"

@@ -15,22 +15,30 @@
 
 mod affine;
 mod limit;
+mod degrees;
 mod draft;
 mod scene_file;
+mod scale;
+mod snapping;
 mod geojson;
 mod name;
+mod naming;
 mod outline;
 mod region;
 mod svg;
+mod stone;
 mod subpath;
 mod wkt;
 
 pub use draft::Remark;
+pub use stone::{STONES, Stone};
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
 use draft::{Draft, Form, Role};
+use naming::Naming;
 use outline::Outlines;
+use scale::Scale;
 
 /// The default for chords and gaps, relative to the size of the drawing: about a pixel on a screen, what a person cannot
 /// draw more accurately by hand.
@@ -56,6 +64,11 @@ pub enum Format {
 pub struct Options {
     /// Metres per unit of the drawing. Default: the physical size of an SVG, or the scale of a figure by this library, or 1.
     pub scale: Option<f64>,
+    /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit that the
+    /// drawing states; a drawing that states no unit needs `scale` too.
+    pub ratio: Option<f64>,
+    /// Names of layers and elements that are ground, besides those that begin with `ground`. Upper and lower case are the same.
+    pub ground_layers: Vec<String>,
     /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
     /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off. Default: 0.001 times the size of
@@ -70,10 +83,12 @@ pub struct Options {
 impl Options {
     setters! {
         scene: SceneFile, "Friction, kernel, density, thickness and gravity of the scene.";
+        ground_layers: Vec<String>, "Names of layers and elements that are ground.";
     }
 
     optional_setters! {
         scale: f64, "Metres per unit of the drawing.";
+        ratio: f64, "Real lengths divided by drawn lengths, 50 for a drawing at 1:50.";
         flatten: f64, "The largest distance of a chord from its curve, in metres.";
         gap: f64, "Edges within this distance, in metres, are moved so that they touch; 0 turns this off.";
         frame: usize, "The frame to import from a figure by this library, counted from 0.";
@@ -158,29 +173,93 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
         }],
         remarks: Vec::new(),
     };
-    let scaled = |draft: Draft| {
-        let (scale, source) = match options.scale {
-            Some(scale) => (scale, "from --scale"),
-            None => (1.0, "the default"),
-        };
-        let note = format!("a unit of the drawing is {scale} m ({source})");
-        Draft {
-            notes: std::iter::once(note).chain(draft.notes).collect(),
-            ..draft
-        }
-    };
-    let scale = options.scale.unwrap_or(1.0);
     if format != Format::Svg && options.frame.is_some() {
         return Err(refused(
             "--frame needs a figure by drystone; this drawing has no frames".into(),
         ));
     }
-    let draft = match format {
-        Format::Svg => svg::read(text, options.scale, options.frame).map_err(refused)?,
-        Format::GeoJson => scaled(geojson::read(text, scale).map_err(refused)?),
-        Format::Wkt => scaled(wkt::read(text, scale)),
-    };
+    let draft = with_ground(text, format, options).map_err(refused)?;
     build_scene(draft, options)
+}
+
+/// Reads the drawing. A drawing without ground is read again, with words such as "abutment" for the ground.
+fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, String> {
+    let has_ground = |draft: &Draft| draft.parts.iter().any(|p| p.kind == Role::Ground);
+    let naming = Naming::new(&options.ground_layers, false);
+    let mut draft = read_draft(text, format, options, &naming)?;
+    if let Some(missing) = naming.missing().first() {
+        let names = naming.seen();
+        let near = crate::text::nearest(missing, names.iter().map(String::as_str));
+        let help = match (near, names.is_empty()) {
+            (Some(near), _) => format!("did you mean `{near}`?"),
+            (None, true) => "nothing in the drawing has a name".into(),
+            (None, false) => format!("its names are {}", listed(&names)),
+        };
+        return Err(format!("no layer or element is called `{missing}`; {help}"));
+    }
+    if has_ground(&draft) {
+        return Ok(draft);
+    }
+    let guess = Naming::new(&options.ground_layers, true);
+    let guessed = read_draft(text, format, options, &guess)?;
+    if has_ground(&guessed) {
+        draft = guessed;
+        draft.notes.push(format!(
+            "taken as ground by name: {}; nothing in the drawing has a name that begins with ground",
+            listed(&guess.made_ground())
+        ));
+    } else if draft.parts.iter().any(|p| p.kind == Role::Block) {
+        let names = naming.seen();
+        let help = match names.is_empty() {
+            true => "give the ground's layer or outline a name that begins with ground".into(),
+            false => format!(
+                "give the name of its layer or outline with --ground-layer, or let it begin with ground; the drawing has {}",
+                listed(&names)
+            ),
+        };
+        draft.remark(
+            "",
+            "no part of the drawing is ground, so nothing supports the blocks",
+            help,
+        );
+    }
+    Ok(draft)
+}
+
+/// Step 1.
+fn read_draft(
+    text: &str,
+    format: Format,
+    options: &Options,
+    naming: &Naming<'_>,
+) -> Result<Draft, String> {
+    let scale = Scale {
+        metres: options.scale,
+        ratio: options.ratio,
+    };
+    let scaled = |read: &dyn Fn(f64) -> Result<Draft, String>| {
+        let (metres, note) = scale.of(None, "the drawing states no unit")?;
+        let mut draft = read(metres)?;
+        draft.notes.insert(0, note);
+        Ok(draft)
+    };
+    match format {
+        Format::Svg => svg::read(text, scale, options.frame, naming),
+        Format::GeoJson => {
+            let is_given = options.scale.is_some();
+            scaled(&|metres| geojson::read(text, metres, is_given, naming))
+        }
+        Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
+    }
+}
+
+/// At most eight names with commas between them.
+fn listed(names: &[String]) -> String {
+    let shown: Vec<&str> = names.iter().take(8).map(String::as_str).collect();
+    match names.len() - shown.len() {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
 }
 
 /// Reports options that are not valid lengths.
@@ -202,9 +281,22 @@ fn option_problems(options: &Options) -> Vec<Remark> {
         }
     };
     check("scale", options.scale, false);
+    check("scale 1:N", options.ratio, false);
     check("flatten", options.flatten, false);
     check("gap", options.gap, true);
     problems
+}
+
+/// The reason why outlines are no structure: there is no block, or too many outlines overlap.
+fn structure_problem(outlines: &Outlines) -> Option<Remark> {
+    if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
+        return Some(Remark {
+            element: String::new(),
+            message: "nothing in the drawing becomes a block".into(),
+            help: "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide".into(),
+        });
+    }
+    limit::problem([Role::Block, Role::Ground].map(|kind| outlines.boxes(kind)))
 }
 
 /// Steps 2 to 6: makes a scene from a draft.
@@ -220,18 +312,7 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
-    if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
-        let empty = Remark {
-            element: String::new(),
-            message: "nothing in the drawing becomes a block".into(),
-            help: "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide".into(),
-        };
-        return Err(DrawingProblems {
-            problems: vec![empty],
-            remarks: draft.remarks,
-        });
-    }
-    if let Some(problem) = limit::problem(&outlines) {
+    if let Some(problem) = structure_problem(&outlines) {
         return Err(DrawingProblems {
             problems: vec![problem],
             remarks: draft.remarks,
@@ -240,7 +321,7 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
     let gap = options
         .gap
         .unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
-    let names = name::unique_names(&mut outlines);
+    let names = name::unique_names(&outlines);
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
         draft.notes.push(format!(

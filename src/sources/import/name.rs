@@ -13,7 +13,7 @@ pub(super) struct Names {
 }
 
 /// Unique names. A duplicate gets a number after its name, and a body without a name is named by its number.
-pub(super) fn unique_names(outlines: &mut Outlines) -> Names {
+pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved: results use it for the ground.
     let mut taken = Taken::with("ground");
     let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();

@@ -1,19 +1,15 @@
 //! [`Outlines`]: the bodies and robots of a drawing as polygons with holes, with flattened curves.
 
 use super::draft::{Draft, Form, Part, Role, Values};
-use super::name::Names;
 use super::region::regions;
 use super::subpath::Subpath;
-use super::{Remark, Snapped, limit};
-use crate::geometry::snap::{self, Corner, Rings, polygon};
-use crate::geometry::{Bounds, Point, Polygon, PolygonError, Tolerance};
+use super::{Remark, limit};
+use crate::geometry::snap::{Corner, Rings, polygon};
+use crate::geometry::{Bounds, Point, Polygon, PolygonError};
 use crate::scene::Problem;
 
 /// The largest coordinate in metres; scene files have the same limit.
 const MAX_COORDINATE: f64 = 1e12;
-
-/// More bodies than this share one remark.
-const MAX_LISTED_BODIES: usize = 12;
 
 /// The bodies and robots of a drawing.
 pub(super) struct Outlines {
@@ -143,67 +139,12 @@ impl Outlines {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// Snaps edges and corners within `gap` together, and returns the bodies that moved.
-    pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
-        if !(gap > 0.0) {
-            return Vec::new();
-        }
-        let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
-        let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
-        let outcome = snap::snapped(
-            &rings,
-            snap::Gaps::new(&gaps),
-            &fixed,
-            0.5 * self.tolerance() / gap,
-        );
-        if outcome.kept.len() > MAX_LISTED_BODIES {
-            let message = format!(
-                "{} bodies would change their shape or overlap their neighbours more if they were snapped; left as drawn",
-                outcome.kept.len()
-            );
-            draft.remark(
-                "",
-                message,
-                "draw them closer to their neighbours, or use another --gap",
-            );
-        }
-        for body in outcome
-            .kept
-            .iter()
-            .copied()
-            .filter(|_| outcome.kept.len() <= MAX_LISTED_BODIES)
-        {
-            draft.remark(
-                &self.bodies[body].element,
-                "it would change its shape or overlap its neighbours more if it were snapped; left as drawn",
-                "draw it closer to its neighbours, or use a smaller --gap",
-            );
-        }
-        let described = |moved: &snap::Moved| Snapped {
-            body: names.bodies[moved.body].clone(),
-            element: self.bodies[moved.body].element.clone(),
-            corners: moved.corners,
-            distance: moved.distance,
-            to: moved.to.iter().map(|b| names.bodies[*b].clone()).collect(),
-        };
-        let snapped = outcome.moved.iter().map(described).collect();
-        for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies.into_owned()) {
-            body.rings = rings;
-        }
-        snapped
-    }
-
-    /// The depth of an overlap that a scene of these blocks tolerates, in metres.
-    fn tolerance(&self) -> f64 {
-        let blocks = self.bodies.iter().filter(|b| b.kind == Role::Block);
-        let boxes: Vec<Bounds> = blocks
+    /// The bounding boxes of the blocks, or of the parts of the ground.
+    pub(super) fn boxes(&self, kind: Role) -> Vec<Bounds> {
+        let bodies = self.bodies.iter().filter(|b| b.kind == kind);
+        bodies
             .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
-            .collect();
-        let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-        let all = boxes.into_iter().reduce(Bounds::union);
-        Tolerance::new(all.map_or(0.0, Bounds::diagonal), typical).gap
+            .collect()
     }
 
     /// The number of parts of the ground.

@@ -29,28 +29,14 @@ pub(super) fn scene(
         .iter()
         .filter_map(|b| b.fill)
         .collect();
-    let mut blocks: Vec<BlockEntry> = Vec::new();
-    for (body, name) in outlines.bodies.iter().zip(&names.bodies).skip(ground) {
-        blocks.push(BlockEntry {
-            id: Some(name.clone()),
-            polygon: Some(round.ring(body, 0)),
-            holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
-            material: body.fill.map(material),
-            weight: body.values.weight,
-            density: body.values.density,
-            friction: body.values.friction,
-            ..BlockEntry::default()
-        });
-    }
-    let ground_entries = outlines.bodies[..ground]
-        .iter()
-        .map(|body| GroundEntry {
-            polygon: Some(round.ring(body, 0)),
-            holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
-            friction: body.values.friction,
-            fill: body.fill.map(hex),
-            ..GroundEntry::default()
-        })
+    let bodies = outlines.bodies.iter().zip(&names.bodies);
+    let blocks = bodies
+        .skip(ground)
+        .map(|(body, name)| block_entry(body, name, &round));
+    let blocks = blocks.collect();
+    let ground_entries = outlines.bodies[..ground].iter();
+    let ground_entries = ground_entries
+        .map(|body| ground_entry(body, &round))
         .collect();
     let materials = fills.into_iter().map(|fill| {
         let entry = MaterialEntry {
@@ -75,6 +61,29 @@ pub(super) fn scene(
         blocks,
         robots: robots(outlines, names, draft, &round),
         ..SceneFile::default()
+    }
+}
+
+fn block_entry(body: &Body, name: &str, round: &Rounding) -> BlockEntry {
+    BlockEntry {
+        id: Some(name.to_owned()),
+        polygon: Some(round.ring(body, 0)),
+        holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
+        material: body.fill.map(material),
+        weight: body.values.weight,
+        density: body.values.density,
+        friction: body.values.friction,
+        ..BlockEntry::default()
+    }
+}
+
+fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
+    GroundEntry {
+        polygon: Some(round.ring(body, 0)),
+        holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
+        friction: body.values.friction,
+        fill: body.fill.map(hex),
+        ..GroundEntry::default()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Drawings into scenes, in small.
 
+use super::naming::Naming;
+use super::scale::Scale;
 use super::*;
 use crate::geometry::Point;
 
@@ -117,6 +119,10 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
         ("rect \"none\"", "its width is 0"),
         ("use \"lost\"", "it copies #nowhere, which does not exist"),
         ("<use> in line 7", "it copies itself"),
+        (
+            "",
+            "no part of the drawing is ground, so nothing supports the blocks",
+        ),
         ("path \"open\"", "it is open"),
         (
             "polygon \"bow\"",
@@ -199,7 +205,8 @@ fn numbers_beyond_all_reason_are_left_out() {
     let imported = taken("<rect id='a' width='3' height='3'/><rect id='b' x='1e200' width='3' height='3'/>
         <g transform='scale(1e300)'><g transform='scale(1e300)'><rect id='c' width='3' height='3'/></g></g>");
     assert_eq!(ids(&imported), ["a"]);
-    assert_eq!(imported.remarks.len(), 2, "{:?}", imported.remarks);
+    // The third remark: nothing is ground.
+    assert_eq!(imported.remarks.len(), 3, "{:?}", imported.remarks);
 }
 
 #[test]
@@ -211,14 +218,15 @@ fn copies_of_copies_come_to_an_end() {
     }
     body += "</defs><path d='M0 0 1 1'/><use href='#g11' x='5'/>";
     let document = svg(&body);
-    let refused = svg::read(&document, None, None).expect_err("too many");
+    let refused =
+        svg::read(&document, Scale::default(), None, &Naming::default()).expect_err("too many");
     assert!(refused.contains("copies included"), "{refused}");
     let deep = format!(
         "{}<rect width='3' height='3'/>{}",
         "<g>".repeat(5000),
         "</g>".repeat(5000)
     );
-    let draft = svg::read(&svg(&deep), None, None).expect("XML");
+    let draft = svg::read(&svg(&deep), Scale::default(), None, &Naming::default()).expect("XML");
     assert!(draft.parts.is_empty() && draft.remarks[0].message.contains("levels deep"));
 }
 

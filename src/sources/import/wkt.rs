@@ -1,6 +1,7 @@
 //! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it.
 
 use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
@@ -8,7 +9,7 @@ use crate::geometry::Point;
 const MAX_DEPTH: usize = 50;
 
 /// Reads lines of well-known text. Lines that begin with `#` are comments.
-pub(super) fn read(text: &str, scale: f64) -> Draft {
+pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     let mut draft = Draft::default();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     for (number, line) in text.lines().enumerate() {
@@ -21,7 +22,7 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         if !name.is_empty() {
             element = format!("{element} \"{name}\"");
         }
-        let kind = Role::from_name(name);
+        let kind = naming.role(name);
         if kind == Some(Role::Ignored) {
             draft.notes.push(format!(
                 "{element} is left out: its name begins with ignore or guide"
@@ -246,7 +247,7 @@ mod tests {
             SRID=25832;polygon z ((0 0 1, 1e0 0 1, 0 +1 1))\n\
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
-        let draft = read(text, 1.0);
+        let draft = read(text, 1.0, &Naming::default());
         let found: Vec<(&str, Role)> = draft
             .parts
             .iter()

@@ -108,20 +108,20 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
     };
     hold(vec![
         Claim(
-            "names the nearest known one",
+            "the message names the nearest known key",
             block(json!({ "weigth": 1 }), json!({})),
             Refused("unknown_key", "the nearest known key is `weight`"),
         ),
         Claim(
-            "or all of them where none is near",
+            "or all known keys if none is similar",
             file(json!({ "zzzzzz": 1 })),
             Refused(
                 "unknown_key",
-                "known keys are blocks, contact_tolerance, corner_contacts",
+                "known keys are author, blocks, contact_tolerance, corner_contacts",
             ),
         ),
         Claim(
-            "What has a default may be left out",
+            "Keys with a default may be left out",
             least("ground"),
             Result(STANDS, json!("unstable")),
         ),
@@ -136,13 +136,13 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
             Refused("missing_key", "blocks"),
         ),
         Claim(
-            "`null` counts as leaving a key out",
+            "`null` has the same meaning as leaving the key out",
             file(json!({ "title": null, "gravity": null, "grid": null,
             "friction": null, "kernel": null, "contact_tolerance": null, "$schema": null })),
             stands(),
         ),
         Claim(
-            "`null` counts as leaving a key out",
+            "`null` has the same meaning as leaving the key out",
             block(
                 json!({ "cells": null, "shape": null, "at": null,
             "weight": null, "fill": null }),
@@ -164,7 +164,7 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
     for key in lists.into_iter().chain(["drystone", "blocks"]) {
         let refused = Refused("wrong_type", "found null");
         hold(vec![Claim(
-            "there it is an error",
+            "It is an error for a required key, and for a key whose value is a list or an object of named entries",
             file(json!({ key: null })),
             refused,
         )]);

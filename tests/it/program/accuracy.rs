@@ -131,7 +131,7 @@ fn a_falling_frame_says_which_forces_its_motion_rules_out() {
     assert!(frames[1]["proof"].get("no_balance_below").is_none());
     assert!(
         bench
-            .run("check falls.json")
+            .run("check --verbose falls.json")
             .out
             .contains("no balance at all")
     );

@@ -184,7 +184,7 @@ fn the_verdict_alone_has_the_same_shape() {
         notices.contains("only the verdict was asked for"),
         "{notices}"
     );
-    let told = bench.run("check --verdict-only falls.json");
+    let told = bench.run("check --verdict-only --verbose falls.json");
     assert_eq!(told.code, 1);
     assert!(told.out.contains("unknown"), "{}", told.out);
 }

@@ -89,6 +89,11 @@ fn steps_follow_one_another_in_an_animated_png() {
         [0, 50, 0, 100],
         "50 hundredths of a second"
     );
+    let ran = bench.run("render falls.json -o steps.gif --kind build --animate 0.5");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let bytes = fs::read(bench.path("steps.gif")).expect("drawn");
+    assert!(bytes.starts_with(b"GIF89a"));
+    assert_eq!(bytes[6..8], 800_u16.to_le_bytes(), "800 pixels wide");
     for line in [
         "render falls.json -o steps.svg --kind build --animate 0.5",
         "render falls.json -o steps.png --animate 0",

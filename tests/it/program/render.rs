@@ -200,7 +200,10 @@ fn a_picture_has_the_rights_of_any_new_file() {
 fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
     let bench = Bench::new();
     for (line, words) in [
-        ("render stands.json -o a.jpeg", ".svg, .png, .pdf or .tikz"),
+        (
+            "render stands.json -o a.jpeg",
+            ".svg, .png, .gif, .pdf or .tikz",
+        ),
         ("render stands.json -o a", "slash"),
         ("render stands.json falls.json -o a.svg", "folder"),
         ("render stands.json falls.json -o -", "folder"),

@@ -1,5 +1,6 @@
 //! Files of every sort in the place of references: compared, or refused in words of their own; never a panic.
 
+use drystone::output::animation;
 use drystone::output::png as ours;
 use drystone::snapshot::picture::{Difference, Picture, PictureError, PixelTolerance, Subject};
 
@@ -181,18 +182,14 @@ fn what_is_no_whole_png_has_words_of_its_own() {
             height: 65_535
         })
     );
-    let page = |colour: &str| {
-        format!(
+    let page = |colour: &str| animation::Step {
+        svg: format!(
             "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><path d='M0 0h9v9z' fill='{colour}'/></svg>"
-        )
+        ),
+        seconds: 0.5,
     };
-    let moving = ours::animate(
-        &[page("#f00"), page("#00f")],
-        ours::Size::Natural,
-        0.5,
-        &ours_fonts(),
-    )
-    .expect("an animation");
+    let pages = [page("#f00"), page("#00f")];
+    let moving = animation::apng(&pages, ours::Size::Natural, &ours_fonts()).expect("an animation");
     assert_eq!(Picture::decode(&moving), Err(PictureError::Animation(2)));
 }
 

@@ -1,4 +1,4 @@
-//! What a batch reads: standard input, files and folders, in the order in which they are given.
+//! The input of a batch: standard input, files and folders, in the order of the command line.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +19,7 @@ pub(super) struct Inputs {
     pub bytes: Option<u64>,
 }
 
-/// The inputs behind some paths. Where pictures are drawn no two of them may have pictures of one name.
+/// Collects the inputs of some paths. If pictures are drawn, two inputs must not have pictures of the same name.
 pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>> {
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
@@ -42,7 +42,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         return Err(complaints);
     }
     let sizes = files.iter().map(|path| match path == stdin {
-        // What a shell feeds into standard input is a file like any other, where the system has a name for it.
+        // The file that a shell redirects to standard input has a size too, if the system has a path for it.
         true => size(Path::new("/dev/stdin")),
         false => size(path),
     });
@@ -62,7 +62,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     })
 }
 
-/// Where a record stands.
+/// The origin of a record: its file and line.
 pub(super) fn origin(record: &Record) -> Origin {
     Origin {
         file: record.file.as_ref().map(|f| f.display().to_string()),
@@ -70,7 +70,7 @@ pub(super) fn origin(record: &Record) -> Origin {
     }
 }
 
-/// How a person is shown which record is meant.
+/// The place of a record in words, for messages.
 pub(super) fn shown(record: &Record) -> String {
     let file = match &record.file {
         Some(file) => file.display().to_string(),
@@ -82,7 +82,7 @@ pub(super) fn shown(record: &Record) -> String {
     }
 }
 
-/// The name of a record's picture, without its ending.
+/// The file name of a record's picture, without its ending.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);
     match (stem, record.line) {
@@ -104,7 +104,7 @@ fn size(path: &Path) -> Option<u64> {
         .map(|found| found.len())
 }
 
-/// Whether a file is one scene, and not one on every line.
+/// Whether a file contains a single scene, and not one scene per line.
 fn is_whole(path: &Path) -> bool {
     path.extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
@@ -116,7 +116,7 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// A path itself, or the scenes in its folder in the order of their names.
+/// The path itself, or the scene files in the folder in the order of their names.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),
@@ -146,7 +146,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     }
 }
 
-/// Complains of files whose pictures would have one name.
+/// Reports files whose pictures would have the same name.
 fn one_name(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut complaints = Vec::new();

@@ -1,4 +1,4 @@
-//! Where the lines of a batch go: standard output, or a file that grows and can be resumed.
+//! The output of a batch: standard output, or a file that a later run can continue.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::resume::{self, ResumeFile, Settings};
+use super::{Form, csv};
 use crate::batch::Records;
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
@@ -34,11 +35,12 @@ pub(super) struct Target<'a> {
     pub resume: bool,
     /// What the answers depend on.
     pub settings: Settings,
+    pub form: Form,
 }
 
 impl Output {
-    /// Opens standard output, or a file: a new one, or behind the answers that it has already. Those are checked against the
-    /// scenes they answer, which are taken from `records`.
+    /// Opens standard output or a file. If an earlier run has written answers to the file, they are checked against the
+    /// scenes in `records`, and new answers follow them.
     pub fn open(
         target: &Target<'_>,
         inputs: &[PathBuf],
@@ -64,7 +66,12 @@ impl Output {
             why: error.to_string(),
         };
         let file = File::create(path).map_err(not_written)?;
-        // A device or a pipe keeps nothing that a later run could resume.
+        if target.form == Form::Csv {
+            let mut output = Output::new(Box::new(file), Some(path));
+            output.waiting.extend_from_slice(csv::HEADER.as_bytes());
+            return Ok(output);
+        }
+        // A device or a pipe keeps nothing that a later run could continue.
         let is_kept = file.metadata().map_err(not_written)?.is_file();
         let log = match is_kept {
             true => Some(ResumeFile::create(path, &target.settings)?),
@@ -87,12 +94,13 @@ impl Output {
         }
     }
 
-    /// How many lines were there already.
+    /// The number of lines that an earlier run has written.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Writes the line that answers a scene, given by its hash; `Break` if the reader has closed the output.
+    /// Writes the line that answers a scene. `scene` is the hash of the scene. Returns `Break` if the reader has closed the
+    /// output.
     pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
         self.waiting.extend_from_slice(line);
         if let Some(resume) = &mut self.resume {
@@ -104,7 +112,7 @@ impl Output {
         }
     }
 
-    /// Sees to it that what was written can be read.
+    /// Writes everything that is still in memory, so that a reader sees it.
     pub fn flush(&mut self) -> Result<ControlFlow<()>, CliError> {
         if let Some(resume) = &mut self.resume {
             resume.flush()?;
@@ -113,7 +121,7 @@ impl Output {
         self.waiting.clear();
         match written.and_then(|()| self.stream.flush()) {
             Ok(()) => Ok(ControlFlow::Continue(())),
-            // A reader that closes the pipe has read enough: that is no failure of ours.
+            // A reader that closes the pipe has read enough. This is not an error.
             Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => {
                 Ok(ControlFlow::Break(()))
             }

@@ -1,4 +1,4 @@
-//! How far a batch is, how fast, and when it will be done: lines on standard error.
+//! Reports the progress of a batch on standard error: the number of scenes, the speed and the remaining time.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,7 +31,7 @@ pub(super) struct Pace<'t> {
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> Pace<'t> {
-    /// From now on.
+    /// Starts to measure the time.
     pub fn begin(
         terminal: &'t Terminal,
         every: Option<f64>,
@@ -53,7 +53,7 @@ impl<'t> Pace<'t> {
         }
     }
 
-    /// So many scenes were answered by an earlier run.
+    /// Counts scenes that an earlier run has answered.
     pub fn skipped(&mut self, scenes: usize) {
         self.before = scenes;
         self.read_before = self.read.load(Ordering::Relaxed);
@@ -64,7 +64,7 @@ impl<'t> Pace<'t> {
         }
     }
 
-    /// One more scene is answered.
+    /// Counts one more answered scene.
     pub fn step(&mut self, ending: ExitStatus) {
         let kind = match ending {
             ExitStatus::Done => 0,
@@ -81,7 +81,7 @@ impl<'t> Pace<'t> {
         }
     }
 
-    /// Says what it came to, where anybody wants to know how it goes.
+    /// Prints the totals, if progress is reported.
     pub fn end(&self) {
         if self.every.is_none() {
             return;
@@ -124,7 +124,7 @@ impl<'t> Pace<'t> {
     }
 }
 
-/// A time as a person says it.
+/// A duration in words.
 fn span(seconds: f64) -> String {
     let whole = seconds.round().max(0.0) as u64;
     match (whole / 3600, whole / 60 % 60, whole % 60) {
@@ -134,7 +134,7 @@ fn span(seconds: f64) -> String {
     }
 }
 
-/// How often it is reported.
+/// Parses the interval between two reports, in seconds.
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),

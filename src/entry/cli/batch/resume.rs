@@ -1,4 +1,4 @@
-//! [`ResumeFile`]: a file next to the output that says from which options and scenes its lines were made.
+//! [`ResumeFile`]: a file next to the output that records the options and the scenes of its lines.
 //!
 //! The output keeps one line of JSON per scene and nothing else, so the record has a file of its own: `answers.ndjson` has
 //! `answers.ndjson.resume`. It begins with the options, one `name: value` per line, and an empty line. Each line after that
@@ -26,7 +26,7 @@ const ENTRY_BYTES: usize = 34;
 pub(super) struct Settings(pub Vec<(&'static str, String)>);
 
 impl Settings {
-    /// What a resume file begins with.
+    /// The header of a resume file.
     fn header(&self) -> String {
         let mut header = String::new();
         for (name, value) in &self.0 {
@@ -36,7 +36,7 @@ impl Settings {
         header
     }
 
-    /// What differs from an earlier run, given by its header: a name, its value then and its value now.
+    /// The differences from an earlier run, given by its header: a name, its earlier value and its present value.
     fn differences(&self, earlier: &str) -> Vec<String> {
         let value_then = |name: &str| {
             let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));
@@ -53,7 +53,7 @@ impl Settings {
     }
 }
 
-/// Reads the header of a resume file; `None` where it has none.
+/// Reads the header of a resume file; `None` if it has none.
 fn read_header(entries: &mut impl BufRead) -> Option<String> {
     let mut header = String::new();
     loop {
@@ -67,7 +67,7 @@ fn read_header(entries: &mut impl BufRead) -> Option<String> {
     }
 }
 
-/// The hash of a scene as it was read; of the reason where it could not be read.
+/// The hash of a scene as it was read, or of the reason why it could not be read.
 pub(super) fn record_hash(record: &Record) -> u64 {
     match &record.bytes {
         Ok(bytes) => text::hash(bytes),
@@ -85,14 +85,14 @@ pub(super) struct ResumeFile {
 }
 
 impl ResumeFile {
-    /// Its path, for an output.
+    /// The path of the resume file of an output.
     pub fn path_for(output: &Path) -> PathBuf {
         let mut path = output.as_os_str().to_owned();
         path.push(ENDING);
         path.into()
     }
 
-    /// A new one.
+    /// Creates a new resume file.
     pub fn create(output: &Path, settings: &Settings) -> Result<ResumeFile, CliError> {
         let path = ResumeFile::path_for(output);
         let created = File::create(&path).and_then(|mut file| {
@@ -109,14 +109,14 @@ impl ResumeFile {
         }
     }
 
-    /// Adds the entry of an answer; [`ResumeFile::flush`] writes it.
+    /// Adds the entry of an answer in memory; [`ResumeFile::flush`] writes it.
     pub fn push(&mut self, scene: u64, line: &[u8]) {
-        // Writing into a string cannot fail.
+        // Writing to a `String` cannot fail.
         let _ = writeln!(self.waiting, "{}", entry(scene, line));
     }
 
-    /// Writes what waits. It has to be called before the answers themselves are written: then a run that is killed leaves at
-    /// least as many entries as answers.
+    /// Writes the entries to the file. Call it before the answers themselves are written: then a run that is killed leaves
+    /// at least as many entries as answers.
     pub fn flush(&mut self) -> Result<(), CliError> {
         let written = self.file.write_all(self.waiting.as_bytes());
         self.waiting.clear();
@@ -124,7 +124,7 @@ impl ResumeFile {
     }
 }
 
-/// An entry without its line feed.
+/// The entry of a line, without its line feed.
 fn entry(scene: u64, line: &[u8]) -> String {
     format!("{scene:016x} {:016x}", text::hash(line))
 }
@@ -154,7 +154,8 @@ pub(super) struct Checked {
     resume_bytes: u64,
 }
 
-/// Takes as many scenes from the input as the output has whole lines, and checks that they belong together. Changes no file.
+/// Reads one scene from the input for each complete line of the output, and checks that they belong together. Changes no
+/// file.
 ///
 /// # Errors
 /// What differs, with the remedy.
@@ -236,7 +237,7 @@ pub(super) fn check(
     }
 }
 
-/// Whether a line is the one that was written, and answers this scene; what is wrong where not.
+/// Checks that a line is the line that was written, and that it answers this scene. The error says what is wrong.
 fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
     let expected = entry(scene, line);
@@ -255,7 +256,7 @@ fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> 
     Ok(())
 }
 
-/// Opens an output and its resume file behind what was checked; both are cut there.
+/// Opens an output and its resume file for appending. Both are truncated after the checked part.
 pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFile), CliError> {
     let path = ResumeFile::path_for(output);
     let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;
@@ -275,7 +276,7 @@ fn cut(path: &Path, bytes: u64) -> io::Result<File> {
     Ok(file)
 }
 
-/// Whether there is something to go on from.
+/// Whether the output contains lines that a run can continue.
 pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
     match fs::metadata(output) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

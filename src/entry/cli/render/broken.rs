@@ -38,53 +38,76 @@ impl Render {
         let mut complaints = Vec::new();
         let mut drawn: Vec<PathBuf> = Vec::new();
         for (path, target) in scenes.iter().zip(&targets_of(&paths, scenes.len())) {
-            let bytes = read(path).map_err(|error| {
-                one(CliError::NotRead {
-                    what: name(path),
-                    why: error.to_string(),
-                })
-            })?;
-            let sketched = isolated(path, || {
-                let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
-                let drawing = figure::broken(&sketch, &options);
-                let picture = self.picture.bytes(drawing, format, fonts)?;
-                Ok((sketch, picture))
-            });
-            let (sketch, picture) = match sketched {
-                Ok(sketched) => sketched.map_err(one)?,
-                Err(fault) => {
-                    complaints.push(fault);
-                    continue;
+            match self.sketch(path, &options, format, fonts).map_err(one)? {
+                Ok((sketch, picture)) => {
+                    drawn.push(target.clone());
+                    pictures.push(picture);
+                    if !sketch.problems.list.is_empty() {
+                        complaints.push(CliError::Scene {
+                            name: name(path),
+                            problems: sketch.problems,
+                        });
+                    }
                 }
-            };
-            drawn.push(target.clone());
-            pictures.push(picture);
-            if !sketch.problems.list.is_empty() {
-                complaints.push(CliError::Scene {
-                    name: name(path),
-                    problems: sketch.problems,
-                });
+                Err(fault) => complaints.push(fault),
             }
         }
-        if let Destination::Stdout = destination {
-            for picture in &pictures {
-                terminal.print_bytes(picture).map_err(one)?;
-            }
-        } else {
-            if let Destination::Folder(folder) = destination {
-                destination::make_folder(folder).map_err(one)?;
-            }
-            let files: Vec<(PathBuf, Vec<u8>)> = drawn.iter().cloned().zip(pictures).collect();
-            destination::write(&files, Existing::Replace).map_err(one)?;
-            for path in &drawn {
-                terminal.note(&format!("{}: outlines and problems", path.display()));
-            }
-        }
+        self.write_sketches(destination, drawn, pictures, terminal)
+            .map_err(one)?;
         if complaints.is_empty() {
             Ok(ExitStatus::Done)
         } else {
             Err(complaints)
         }
+    }
+
+    /// Reads and draws one scene. The inner error is a fault of the program on this scene; the others can still be drawn.
+    fn sketch(
+        &self,
+        path: &Path,
+        options: &figure::Options,
+        format: Format,
+        fonts: &Fonts,
+    ) -> Result<Result<(Sketch, Vec<u8>), CliError>, CliError> {
+        let bytes = read(path).map_err(|error| CliError::NotRead {
+            what: name(path),
+            why: error.to_string(),
+        })?;
+        let sketched = isolated(path, || {
+            let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
+            let drawing = figure::broken(&sketch, options);
+            let picture = self.picture.bytes(drawing, format, fonts)?;
+            Ok((sketch, picture))
+        });
+        match sketched {
+            Ok(sketched) => sketched.map(Ok),
+            Err(fault) => Ok(Err(fault)),
+        }
+    }
+
+    /// Writes the pictures, all or none.
+    fn write_sketches(
+        &self,
+        destination: &Destination,
+        paths: Vec<PathBuf>,
+        pictures: Vec<Vec<u8>>,
+        terminal: &Terminal,
+    ) -> Result<(), CliError> {
+        if let Destination::Stdout = destination {
+            for picture in &pictures {
+                terminal.print_bytes(picture)?;
+            }
+            return Ok(());
+        }
+        if let Destination::Folder(folder) = destination {
+            destination::make_folder(folder)?;
+        }
+        let files: Vec<(PathBuf, Vec<u8>)> = paths.iter().cloned().zip(pictures).collect();
+        destination::write(&files, Existing::Replace)?;
+        for path in &paths {
+            terminal.note(&format!("{}: outlines and problems", path.display()));
+        }
+        Ok(())
     }
 }
 

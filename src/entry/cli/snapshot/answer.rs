@@ -1,4 +1,5 @@
-//! The review in the terminal: each snapshot that does not hold, in words and where the terminal can in pictures, and a question.
+//! The review in the terminal: shows each snapshot that differs, as text and, if the terminal can, as a picture, and asks a
+//! question.
 
 use std::io::{self, BufRead};
 
@@ -9,7 +10,7 @@ use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
-use crate::snapshot::check::{Acceptance, CheckOutcome, Snapshot};
+use crate::snapshot::outcome::{Acceptance, CheckOutcome, Snapshot};
 use crate::snapshot::store::{self, Access};
 
 /// How a terminal shows a picture within its text.
@@ -26,8 +27,8 @@ enum Pictures {
 /// Bytes of a picture in one message to kitty.
 const PIECE: usize = 4096;
 
-/// Asks of each snapshot that does not hold whether it is meant: `y` accepts it, `n` keeps the reference, `s` leaves it for later,
-/// `q` leaves all that follow.
+/// Asks for each snapshot that differs whether to accept it: `y` accepts, `n` keeps the reference, `s` leaves it for later,
+/// `q` ends the review.
 pub(super) fn ask(
     terminal: &Terminal,
     report: &mut CheckOutcome,
@@ -51,7 +52,7 @@ pub(super) fn ask(
             };
             match answer.trim().to_lowercase().as_str() {
                 "y" | "yes" => {
-                    // A turn for each: a person may take long.
+                    // Lock the folder for each snapshot separately, because a person may take long.
                     let _lock = store::lock_folders(snapshot.folders(), Access::Write);
                     if let Err(unwritten) = snapshot.store(Acceptance::Accept) {
                         failed.push(super::not_written(unwritten));
@@ -80,7 +81,7 @@ fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<
     }
     terminal.print(&page)?;
     for finding in &snapshot.findings {
-        // The difference where there is one, else what is new.
+        // Show the difference if there is one, otherwise the new picture.
         let png = finding.difference.as_ref().or_else(|| {
             let is_picture = finding.fresh.starts_with(b"\x89PNG");
             is_picture.then_some(&finding.fresh)
@@ -108,7 +109,7 @@ fn pictures(terminal: &Terminal) -> Pictures {
     }
 }
 
-/// The message that makes a terminal show a picture. It holds letters, digits and marks of base 64 alone.
+/// The escape sequence with which a terminal shows a picture. It contains base-64 characters only.
 fn drawn(png: &[u8], pictures: Pictures) -> Vec<u8> {
     let data = STANDARD.encode(png);
     match pictures {

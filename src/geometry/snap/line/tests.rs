@@ -23,22 +23,22 @@ fn tilted(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     places.iter().map(turn).collect()
 }
 
-/// The course of all of some places, the sides given by their numbers.
-fn course(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
+/// The kind of all of some places, the sides given by their numbers.
+fn kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
     let nodes = nodes(places, gap);
     let line = Line::new(&nodes, (0..places.len()).collect(), sides)?;
     assert_eq!(line.nodes.len(), places.len());
-    Some(match line.course {
-        Course::Side(ends) => format!("{ends:?}"),
-        Course::Level => "level".to_owned(),
-        Course::Upright => "upright".to_owned(),
-        Course::Closest => "closest".to_owned(),
+    Some(match line.kind {
+        LineKind::Side(ends) => format!("{ends:?}"),
+        LineKind::Level => "level".to_owned(),
+        LineKind::Upright => "upright".to_owned(),
+        LineKind::Closest => "closest".to_owned(),
     })
 }
 
 fn course_is(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) {
     assert_eq!(
-        course(places, gap, sides).as_deref(),
+        kind(places, gap, sides).as_deref(),
         Some(wanted),
         "{places:?}"
     );
@@ -83,10 +83,10 @@ fn what_no_line_passes_within_the_gaps_has_none() {
     // Three places of a triangle 1 high: the closest line is a third from two of them, two thirds from the third.
     let places = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0]];
     let sides = [[0, 2]];
-    assert_eq!(course(&places, 0.66, &sides), None);
+    assert_eq!(kind(&places, 0.66, &sides), None);
     course_is(&places, 0.67, &sides, "level");
     let off = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0], [f64::NAN, 0.0]];
-    assert_eq!(course(&off, 0.67, &[[0, 1]]), None);
+    assert_eq!(kind(&off, 0.67, &[[0, 1]]), None);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn the_closest_line_has_the_least_squares() {
         let nodes = nodes(&places, 0.01);
         let line = Line {
             nodes: (0..5).collect(),
-            course: Course::Closest,
+            kind: LineKind::Closest,
         };
         let fit = line.fit(&nodes);
         let squares = |fit: &Fit| {
@@ -180,7 +180,7 @@ fn line(through: [f64; 2], normal: [f64; 2]) -> Fit {
 
 fn steps_to(at: [f64; 2], lines: &[Fit], wanted: [f64; 2]) {
     let at = Point::new(at[0], at[1]);
-    let found = at + towards(at, lines.iter());
+    let found = at + least_squares_step(at, lines.iter());
     assert!(
         (found - Point::new(wanted[0], wanted[1])).norm() < 1e-12,
         "{found} for {wanted:?}"
@@ -237,7 +237,7 @@ fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
     // A hundredth of a radian and a little more is a crossing, ten thousand gaps away; a little less is none.
     let crossing = |sine: f64| {
         let lines = [level(0.0), line([0.0, 1.0], [-sine, 1.0])];
-        towards(Point::new(0.0, 0.0), lines.iter()).norm()
+        least_squares_step(Point::new(0.0, 0.0), lines.iter()).norm()
     };
     assert!((crossing(0.0102) * 0.0102 - 1.0).abs() < 1e-9);
     assert!(crossing(0.0098) < 1.0);

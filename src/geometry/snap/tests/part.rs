@@ -25,7 +25,7 @@ fn areas_are_positive_anticlockwise() {
 fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, usize, f64, f64)> {
     let nodes = Nodes::new(bodies, Gaps::new(gaps), kept);
     let sides = sides(bodies, &nodes);
-    let found = beside(&nodes, &sides, gaps, kept);
+    let found = nodes_near_sides(&nodes, &sides, gaps, kept);
     let of_first = found.iter().filter(|b| b.side.body == 0);
     of_first
         .map(|b| {
@@ -99,7 +99,7 @@ const NONE: [usize; 0] = [];
 
 /// Which of two bodies came out worse, an overlap of a millionth being none.
 fn worse(before: [Rings; 2], after: [Rings; 2]) -> Vec<usize> {
-    let wrong = spoilt(&before, &after, &[0.001, 1.0], 0.001);
+    let wrong = damaged_bodies(&before, &after, &[0.001, 1.0], 0.001);
     wrong.into_iter().collect()
 }
 

@@ -16,7 +16,7 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 }
 
 impl<'a> Candidate<'a> {
-    /// For an assembly, with forces and velocities in the units of a scale.
+    /// A candidate for an assembly, with forces and velocities in the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             component: Component {
@@ -27,14 +27,14 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Stable if the forces balance every body. Unstable if the imbalance they leave is a motion of one component that no
-    /// forces can contradict. `None` if neither is proved; the other routes then decide.
+    /// Stable if the forces balance every body. Unstable if their imbalance is a motion of one component that no admissible
+    /// forces can contradict. `None` if neither is proved; then the other routes decide.
     pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.believes(&forces) {
             return Some(Verdict::Stable);
         }
-        // The blocks move against what is left to be given.
+        // The blocks move in the direction of the unbalanced load.
         let motion: Vec<f64> = left.iter().map(|v| -v).collect();
         let (speed, motions) = self.component.moved(&motion);
         if speed == 0.0 {
@@ -58,7 +58,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// The motion of a block; motions stand in the order of the blocks.
+/// The motion of a block. The motions are in the order of the blocks.
 fn of_block(motions: &[Motion], block: BlockId) -> Motion {
     match motions.binary_search_by_key(&block, |motion| motion.block) {
         Ok(place) => motions[place],

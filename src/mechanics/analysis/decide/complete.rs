@@ -1,4 +1,5 @@
-//! Route 4: what belongs to a verdict. Forces of least sum for what stands; failures and mechanism for what falls.
+//! Route 4: completes a decision. A structure that stands gets the forces of least sum; a structure that falls gets its
+//! failures and its mechanism.
 
 use super::Component;
 use super::Method;
@@ -10,7 +11,7 @@ use crate::program::Program;
 use crate::solve::{Choice, balance_in, is_late, least_adhesion_in};
 
 impl Component<'_> {
-    /// Adds least forces or failures to a decision, unless only the verdict is wanted.
+    /// Adds the forces of least sum or the failures to a decision, unless only the verdict is requested.
     pub fn complete(&self, program: &Program, decision: Decision) -> Decision {
         if !self.complete_result {
             return decision;
@@ -26,13 +27,14 @@ impl Component<'_> {
         }
     }
 
-    /// Replaces forces that balance by those of least sum, if a more precise solution finds them.
+    /// Replaces forces that balance by those of least sum, if a more exact solution finds them.
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
-        // A program without a status was already tried at full precision.
+        // A program that ended without a status was already tried with full precision.
         if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;
         }
-        // For large components not decided in the first, short attempt, least force has not been solved to the end.
+        // For large components, except those that the first short attempt decided, the program of least force has not been
+        // solved completely yet.
         let sought = usize::from(
             program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
         );
@@ -75,15 +77,15 @@ impl Component<'_> {
             if is_late() {
                 break;
             }
-            let adhesion = least_adhesion_in(program, *settings);
-            decision.effort = decision.effort.and(adhesion.effort);
-            if adhesion.balanced == Some(true)
+            let least_adhesion = least_adhesion_in(program, *settings);
+            decision.effort = decision.effort.and(least_adhesion.effort);
+            if least_adhesion.balanced == Some(true)
                 && self
-                    .prove_with_adhesion(&adhesion.forces, &adhesion.sticking)
+                    .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
                     .1
             {
-                decision.amounts = adhesion.forces;
-                decision.sticking = Some(adhesion.sticking);
+                decision.amounts = least_adhesion.forces;
+                decision.adhesion = Some(least_adhesion.adhesion);
                 break;
             }
         }
@@ -92,45 +94,47 @@ impl Component<'_> {
 
     /// Computes the least adhesion, and the mechanism that belongs to it. The settings are tried in order.
     fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
-        let mut ready = decision.adhesion.take().filter(|s| s.balanced.is_some());
+        let mut ready = decision
+            .least_adhesion
+            .take()
+            .filter(|s| s.balanced.is_some());
         for settings in &self.settings {
-            let adhesion = ready.take().unwrap_or_else(|| {
-                let adhesion = least_adhesion_in(program, *settings);
-                decision.effort = decision.effort.and(adhesion.effort);
-                adhesion
+            let least_adhesion = ready.take().unwrap_or_else(|| {
+                let least_adhesion = least_adhesion_in(program, *settings);
+                decision.effort = decision.effort.and(least_adhesion.effort);
+                least_adhesion
             });
-            let forces = self.prove_forces(&adhesion.forces).proof;
-            if adhesion.balanced == Some(true) && self.believes(&forces) {
-                // Forces balance every body after all. Both proofs hold, and the forces win.
+            let forces = self.prove_forces(&least_adhesion.forces).proof;
+            if least_adhesion.balanced == Some(true) && self.believes(&forces) {
+                // These forces balance every body. If both proofs hold, the forces decide.
                 return Decision {
                     verdict: Verdict::Stable,
-                    amounts: adhesion.forces,
+                    amounts: least_adhesion.forces,
                     proof: forces,
                     ..decision
                 };
             }
-            // For large components the motion that decided is kept. Freeing another one of the solver's error takes a third as
-            // long as everything else.
+            // Large components keep the motion that decided. To correct another motion takes a third of the total time.
             let shown = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
-            let motion = adhesion.motion.filter(|_| !shown);
+            let motion = least_adhesion.motion.filter(|_| !shown);
             let own = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
-            // A program with a price on forces gives a motion that violates contacts a little; the one that decided is kept.
-            if let (Some((mechanism, proof)), false) = (own, adhesion.priced) {
+            // If forces have a cost, the motion of the program violates contacts slightly. Keep the motion that decided.
+            if let (Some((mechanism, proof)), false) = (own, least_adhesion.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }
-            // A later setting replaces what an earlier one found only where that does not balance every body.
-            let found = adhesion.balanced == Some(true);
+            // A later setting replaces the result of an earlier one only if the earlier one does not balance every body.
+            let found = least_adhesion.balanced == Some(true);
             let holds = found
                 && self
-                    .prove_with_adhesion(&adhesion.forces, &adhesion.sticking)
+                    .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
                     .1;
-            if holds || decision.sticking.is_none() {
-                decision.beyond_sticking = adhesion.balanced == Some(false);
-                decision.amounts = adhesion.forces;
-                decision.sticking = found.then_some(adhesion.sticking);
+            if holds || decision.adhesion.is_none() {
+                decision.beyond_adhesion = least_adhesion.balanced == Some(false);
+                decision.amounts = least_adhesion.forces;
+                decision.adhesion = found.then_some(least_adhesion.adhesion);
             }
             let many = program.blocks >= LARGE_PROGRAM_BLOCKS;
-            if holds || adhesion.balanced == Some(false) || (found && many) {
+            if holds || least_adhesion.balanced == Some(false) || (found && many) {
                 break;
             }
         }

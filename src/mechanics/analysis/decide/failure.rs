@@ -1,8 +1,8 @@
-//! What sticks in a component, as failures in metres and newtons.
+//! The adhesion in a component, as failures in metres and newtons.
 
 use super::Component;
 use crate::analysis::Failure;
-use crate::assembly::{Assembly, load_about};
+use crate::assembly::{Assembly, AssemblyContact, AssemblyGrip, load_about};
 use crate::geometry::{Point, Vector};
 use crate::proof::{Forces, gross_load};
 use crate::solve::Amounts;
@@ -14,15 +14,16 @@ const SHARE_OF_WEIGHT: f64 = 1e-6;
 const SHARE_OF_LARGEST: f64 = 1e-9;
 
 impl Component<'_> {
-    /// What sticks, in newtons, in the order of contacts and grips.
-    pub(super) fn failures(&self, sticking: &Amounts) -> Vec<Failure> {
+    /// The failures in newtons, in the order of contacts and grips.
+    pub(super) fn failures(&self, adhesion: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
-        let most = sticking
+        let most = adhesion
             .normal
             .iter()
             .flatten()
-            .chain(&sticking.friction)
-            .chain(sticking.grip.iter().flatten());
+            .chain(&adhesion.friction)
+            .chain(adhesion.grip.iter().flatten());
+        // The largest adhesion of the component, N.
         let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
@@ -35,61 +36,83 @@ impl Component<'_> {
             let lighter = loaded.fold(f64::INFINITY, f64::min);
             (SHARE_OF_WEIGHT * lighter).min(SHARE_OF_LARGEST * most) / unit
         };
-        let block = |body: usize| self.assembly.bodies[body].block;
         let mut failures = Vec::new();
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
-            let bodies = contact.bodies;
             let least = least(contact.on, contact.from);
-            let counts = |v: f64| v.abs() > least;
-            let pulls = contact.points.into_iter().zip(sticking.normal[k]);
-            for (at, pull) in pulls.filter(|p| counts(p.1)) {
-                failures.push(Failure::Tension {
-                    bodies,
-                    at,
-                    force: contact.normal * (-pull * unit),
-                });
-            }
-            if counts(sticking.friction[k]) {
-                failures.push(Failure::Friction {
-                    bodies,
-                    at: nalgebra::center(&contact.ends[0], &contact.ends[1]),
-                    force: contact.tangent() * (sticking.friction[k] * unit),
-                });
-            }
+            let amounts = (adhesion.normal[k], adhesion.friction[k]);
+            self.add_contact_failures(&mut failures, contact, amounts, least);
         }
-        for (grip, [x, y, m]) in self.assembly.grips.iter().zip(&sticking.grip) {
-            let (robot, block, at) = (grip.robot, block(grip.body), grip.at);
+        for (grip, missing) in self.assembly.grips.iter().zip(&adhesion.grip) {
             let least = least(grip.body, None);
-            let counts = |v: f64| v.abs() > least;
-            if counts(*x) || counts(*y) {
-                failures.push(Failure::RobotForce {
-                    robot,
-                    block,
-                    at,
-                    force: Vector::new(*x, *y) * unit,
-                });
-            }
-            if counts(*m) {
-                failures.push(Failure::RobotTorque {
-                    robot,
-                    block,
-                    at,
-                    torque: m * unit * self.scale.length,
-                });
-            }
+            self.add_grip_failures(&mut failures, grip, *missing, least);
         }
         failures
     }
 
-    /// The assembly with what sticks among its loads: what admissible forces have to balance beside it.
-    pub(super) fn with_sticking(&self, sticking: &Amounts) -> Assembly {
+    /// The pulls and the friction that a contact lacks, where they exceed `least`; all in the scale's unit of force.
+    fn add_contact_failures(
+        &self,
+        failures: &mut Vec<Failure>,
+        contact: &AssemblyContact,
+        (pulls, friction): ([f64; 2], f64),
+        least: f64,
+    ) {
+        let (unit, bodies) = (self.scale.force, contact.bodies);
+        let pulls = contact.points.into_iter().zip(pulls);
+        for (at, pull) in pulls.filter(|p| p.1.abs() > least) {
+            failures.push(Failure::Tension {
+                bodies,
+                at,
+                force: contact.normal * (-pull * unit),
+            });
+        }
+        if friction.abs() > least {
+            failures.push(Failure::Friction {
+                bodies,
+                at: nalgebra::center(&contact.ends[0], &contact.ends[1]),
+                force: contact.tangent() * (friction * unit),
+            });
+        }
+    }
+
+    /// The force and the torque that a robot lacks, where they exceed `least`; all in the units of the scale.
+    fn add_grip_failures(
+        &self,
+        failures: &mut Vec<Failure>,
+        grip: &AssemblyGrip,
+        [x, y, m]: [f64; 3],
+        least: f64,
+    ) {
+        let unit = self.scale.force;
+        let (robot, block, at) = (grip.robot, self.assembly.bodies[grip.body].block, grip.at);
+        if x.abs() > least || y.abs() > least {
+            failures.push(Failure::RobotForce {
+                robot,
+                block,
+                at,
+                force: Vector::new(x, y) * unit,
+            });
+        }
+        if m.abs() > least {
+            failures.push(Failure::RobotTorque {
+                robot,
+                block,
+                at,
+                torque: m * unit * self.scale.length,
+            });
+        }
+    }
+
+    /// The assembly with the adhesion among its loads: admissible forces have to balance this assembly.
+    pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();
-        // The factor on listed loads must not multiply what sticks.
+        // The load factor must not multiply the adhesion.
         for body in &mut held.bodies {
             body.listed = body.listed.times(self.assembly.load_factor);
         }
         held.load_factor = 1.0;
+        // Each force of the adhesion acts on one body as a load, and its reaction on the other.
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
             body.listed = body
@@ -97,11 +120,11 @@ impl Component<'_> {
                 .plus(load_about(body.centroid, at, force, torque));
         };
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
-            let pulls = contact.points.into_iter().zip(sticking.normal[k]);
+            let pulls = contact.points.into_iter().zip(adhesion.normal[k]);
             let pulls = pulls.map(|(at, pull)| (at, contact.normal * (-pull * unit)));
             let rub = (
                 contact.ends[0],
-                contact.tangent() * (sticking.friction[k] * unit),
+                contact.tangent() * (adhesion.friction[k] * unit),
             );
             for (at, force) in pulls.chain([rub]) {
                 act(contact.on, at, force, 0.0);
@@ -110,20 +133,20 @@ impl Component<'_> {
                 }
             }
         }
-        for (grip, [x, y, m]) in self.assembly.grips.iter().zip(&sticking.grip) {
+        for (grip, [x, y, m]) in self.assembly.grips.iter().zip(&adhesion.grip) {
             let force = Vector::new(*x, *y) * unit;
             act(grip.body, grip.at, force, m * unit * self.scale.length);
         }
         held.with_summed_loads()
     }
 
-    /// Forces next to what sticks, in newtons, and whether both together balance every body.
+    /// The forces that act together with the adhesion, in newtons, and whether both together balance every body.
     pub(super) fn prove_with_adhesion(
         &self,
         amounts: &Amounts,
-        sticking: &Amounts,
+        adhesion: &Amounts,
     ) -> (Forces, bool) {
-        let held = self.with_sticking(sticking);
+        let held = self.with_adhesion(adhesion);
         let component = Component {
             assembly: &held,
             settings: self.settings.clone(),
@@ -135,7 +158,7 @@ impl Component<'_> {
     }
 }
 
-/// The sum of all that fails, N, a torque over the length L.
+/// The sum of all failures in newtons; a torque is divided by the length L.
 pub(super) fn total(failures: &[Failure], length: f64) -> f64 {
     let sizes = failures.iter().map(|failure| match failure {
         Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),

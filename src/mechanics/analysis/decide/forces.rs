@@ -1,4 +1,4 @@
-//! Forces of a component in newtons, made admissible to the last bit, with their proof.
+//! Converts forces of a component to newtons, makes them exactly admissible, and proves them.
 
 use super::Component;
 use crate::geometry::Vector;
@@ -26,19 +26,19 @@ pub(super) struct ProvedForces {
 }
 
 impl Component<'_> {
-    /// Newtons from pure numbers, made admissible to the last bit, with their proof.
+    /// Converts forces to newtons, makes them exactly admissible, and proves them.
     ///
     /// Noise becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
     /// the proof measures it. What is noise among heavy blocks may be all that holds a light one: where the proof fails,
     /// less is dropped.
     pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
-        // Of several that have no proof, the forces that balance most bodies.
+        // If no attempt has a proof, return the forces that balance most bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
             let proof = proof::check_forces(self.assembly, &forces);
             let carried = ProvedForces { forces, proof };
-            // After the deadline no better forces are sought.
+            // After the deadline return the first result.
             if self.believes(&proof) || is_late() {
                 return carried;
             }
@@ -59,7 +59,8 @@ impl Component<'_> {
         }
     }
 
-    /// The sum that a motion shows forces must have at least to balance, N, and whether given forces have no more.
+    /// A lower bound of the sum of balancing forces in newtons, from a motion, and whether the sum of the given forces
+    /// reaches it.
     pub fn bound_force_sum(
         &self,
         witness: Option<&[f64]>,
@@ -81,13 +82,14 @@ impl Component<'_> {
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
-    /// The proof of amounts with as little dropped from them as may be.
+    /// The proof of forces with as little as possible rounded to zero.
     pub fn prove_without_cleaning(&self, amounts: &Amounts) -> Proof {
         proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 
-    /// Newtons from pure numbers: normal and robot forces below 1e-13 and friction below 1e-10 of what acts there dropped,
-    /// and never more than a tenth of what is demanded of the heaviest load, or of the lightest beside.
+    /// Converts forces to newtons. Normal and robot forces below 1e-13, and friction below 1e-10, of the forces there
+    /// become zero, but never more than a tenth of the accepted imbalance of the heaviest load, or of the lightest load
+    /// nearby.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.demand.imbalance;
@@ -99,7 +101,7 @@ impl Component<'_> {
             Noise::OfEachBody => self.acting(amounts),
             _ => Vec::new(),
         };
-        // The largest normal or robot force, and the largest friction, that a body does not miss.
+        // The largest normal or robot force, and the largest friction, that a body can lose within its accepted imbalance.
         let limits = |body: usize| match noise {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {
@@ -135,7 +137,7 @@ impl Component<'_> {
             let length = self.scale.length;
             let (noise, _) = limits(grip.body);
             let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
-            // The division and the multiplication by L are rounded: the torque is cut once more at the limit itself.
+            // Division and multiplication by L are rounded: limit the torque once more at the limit itself.
             let most = grip.limits.torque;
             let torque = cut(m * unit, most / length) * length;
             GripForces {
@@ -149,7 +151,7 @@ impl Component<'_> {
         }
     }
 
-    /// Σ |force| on each body, N.
+    /// The sum Σ |force| on each body, in newtons.
     fn acting(&self, amounts: &Amounts) -> Vec<f64> {
         let bodies = self.assembly.bodies.iter();
         let mut sums: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();

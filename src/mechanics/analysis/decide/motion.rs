@@ -13,8 +13,8 @@ use crate::solve::{Effort, repair_motion};
 const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
 impl Component<'_> {
-    /// The motion nearest to the given velocities `y` (program units) that violates no contact, with its proof; `None` if the proof
-    /// does not convince.
+    /// The motion nearest to the velocities `y` (program units) that violates no contact, with its proof; `None` if the
+    /// proof is too weak.
     ///
     /// Violations of the solver are never accepted as rounding, however small: the motion of a wedge into its notch consists of
     /// nothing else.
@@ -29,6 +29,7 @@ impl Component<'_> {
         if speed == 0.0 {
             return None;
         }
+        // Some contact is violated: remove the solver's error. Large components first in few pieces, which is faster and more exact.
         if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
             let in_pieces = || self.prove_motion_in_pieces(&motion, effort);
@@ -42,17 +43,18 @@ impl Component<'_> {
         self.convinces(&motion, &proof).then_some((motion, proof))
     }
 
-    /// Whether a motion with its proof convinces. The proof must be believed, and it must exclude all forces that the loads of the
-    /// whole component can cause. Otherwise a thrust of heavy bodies could balance what the motion of a light one violates.
+    /// Whether a motion and its proof are strong enough. The proof must be valid, and it must exclude all forces that the
+    /// loads of the whole component can cause. Otherwise the thrust of heavy bodies could balance a violation in the motion
+    /// of a light body.
     pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
+        // A force of at most `MIN_EXCLUDED_LOADS` times all loads must not be able to stop the motion.
         let bodies = self.assembly.bodies.iter();
         let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
         let load = proof::moving_load(self.assembly, motion);
         self.believes(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// Whether a proved motion does more work than the imbalance that a proof of forces tolerates could take up. No forces can then
-    /// contradict it.
+    /// Whether a proved motion has more power than the accepted imbalance could absorb. Then no forces can contradict it.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let ways: f64 = motion
             .iter()
@@ -63,13 +65,15 @@ impl Component<'_> {
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
 
-    /// The motion of a component that touches no ground and is held by no robot: all bodies move along the sum of their loads.
+    /// The motion of a component that touches no ground and that no robot holds: all bodies move in the direction of the
+    /// sum of their loads.
     pub(super) fn falls_freely(&self) -> Option<(Vec<Motion>, Proof)> {
         if !self.assembly.is_unsupported() {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
         let total = loads.fold(LoadVector::NONE, LoadVector::plus).force;
+        // Loads that cancel move nothing.
         if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest_load() {
             return None;
         }
@@ -89,7 +93,8 @@ impl Component<'_> {
         proof::check_mechanism(self.assembly, motion)
     }
 
-    /// The speed of the fastest point in pure numbers, and every body's motion in metres, that point with speed 1.
+    /// The speed of the fastest point in program units, and the motion of every body in metres, scaled so that this point
+    /// has speed 1.
     pub(super) fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
         let bodies = self.assembly.bodies.iter();
         let mut all: Vec<Motion> = bodies
@@ -97,7 +102,7 @@ impl Component<'_> {
             .map(|(k, body)| Motion {
                 block: body.block,
                 velocity: Vector::new(y[3 * k], y[3 * k + 1]),
-                // Pure velocities are per unit of length.
+                // Velocities in program units are per unit of length.
                 spin: y[3 * k + 2] / self.scale.length,
             })
             .collect();
@@ -106,7 +111,7 @@ impl Component<'_> {
     }
 }
 
-/// Multiplies a motion so that its fastest point has speed 1; the speed it had before.
+/// Scales a motion so that its fastest point has speed 1. Returns the speed before.
 pub(super) fn to_speed_one(assembly: &Assembly, motion: &mut [Motion]) -> f64 {
     let bodies = assembly.bodies.iter();
     let speeds = bodies

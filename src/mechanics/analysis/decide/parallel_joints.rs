@@ -1,4 +1,4 @@
-//! LeastForce forces of joints that are parallel but for rounding.
+//! Finds least forces if joints are parallel except for rounding.
 
 use super::Component;
 use super::strategy::Strategy;
@@ -16,8 +16,9 @@ pub(super) struct LeastForce {
 }
 
 impl Component<'_> {
-    /// Forces with a smaller sum, if there are any: the least forces with nearly parallel joints made parallel, then changed
-    /// as little as possible so that they balance with the joints as they are. Otherwise the given forces.
+    /// Returns forces with a smaller sum, if there are any, otherwise the given forces. The nearly parallel joints are made
+    /// parallel, the least forces are computed, and these are changed as little as possible to balance with the real
+    /// joints.
     pub(super) fn reduce_force_sum(
         &self,
         program: &Program,

@@ -1,4 +1,4 @@
-//! The pieces that a structure falls in: bodies that move as one, found from the velocities of all.
+//! Finds the rigid pieces of a mechanism: sets of bodies that move together.
 //!
 //! A motion of many bodies violates contacts by the solver's error at every joint that does not open. Most of them belong
 //! to bodies that move as one. Posed with the few pieces as its bodies, the change that frees a motion of this error is a
@@ -21,30 +21,33 @@ const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 const MIN_BODIES_PER_PIECE: usize = 8;
 
 impl Component<'_> {
-    /// The motion near a given one, of fastest speed 1, in which bodies that move nearly as one do so, freed of the
-    /// solver's error, with its proof if that convinces.
+    /// The motion in which bodies that move nearly together move exactly together, without the errors of the solver, with
+    /// its proof. Its fastest point has speed 1. `None` if the proof is too weak.
     pub(super) fn prove_motion_in_pieces(
         &self,
         motion: &[Motion],
         effort: &mut Effort,
     ) -> Option<(Vec<Motion>, Proof)> {
         SAME_PIECE_SPEED.into_iter().find_map(|tolerance| {
+            // 1. Join bodies that move nearly as one.
             let piece = pieces(self.assembly, motion, tolerance);
             let joined = self.assembly.merged(&piece);
             if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len()
             {
                 return None;
             }
+            // 2. Correct the mean motion of the pieces in the small program.
             let program = Program::new(&joined, self.scale);
             let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
             let y = repair_motion(&program, &mean, effort)?;
+            // 3. Carry it back to the bodies, and prove it for them.
             let parted = self.parted(&joined, &piece, &y);
             let proof = self.mechanism(&parted);
             self.convinces(&parted, &proof).then_some((parted, proof))
         })
     }
 
-    /// The motion of every body, metres, with the velocities of its piece, pure numbers.
+    /// The motion of every body in metres from the velocities of its piece in program units.
     fn parted(&self, joined: &Assembly, piece: &[Option<usize>], y: &[f64]) -> Vec<Motion> {
         let bodies = self.assembly.bodies.iter().zip(piece);
         let mut motion: Vec<Motion> = bodies
@@ -67,7 +70,7 @@ impl Component<'_> {
     }
 }
 
-/// The piece of each body, `None` of those that rest with the ground.
+/// The number of the piece of each body; `None` for bodies at rest with the ground.
 fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();
@@ -75,6 +78,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
     let radii: Vec<f64> = bodies.iter().map(|body| body.radius()).collect();
     for contact in &assembly.contacts {
         let (on, at) = (contact.on, contact.points[0]);
+        // The relative velocity at the contact, and the relative spin times the larger radius.
         let mut apart = motion[on].about(bodies[on].centroid, at);
         let (mut turn, mut reach) = (motion[on].spin, radii[on]);
         if let Some(from) = contact.from {
@@ -86,6 +90,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
             sets.union(on, contact.from.unwrap_or(ground));
         }
     }
+    // Number the pieces in the order of their first bodies; bodies joined with the ground rest.
     let resting = sets.find(ground);
     let mut number = vec![None; bodies.len() + 1];
     let mut count = 0;
@@ -104,7 +109,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
         .collect()
 }
 
-/// The mean velocities of the bodies of each piece, pure numbers: about the mean of their centroids.
+/// The mean velocities of the bodies of each piece in program units, about the mean of their centroids.
 fn mean_velocities(
     piece: &[Option<usize>],
     motion: &[Motion],

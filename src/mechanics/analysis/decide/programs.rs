@@ -1,4 +1,4 @@
-//! Route 3: one program after another, until forces or a motion have a proof.
+//! Route 3: solves one program after another, until forces or a motion have a proof.
 //!
 //! If both proofs hold, the forces win. A proof of forces allows a small imbalance, and a motion that does no more work than
 //! this imbalance could take up ("weak") may therefore coexist with forces that balance. A weak motion decides only after
@@ -25,9 +25,9 @@ pub(super) struct Decision {
     /// Whether the forces have that sum.
     pub least_force: bool,
     /// The adhesion that would have to act for a balance.
-    pub sticking: Option<Amounts>,
+    pub adhesion: Option<Amounts>,
     /// Whether no adhesion at the application points could hold it.
-    pub beyond_sticking: bool,
+    pub beyond_adhesion: bool,
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
     /// The strategy that decided.
@@ -35,7 +35,7 @@ pub(super) struct Decision {
     /// Whether a program of least force ended without a status.
     pub no_status: bool,
     /// The answer of the program of least adhesion, if it was solved.
-    pub adhesion: Option<LeastAdhesion>,
+    pub least_adhesion: Option<LeastAdhesion>,
     /// Whether only some bodies fall, and the adhesion that these lack is known.
     pub in_part: bool,
     pub effort: Effort,
@@ -49,12 +49,12 @@ struct Progress {
     no_status: bool,
     /// A proved motion that does little work.
     weak: Option<(Vec<Motion>, Proof)>,
-    adhesion: Option<LeastAdhesion>,
+    least_adhesion: Option<LeastAdhesion>,
     last: Option<(Strategy, Attempt)>,
 }
 
 impl Progress {
-    /// A decision by a strategy, to be filled in.
+    /// A new decision by a strategy, without results.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
             no_status: self.no_status,
@@ -65,7 +65,7 @@ impl Progress {
 }
 
 impl Component<'_> {
-    /// Tries the strategies in order until a proof convinces.
+    /// Tries the strategies in order, until a proof is strong enough.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
         let strategies =
@@ -75,6 +75,7 @@ impl Component<'_> {
             if progress.last.is_some() && is_late() {
                 break;
             }
+            // Solve one program, then try its forces, then its motion.
             let attempt = strategy.attempt(program);
             progress.effort = progress.effort.and(attempt.effort);
             progress.no_status |=
@@ -85,13 +86,13 @@ impl Component<'_> {
             if let Some(decision) = decided {
                 return decision;
             }
-            progress.adhesion = attempt.adhesion.clone().or(progress.adhesion);
+            progress.least_adhesion = attempt.least_adhesion.clone().or(progress.least_adhesion);
             progress.last = Some((strategy, attempt));
         }
         self.without_proof(program, progress)
     }
 
-    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall by themselves.
+    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall on their own.
     fn decide_by_forces(
         &self,
         program: &Program,
@@ -100,6 +101,7 @@ impl Component<'_> {
         progress: &mut Progress,
     ) -> Option<Decision> {
         let amounts = attempt.forces.as_ref()?;
+        // Forces that balance the whole to the solver's accuracy may still leave a light body unbalanced.
         let proof = self.prove_forces(amounts).proof;
         let outcome = match self.believes(&proof) {
             true => Outcome::Stands(amounts.clone(), proof),
@@ -107,6 +109,7 @@ impl Component<'_> {
         };
         match outcome {
             Outcome::Stands(amounts, proof) => {
+                // How close the sum of the forces is to the least sum.
                 let witness = attempt.witness.as_deref();
                 let (force_bound, least_force) = self.bound_force_sum(witness, &amounts);
                 let mut found = LeastForce {
@@ -131,8 +134,8 @@ impl Component<'_> {
                 verdict: Verdict::Unstable,
                 amounts: part.amounts,
                 // If no adhesion can hold these bodies, `complete` computes the failures of the whole component.
-                in_part: part.sticking.is_some(),
-                sticking: part.sticking,
+                in_part: part.adhesion.is_some(),
+                adhesion: part.adhesion,
                 mechanism: part.mechanism,
                 proof: part.proof,
                 ..progress.decision(program, strategy)
@@ -151,10 +154,12 @@ impl Component<'_> {
     ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
+        // A motion decides at once only if it does more work than an imbalance that the proof of forces tolerates.
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
         let (mechanism, proof) = proved.or(progress.weak.take())?;
+        // A weak motion waits for a program that shows that no forces balance.
         if !is_strong && !strategy.excludes_balance(attempt) {
             progress.weak = Some((mechanism, proof));
             return None;
@@ -163,7 +168,10 @@ impl Component<'_> {
             verdict: Verdict::Unstable,
             mechanism,
             proof,
-            adhesion: attempt.adhesion.clone().or(progress.adhesion.take()),
+            least_adhesion: attempt
+                .least_adhesion
+                .clone()
+                .or(progress.least_adhesion.take()),
             ..progress.decision(program, strategy)
         })
     }
@@ -175,12 +183,13 @@ impl Component<'_> {
             None => Decision::new(program, Method::LeastForce),
         };
         let attempt = progress.last.map(|(_, attempt)| attempt);
+        // No strategy found forces, so the weak motion decides.
         if let Some((mechanism, proof)) = progress.weak {
             return Decision {
                 verdict: Verdict::Unstable,
                 mechanism,
                 proof,
-                adhesion: attempt.and_then(|a| a.adhesion),
+                least_adhesion: attempt.and_then(|a| a.least_adhesion),
                 ..decision
             };
         }
@@ -188,6 +197,7 @@ impl Component<'_> {
         let amounts = forces.cloned().unwrap_or_else(|| Amounts::none(program));
         let proof = self.prove_forces(&amounts).proof;
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
+        // Neither is proved: the reason shows how far both are from a proof.
         let unproved_motion = motion.map(|y| self.mechanism(&self.moved(y).1));
         Decision {
             verdict: Verdict::Undecided,
@@ -203,7 +213,7 @@ impl Component<'_> {
 }
 
 impl Decision {
-    /// A decision to be filled in: stable, without forces, without a proof.
+    /// A new decision: stable, without forces and without a proof.
     pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,
@@ -211,8 +221,8 @@ impl Decision {
             amounts: Amounts::none(program),
             force_bound: None,
             least_force: false,
-            sticking: None,
-            beyond_sticking: false,
+            adhesion: None,
+            beyond_adhesion: false,
             mechanism: Vec::new(),
             proof: Proof::Mechanism {
                 power: 0.0,
@@ -220,7 +230,7 @@ impl Decision {
             },
             method,
             no_status: false,
-            adhesion: None,
+            least_adhesion: None,
             in_part: false,
             effort: Effort::default(),
         }

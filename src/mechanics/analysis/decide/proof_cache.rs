@@ -48,6 +48,7 @@ impl ProofCache {
 
     /// Whether some cached forces balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
+        // The latest come first: a search moves in small steps.
         let mut latest = self.forces.iter().rev();
         latest.any(|acting| {
             let forces = acting.moved_to(component.assembly);
@@ -57,7 +58,7 @@ impl ProofCache {
         })
     }
 
-    /// A cached motion by which a component falls and that no forces can contradict.
+    /// A cached motion by which a component falls. No admissible forces can contradict it.
     pub(super) fn falls(&self, component: &Component) -> Option<Vec<Motion>> {
         let mut latest = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
@@ -69,7 +70,7 @@ impl ProofCache {
 }
 
 impl Acting {
-    /// The same resultants at the application points of another component; `None` if one passes outside of them.
+    /// The same resultants at the application points of another component; `None` if a resultant passes outside them.
     fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
@@ -82,7 +83,7 @@ impl Acting {
     }
 }
 
-/// Normal forces at two points of a stretch with the resultant of those at two others.
+/// The normal forces at two new points of an interface that have the same resultant.
 fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = pressed.normal;
     let sum = first + second;
@@ -94,14 +95,15 @@ fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<
     let middle = nalgebra::center(&to[0], &to[1]);
     let moment = (from[0] - middle) * first + (from[1] - middle) * second;
     if square == 0.0 {
-        // Two points in one place carry what passes through it.
+        // If both points coincide, they carry a force that passes through them.
         let off = moment.norm() / sum;
         let size = (from[1] - from[0]).norm();
         return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
     }
+    // Same sum and same moment about the middle: sum and difference of the two forces.
     let difference = 2.0 * moment.dot(&along) / square;
     let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
-    // What is a rounding below 0 is 0.
+    // Treat rounding below 0 as 0.
     let least = -4.0 * f64::EPSILON * sum;
     (normal[0] >= least && normal[1] >= least).then(|| normal.map(|n| n.max(0.0)))
 }

@@ -1,4 +1,5 @@
-//! Route 3a: forces that balance the whole are corrected until they balance each body, or some bodies are proved to fall.
+//! Route 3a: corrects forces that balance the structure as a whole, until they balance each body or some bodies are proved
+//! to fall.
 //!
 //! A solver balances bodies to some digits of the heaviest load. The error on a light body may then exceed its own weight and hide
 //! that it falls. Each round does the first of these steps that helps:
@@ -48,7 +49,7 @@ pub(super) struct FallingPart {
     /// The forces of the others, and those that the sticking leaves to contacts and grips.
     pub amounts: Amounts,
     /// What would have to stick, where anything helps.
-    pub sticking: Option<Amounts>,
+    pub adhesion: Option<Amounts>,
 }
 
 impl Component<'_> {
@@ -79,12 +80,14 @@ impl Component<'_> {
                 break;
             }
             let fails = failing(&carried);
+            // Step 1: small parts of the forces' own amounts.
             if let Some(better) = rebalance_relative(program, &amounts, effort)
                 && count(&failing(&self.prove_forces(&better))) < count(&fails)
             {
                 amounts = better;
                 continue;
             }
+            // Step 2: the least change of all forces. Where it once did not help it will not help later.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
                     Some(better)
@@ -96,29 +99,43 @@ impl Component<'_> {
                     _ => all_at_once = false,
                 }
             }
-            let mut falling = Vec::new();
-            let mut better = false;
-            for set in self.assembly.connected(&fails) {
-                let part = self.assembly.substructure(&set);
-                match self.rebalance_part(&part, &amounts, effort) {
-                    PartOutcome::Changed(changed) => {
-                        self.insert_part(&mut amounts, &part, &changed);
-                        better = true;
-                    }
-                    PartOutcome::Falls(found) => falling.push((part, found)),
-                    PartOutcome::Open => {}
-                }
-            }
+            // Steps 3 and 4: each connected set of unbalanced bodies by itself.
+            let sets = self.assembly.connected(&fails);
+            let (falling, is_better) = self.rebalance_sets(sets, &mut amounts, effort);
             if !falling.is_empty() {
                 return self.combine_falling_parts(program, amounts, &falling);
             }
-            if !better {
+            if !is_better {
                 break;
             }
         }
         Outcome::Open
     }
 
+    /// Corrects the forces on each set while all other bodies rest. Returns the sets that fall, and whether any force changed.
+    fn rebalance_sets(
+        &self,
+        sets: Vec<Vec<usize>>,
+        amounts: &mut Amounts,
+        effort: &mut Effort,
+    ) -> (Vec<(Substructure, PartFall)>, bool) {
+        let mut falling = Vec::new();
+        let mut is_better = false;
+        for set in sets {
+            let part = self.assembly.substructure(&set);
+            match self.rebalance_part(&part, amounts, effort) {
+                PartOutcome::Changed(changed) => {
+                    self.insert_part(amounts, &part, &changed);
+                    is_better = true;
+                }
+                PartOutcome::Falls(found) => falling.push((part, found)),
+                PartOutcome::Open => {}
+            }
+        }
+        (falling, is_better)
+    }
+
+    /// Corrects the forces on one set while all other bodies rest, or decides the set.
     fn rebalance_part(
         &self,
         part: &Substructure,
@@ -149,7 +166,7 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
         }
-        // The whole component is being decided already, and nearly the whole would cost as much again.
+        // The whole component is already being decided. A part that contains nearly all bodies would cost as much again.
         let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
         if own == all || (own > MAX_SMALL_SET && 2 * own > all) {
             return PartOutcome::Open;
@@ -159,7 +176,7 @@ impl Component<'_> {
                 Verdict::Unstable => PartOutcome::Falls(PartFall {
                     mechanism: found.mechanism,
                     amounts: None,
-                    sticking: None,
+                    adhesion: None,
                 }),
                 _ => PartOutcome::Open,
             };
@@ -171,14 +188,14 @@ impl Component<'_> {
             Verdict::Stable => PartOutcome::Changed(whole(&decision.amounts)),
             Verdict::Unstable => PartOutcome::Falls(PartFall {
                 amounts: Some(whole(&decision.amounts)),
-                sticking: decision.sticking.as_ref().map(whole),
+                adhesion: decision.adhesion.as_ref().map(whole),
                 mechanism: decision.mechanism,
             }),
             Verdict::Undecided => PartOutcome::Open,
         }
     }
 
-    /// The motion of the falling parts with all other bodies at rest, and its proof in the whole.
+    /// The motion of the falling parts with all other bodies at rest, and its proof in the whole component.
     fn combine_falling_parts(
         &self,
         program: &Program,
@@ -195,7 +212,7 @@ impl Component<'_> {
                 spin: 0.0,
             })
             .collect();
-        let mut sticking = Some(Amounts::none(program));
+        let mut adhesion = Some(Amounts::none(program));
         for (part, fall) in falling {
             for (body, motion) in part.bodies.iter().zip(&fall.mechanism) {
                 mechanism[*body] = *motion;
@@ -203,9 +220,9 @@ impl Component<'_> {
             if let Some(held) = &fall.amounts {
                 self.insert_part(&mut amounts, part, held);
             }
-            match (&mut sticking, &fall.sticking) {
-                (Some(sticking), Some(own)) => self.insert_part(sticking, part, own),
-                _ => sticking = None,
+            match (&mut adhesion, &fall.adhesion) {
+                (Some(adhesion), Some(own)) => self.insert_part(adhesion, part, own),
+                _ => adhesion = None,
             }
         }
         let proof = self.mechanism(&mechanism);
@@ -216,11 +233,11 @@ impl Component<'_> {
             mechanism,
             proof,
             amounts,
-            sticking,
+            adhesion,
         })
     }
 
-    /// The forces on a part, in the units of its scale.
+    /// The forces on a part in the units of its own scale.
     fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
@@ -230,7 +247,7 @@ impl Component<'_> {
         in_units(&own, self.scale, scale)
     }
 
-    /// Replaces the forces on a part by `own`, which are in the units of the whole.
+    /// Replaces the forces on a part by `own`, which are in the units of the whole component.
     fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
         for (place, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = own.normal[place];
@@ -253,10 +270,10 @@ struct PartFall {
     /// One motion for each body of the part.
     mechanism: Vec<Motion>,
     amounts: Option<Amounts>,
-    sticking: Option<Amounts>,
+    adhesion: Option<Amounts>,
 }
 
-/// Forces converted from the units of one scale to those of another.
+/// Converts forces from the units of one scale to those of another.
 fn in_units(amounts: &Amounts, from: Scale, to: Scale) -> Amounts {
     let force = from.force / to.force;
     let torque = force * from.length / to.length;

@@ -1,4 +1,4 @@
-//! The verdict of a component and nothing else, for margins: many similar components, most of them near their limit.
+//! Computes only the verdict of a component. Margins need it for many similar components, most of them near their limit.
 
 use super::programs::Decision;
 use super::{Component, Place, ProofCache};

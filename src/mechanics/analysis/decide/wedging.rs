@@ -1,4 +1,4 @@
-//! Whether a component stands only by a self-stress that its loads do not build up from rest.
+//! Tests whether a component stands only by a self-stress that its loads do not cause from rest.
 
 use super::{Component, Findings};
 use crate::analysis::{Options, Wedged};
@@ -8,8 +8,8 @@ use crate::program::Program;
 use crate::scene::Scene;
 use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
 
-/// Whether some component stands only by wedging, and what shows it. The first value is `None` if no component certainly does
-/// and at least one could not be decided.
+/// Whether some component stands only by wedging, and the proof. The first value is `None` if no component is known to, and
+/// at least one could not be decided.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
@@ -47,7 +47,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     answer
 }
 
-/// In words, what shows that springs without initial stress do not come to rest.
+/// Describes the proof that springs without initial stress do not come to rest.
 fn shown<'n>(
     self_stress: &SelfStress,
     unit: f64,
@@ -70,7 +70,7 @@ fn shown<'n>(
     words
 }
 
-/// The first of some names, and how many more there are.
+/// The first names of a list, and the number of the others.
 fn several(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.collect();
     match names.len() {

@@ -1,4 +1,4 @@
-//! [`Threshold`]: between a value at which a component stands and one at which it falls.
+//! [`Threshold`]: searches the value of a parameter that separates standing from falling.
 //!
 //! Newton's steps find the edge; verdicts just inside and just beyond confirm it. Where these are too far apart, or Newton's
 //! steps lead nowhere, the stretch between them is halved. A value that no verdicts confirm on both sides is withheld.
@@ -8,6 +8,7 @@ use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::decide::Place;
 use crate::proof::Motion;
+use crate::solve::Tangent;
 
 /// Which side of an edge stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +31,7 @@ pub(super) struct Threshold {
 }
 
 impl Threshold {
-    /// A parameter, up to `most`, of which a least value suffices.
+    /// A parameter from 0 to `most` whose least sufficient value is searched.
     pub fn least(most: f64) -> Threshold {
         Threshold {
             way: Way::Least,
@@ -39,7 +40,7 @@ impl Threshold {
         }
     }
 
-    /// A parameter, up to `most`, of which a largest value is borne.
+    /// A parameter from 0 to `most` whose largest admissible value is searched.
     pub fn most(most: f64) -> Threshold {
         Threshold {
             way: Way::Most,
@@ -47,7 +48,7 @@ impl Threshold {
         }
     }
 
-    /// The interval of which one end is this one.
+    /// The interval that this end limits.
     fn interval(&self, end: End) -> Interval {
         match self.way {
             Way::Most => Interval::Between {
@@ -70,7 +71,7 @@ impl Threshold {
     /// The largest step away from an edge within which it may stay undecided.
     const FAR: f64 = 256e-6;
 
-    /// The interval whose end lies between 0 and `most`, found by Newton's steps or else by halving.
+    /// Searches the end between 0 and `most`, with Newton's method or else by bisection, and returns the interval.
     ///
     /// Where a value is undecided the search ends: the edge lies there, within what can be decided.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
@@ -81,7 +82,7 @@ impl Threshold {
             (verdict, _) => verdict == Verdict::Stable,
         };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
-        // Large steps outward, as long as the answer is that at 0.
+        // Take large steps from 0 outward, as long as the verdict is the one at 0.
         let mut verdict = trial.judge(&setting(far)).0;
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {
@@ -94,10 +95,12 @@ impl Threshold {
             (near, far) = (far, (far * 10.0).min(self.most));
             verdict = trial.judge(&setting(far)).0;
         }
+        // The bracket: here it stands, there it falls.
         let (inside, outside) = match self.way {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
+        // Newton's steps within the bracket, then verdicts on both sides of their root.
         let root = self.stepped(trial, setting, [inside, outside]);
         let mut bracket = Bracket {
             inside,
@@ -110,7 +113,7 @@ impl Threshold {
         self.interval(self.closed_in(trial, setting, bracket, root))
     }
 
-    /// Verdicts on either side of where Newton's steps ended, as close to it as there are any.
+    /// Finds verdicts on both sides of the root of Newton's method, as close to it as possible.
     fn enclose(
         &self,
         trial: &mut Trial,
@@ -126,7 +129,8 @@ impl Threshold {
                 break;
             }
         }
-        // Within the band of the proofs it may be called standing beyond the edge: only a fall says something there.
+        // Within the tolerance of the proofs the verdict may be "stands" beyond the end. Only the verdict "falls" is
+        // informative there.
         for value in self.steps(root, Side::Beyond) {
             if !within(&value, bracket) {
                 continue;
@@ -139,7 +143,7 @@ impl Threshold {
         }
     }
 
-    /// The end within a bracket: halved until both verdicts are close, or as close as they come around `root`.
+    /// The end inside a bracket: bisects until the two verdicts are close, or as close as they get around `root`.
     fn closed_in(
         &self,
         trial: &mut Trial,
@@ -163,7 +167,7 @@ impl Threshold {
             let middle = 0.5 * (bracket.inside + bracket.outside);
             is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
         }
-        // What is left of the band around 0 is 0.
+        // Only the tolerance around 0 remains: the end is 0.
         if self.way == Way::Least && is_none(bracket.inside) {
             return End::natural(0.0);
         }
@@ -190,8 +194,8 @@ impl Threshold {
         }
     }
 
-    /// The edge from Newton's steps on the least that forces leave unbalanced, seen from where it falls; `None` where they
-    /// lead nowhere.
+    /// Finds the end with Newton's method on the least residual, from the side on which the component falls. `None` if the
+    /// method does not converge.
     ///
     /// The forces and the motion that confirm it are remembered on the way.
     fn stepped(
@@ -202,9 +206,8 @@ impl Threshold {
     ) -> Option<f64> {
         let within = |value: f64, a: f64, b: f64| (value - a) * (value - b) < 0.0;
         let mut tangent = trial.tangent(&setting(outside))?;
-        // The latest falling ones, and the last standing one.
+        // The latest values at which the component falls, and the last at which it stands.
         let (mut falling, mut standing) = (Vec::new(), None);
-        let mut edge = None;
         for _ in 0..STEPS {
             if tangent.left <= LEFT {
                 return None;
@@ -213,14 +216,14 @@ impl Threshold {
             let root = trial.root(&tangent, setting, [outside, inside]);
             let is_within = within(root, inside, outside);
             falling.push((outside, tangent.clone()));
-            if (inside - outside).abs() <= CLOSE * size {
-                edge = Some(if is_within { root } else { inside });
-                break;
+            // Converged: the two sides, or the tangent's root and the falling side, are close.
+            let is_bracketed = (inside - outside).abs() <= CLOSE * size;
+            if is_bracketed || (is_within && (root - outside).abs() <= CLOSE * size) {
+                let edge = if is_within { root } else { inside };
+                self.learn_sides(trial, setting, edge, falling, standing);
+                return Some(edge);
             }
-            if is_within && (root - outside).abs() <= CLOSE * size {
-                edge = Some(root);
-                break;
-            }
+            // Newton's step to the root of the tangent; half-way where the root lies outside the bracket.
             let next = if is_within {
                 root
             } else {
@@ -233,7 +236,7 @@ impl Threshold {
             }
             inside = next;
             standing = Some((next, found));
-            // It stands where the step ended. Is the edge just there?
+            // The component stands at the end of the step. Test whether the end is just there.
             let beside = next + 0.4 * CLOSE * next.max(outside) * (outside - next).signum();
             if is_within && within(beside, inside, outside) {
                 let found = trial.tangent(&setting(beside))?;
@@ -244,19 +247,31 @@ impl Threshold {
                 }
             }
         }
-        let at = edge?;
-        let away = |value: f64| (value - at).abs() / at.max(f64::MIN_POSITIVE);
+        None
+    }
+
+    /// Remembers a motion just beyond an edge and forces just inside it, from the steps that found it or from new tangents.
+    fn learn_sides(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        edge: f64,
+        falling: Vec<(f64, Tangent)>,
+        standing: Option<(f64, Tangent)>,
+    ) {
+        let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
+        // Close enough to confirm the edge, and far enough for the proof to convince.
         let near = falling
             .into_iter()
             .rev()
             .find(|(value, _)| (2.0 * Self::NEAR..0.45 * Self::SURE).contains(&away(*value)));
         let falls = near.or_else(|| {
-            let value = self.steps(at, Side::Beyond).nth(1)?;
+            let value = self.steps(edge, Side::Beyond).nth(1)?;
             Some((value, trial.tangent(&setting(value))?))
         });
         let standing = standing.filter(|(value, _)| away(*value) <= Self::NEAR);
         let stands = standing.or_else(|| {
-            let value = self.steps(at, Side::Inside).next()?;
+            let value = self.steps(edge, Side::Inside).next()?;
             Some((value, trial.tangent(&setting(value))?))
         });
         for (found, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
@@ -264,10 +279,9 @@ impl Threshold {
                 trial.learn_tangent(&tangent, &setting(value), verdict);
             }
         }
-        Some(at)
     }
 
-    /// Values at growing steps from an edge.
+    /// Values at growing distances from an end.
     fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
         let size = if at > 0.0 { at } else { self.natural };
         let sign = match (self.way, side) {
@@ -282,7 +296,7 @@ impl Threshold {
         std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
             .take_while(|step| *step <= Self::FAR)
             .map(move |step| (at + sign * step).clamp(0.0, most))
-            // Where there is no farther value, the last one is tried once.
+            // If there is no farther value, try the last one once.
             .take_while(move |value| {
                 let last = *value == 0.0 || *value == most;
                 !std::mem::replace(&mut ended, last)
@@ -310,7 +324,7 @@ struct Bracket {
 }
 
 impl Bracket {
-    /// Judges the component at a value within, first by what is remembered, and narrows the bracket.
+    /// Decides the component at a value inside the bracket, first with cached proofs, and narrows the bracket.
     fn take(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
         let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
         match verdict {

@@ -49,7 +49,7 @@ pub enum End {
 }
 
 impl End {
-    /// An end at which the parameter itself begins or ends.
+    /// An end that the range of the parameter gives, not the structure.
     pub(super) fn natural(value: f64) -> End {
         End::At {
             value,
@@ -57,7 +57,7 @@ impl End {
         }
     }
 
-    /// The value, where it is confirmed.
+    /// The value, if it is confirmed.
     pub fn value(&self) -> Option<f64> {
         match self {
             End::At { value, .. } => Some(*value),
@@ -65,7 +65,7 @@ impl End {
         }
     }
 
-    /// The farthest value at which the frame is known to stand; `otherwise` where there is no end.
+    /// The farthest value at which the frame is known to stand; `otherwise` if there is no end.
     fn stands(&self, otherwise: f64) -> f64 {
         match self {
             End::At { value, .. } => *value,
@@ -85,7 +85,7 @@ impl Interval {
         high: End::Unbounded,
     };
 
-    /// The lower end, where there is one.
+    /// The lower end; `None` if there is none.
     pub fn low(&self) -> Option<&End> {
         match self {
             Interval::Between { low, .. } => Some(low),
@@ -93,7 +93,7 @@ impl Interval {
         }
     }
 
-    /// The upper end, where there is one.
+    /// The upper end; `None` if there is none.
     pub fn high(&self) -> Option<&End> {
         match self {
             Interval::Between { high, .. } => Some(high),
@@ -111,7 +111,7 @@ impl Interval {
         }
     }
 
-    /// The values at which two components of one frame stand together.
+    /// The values at which two components of one frame both stand.
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
             (Interval::Empty, _) | (_, Interval::Empty) => return Interval::Empty,
@@ -123,12 +123,14 @@ impl Interval {
                     high: other_high,
                 },
             ) => {
+                // The larger of the two lower ends; an end without a value is at −∞.
                 let [a, b] = [&low, &other_low].map(|end| end.stands(f64::NEG_INFINITY));
                 let low = if b.total_cmp(&a) == Ordering::Greater {
                     other_low
                 } else {
                     low
                 };
+                // The smaller of the two upper ends.
                 let [a, b] = [&high, &other_high].map(|end| end.stands(f64::INFINITY));
                 let high = if b.total_cmp(&a) == Ordering::Less {
                     other_high
@@ -139,12 +141,13 @@ impl Interval {
             }
         };
         let (least, most) = (low.stands(f64::NEG_INFINITY), high.stands(f64::INFINITY));
+        // Two intervals may meet in one value.
         if least <= most + SAME_VALUE * most.abs() {
             return Interval::Between { low, high };
         }
         match (&low, &high) {
             (End::At { .. }, End::At { .. }) => Interval::Empty,
-            // The components may still stand together where one of them is not known to.
+            // The components may both stand where the verdict of one of them is not known.
             _ => Interval::Undecided,
         }
     }

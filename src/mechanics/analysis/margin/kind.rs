@@ -1,4 +1,4 @@
-//! [`MarginKinds`]: which margins are asked for.
+//! [`MarginKinds`]: the set of requested margins.
 
 /// One margin of a frame, or a pair of them, by its name in results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,13 +28,13 @@ impl MarginKinds {
     /// All of them.
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
-    /// Those of a list.
+    /// The set of the margins in a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }
     }
 
-    /// Whether a margin is among them.
+    /// Whether the set contains a margin.
     pub fn has(self, kind: MarginKind) -> bool {
         self.bits & bit(kind) != 0
     }

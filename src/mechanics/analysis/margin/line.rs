@@ -1,4 +1,4 @@
-//! [`Line`]: the ends of a parameter in which the loads, or what limits the forces, are linear.
+//! [`Line`]: finds the ends of the interval of a parameter if the loads, or the limits of forces, are linear in it.
 //!
 //! The power of the loads along a fixed mechanism is linear in such a parameter. One mechanism therefore shows that a
 //! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley 1960).
@@ -50,13 +50,14 @@ const MAX_VALUE: f64 = 1e6;
 const MAX_REACH: f64 = 1e6;
 
 impl Line<'_> {
-    /// The end of the interval in one direction, seen from a value at which the component stands.
+    /// Finds the end of the interval in one direction, from a value at which the component stands.
     ///
     /// `hint` is where a linear program has it. The program's forces and motion are remembered by the trial.
     pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
         let hint = hint
             .map(|hint| self.rounded(hint))
             .filter(|hint| (hint - from) * outward >= 0.0);
+        // The least value that has a meaning may itself be the end.
         let is_natural = outward < 0.0 && self.least.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.least)
@@ -68,9 +69,11 @@ impl Line<'_> {
             inside: from,
             beyond: None,
         };
+        // Verdicts around the hint: two of them often settle the end.
         if let Some(hint) = hint {
             self.enclose(trial, &mut bracket, hint, outward);
         }
+        // Close in: step outward until something falls, then cut and halve until both sides are within `NEAR`.
         for _ in 0..MAX_STEPS {
             let Some((beyond, mechanism)) = &bracket.beyond else {
                 match self.farther(trial, &mut bracket, outward) {
@@ -87,7 +90,7 @@ impl Line<'_> {
                     mechanism: mechanism.clone(),
                 };
             }
-            // Just inside the value up to which the mechanism proves that it falls, else half-way.
+            // Try a value just inside the one up to which the mechanism proves the fall, otherwise the middle.
             let (beyond, inside) = (*beyond, bracket.inside);
             let just = beyond - 0.5 * outward * NEAR * self.size(beyond);
             let found = [just, 0.5 * (inside + beyond)]
@@ -110,7 +113,7 @@ impl Line<'_> {
         self.unconfirmed(bracket, hint, outward)
     }
 
-    /// An end, a value just inside of it, and one well beyond.
+    /// Three values: a value just inside an end, the end, and a value well beyond it.
     pub fn around(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
         [
@@ -120,12 +123,12 @@ impl Line<'_> {
         ]
     }
 
-    /// A value from which to search inward; a limit may be infinite.
+    /// A finite value to start an inward search from; a limit may be infinite.
     pub fn from(&self, value: f64) -> f64 {
         value.min(MAX_VALUE * self.natural)
     }
 
-    /// What is left to say of an end whose two sides no verdicts brought together.
+    /// The result for an end if the verdicts on its two sides could not be brought close together.
     fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
         let Some((beyond, mechanism)) = beyond else {
@@ -134,7 +137,7 @@ impl Line<'_> {
                 beyond: outward * f64::INFINITY,
             };
         };
-        // The linear program says where it is, and verdicts on either side are close enough to bear it out.
+        // The linear program gives the value, and the verdicts on both sides are close enough to confirm it.
         let agrees = |hint: &f64| {
             let apart = [(hint - inside) * outward, (beyond - hint) * outward];
             apart
@@ -150,7 +153,7 @@ impl Line<'_> {
         }
     }
 
-    /// Verdicts on either side of where an end is expected: first from what is remembered, which costs no program.
+    /// Finds verdicts on both sides of the expected end. Cached proofs come first, because they need no program.
     fn enclose(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
         let size = self.size(hint);
         let steps = || {
@@ -193,7 +196,7 @@ impl Line<'_> {
         }
     }
 
-    /// Takes a mechanism at a value into a bracket.
+    /// Narrows a bracket with a mechanism that was found at a value.
     fn cut(
         &self,
         trial: &Trial,
@@ -205,7 +208,7 @@ impl Line<'_> {
         let reached = match self.reach(trial, value, &motion) {
             Cut::Above(bound) if outward > 0.0 => bound,
             Cut::Below(bound) if outward < 0.0 => bound,
-            // What a verdict within its band took for standing lies on the other side.
+            // The verdict "stands" there was within its tolerance: the real end lies on the other side.
             _ => value,
         };
         let bound = if (reached - bracket.inside) * outward < 0.0 {
@@ -222,7 +225,7 @@ impl Line<'_> {
         }
     }
 
-    /// A step outward where nothing is known to fall; an end where there is none.
+    /// Takes a step outward if no value is known at which the component falls. Returns an end if there is no farther value.
     fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.natural;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
@@ -247,8 +250,8 @@ impl Line<'_> {
         None
     }
 
-    /// A value at which the component stands, as close to `present`, at which it does not, as verdicts find one. `hint` is
-    /// where a linear program has the nearest one.
+    /// Finds the value nearest to `present` at which the component stands; at `present` itself it falls. `hint` is the
+    /// result of a linear program.
     pub fn nearest(
         &self,
         trial: &mut Trial,
@@ -287,7 +290,7 @@ impl Line<'_> {
         Err(Interval::Undecided)
     }
 
-    /// The verdict at a value or, where it is undecided, at growing distances to either side.
+    /// The verdict at a value. If it is undecided, the verdict at growing distances on both sides.
     fn beside(
         &self,
         trial: &mut Trial,
@@ -310,16 +313,17 @@ impl Line<'_> {
         (Verdict::Undecided, value, last)
     }
 
-    /// The values that a mechanism at one value cuts off.
+    /// The values that a mechanism, found at one value, excludes.
     fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
         let [without, with] =
             [0.0, self.natural].map(|at| trial.power(&(self.setting)(at), motion));
+        // The power along the mechanism is linear in the value: A + B·value. It vanishes at −A/B.
         let slope = (with - without) / self.natural;
         let bound = -without / slope;
         if !bound.is_finite() || bound.abs() > MAX_REACH * self.natural {
             return Cut::All;
         }
-        // A verdict at the value comes with a mechanism that does work there.
+        // A verdict at this value has a mechanism with positive power there.
         if slope > 0.0 {
             Cut::Above(bound.min(value))
         } else {
@@ -331,7 +335,7 @@ impl Line<'_> {
         trial.judge_at(&(self.setting)(value), Place::AtEdge)
     }
 
-    /// The size that distances from a value are measured in.
+    /// The size of a value, to which distances from it are relative.
     fn size(&self, value: f64) -> f64 {
         if value.abs() < 1e-3 * self.natural {
             self.natural
@@ -340,7 +344,7 @@ impl Line<'_> {
         }
     }
 
-    /// What is a rounding away from 0 is 0.
+    /// Rounds a value to 0 if it differs from 0 only by rounding.
     fn rounded(&self, value: f64) -> f64 {
         if value.abs() < 1e-9 * self.natural {
             0.0

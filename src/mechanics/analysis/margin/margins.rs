@@ -1,4 +1,4 @@
-//! [`Margins`]: how far a frame is from the edge of standing. They are read from [`Intervals`].
+//! [`Margins`]: the distances of a frame from collapse, which are computed from [`Intervals`].
 
 use super::interval::{End, Interval, Intervals};
 use super::kind::{MarginKind, MarginKinds};
@@ -34,7 +34,7 @@ pub enum Margin {
 }
 
 impl Margin {
-    /// The value, where there is one.
+    /// The value; `None` if there is none.
     pub fn at(&self) -> Option<f64> {
         match self {
             Margin::Value { at, .. } => Some(*at),
@@ -113,7 +113,7 @@ pub struct RobotMargins {
 }
 
 impl Margins {
-    /// The margins of these intervals, as far as they were requested.
+    /// The requested margins from these intervals.
     pub(super) fn new(intervals: Intervals, kinds: MarginKinds) -> Margins {
         let robots = intervals.robots.iter().map(|robot| RobotMargins {
             robot: robot.robot,
@@ -140,7 +140,7 @@ impl Margins {
 }
 
 impl Sides {
-    /// The ends of an interval as distances from 0; none where it does not contain 0.
+    /// The ends of an interval as distances from 0 to both sides; no values if it does not contain 0.
     fn around_zero(interval: Option<&Interval>) -> Sides {
         let both = |margin: Margin| Sides {
             left: margin.clone(),
@@ -157,17 +157,17 @@ impl Sides {
     }
 }
 
-/// The least value that suffices.
+/// The least sufficient value.
 fn least(interval: &Interval) -> Margin {
     interval.low().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// The largest value that is borne.
+/// The largest admissible value.
 fn most(interval: &Interval) -> Margin {
     interval.high().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// An end as a margin, its values times `sign`.
+/// An end as a margin, with its value multiplied by `sign`.
 fn margin(end: &End, sign: f64) -> Margin {
     // Adding 0 turns −0 into 0.
     let signed = |value: f64| sign * value + 0.0;

@@ -15,6 +15,7 @@ mod edge;
 mod interval;
 mod kind;
 mod line;
+mod linear;
 mod margins;
 mod parameter;
 mod tilt;
@@ -26,8 +27,9 @@ use std::collections::BTreeMap;
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
+use super::Verdict;
 use super::decide::Findings;
-use super::{Key, Verdict};
+use super::key::Key;
 use crate::assembly::Assembly;
 use crate::solve::{DeadlineGuard, deadline};
 pub use interval::{End, Interval, Intervals, RobotIntervals};
@@ -53,7 +55,8 @@ impl Part<'_> {
         Trial::new(self.component, forces)
     }
 
-    /// The interval of a parameter that does not act on the component: `all` values where it stands.
+    /// The interval of a parameter that does not act on the component: `all` values if the component stands, otherwise
+    /// none.
     fn at_present(&self, all: Interval) -> Interval {
         match self.found.verdict {
             Verdict::Stable => all,
@@ -73,16 +76,50 @@ pub(super) struct ComponentIntervals {
     robots: Vec<RobotIntervals>,
 }
 
-/// Finds the margins of a frame from its components, and how many changed components were judged for it. A component whose
-/// intervals were found in an earlier frame is not judged again.
-pub(super) fn of(
+/// The margins of a frame from its components, and the number of changed components that were judged for it.
+///
+/// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
+/// 2. Intersect them: a frame stands where all its components stand.
+/// 3. If the frame falls, search the nearest tilt at which it stands; that is a question to the whole frame.
+pub(super) fn find_margins(
     parts: &[Part],
     kinds: MarginKinds,
     known: &mut BTreeMap<Key, ComponentIntervals>,
 ) -> (Margins, usize) {
-    // Where some component falls, the nearest tilt at which all stand is sought for the whole frame.
     let all_stand = parts.iter().all(Part::stands);
-    let with_tilt = kinds.has(MarginKind::Tilt) && all_stand;
+    let has_tilt = kinds.has(MarginKind::Tilt);
+    // Step 1.
+    let mut judged = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
+    let components: Vec<(&Part, &ComponentIntervals)> = parts
+        .iter()
+        .filter_map(|part| Some((part, known.get(part.key)?)))
+        .collect();
+    // Step 2.
+    let mut intervals = intersect(&components, kinds);
+    // Step 3.
+    if has_tilt && !all_stand {
+        let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
+        intervals.tilt = Some(tilt::nearest(&mut trials));
+        judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
+    }
+    // Only where all loads turn with gravity and nothing is limited do the tilts form one arc.
+    let is_cone =
+        |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
+    if let Some(Interval::Between { .. }) = intervals.tilt
+        && !components.iter().all(|(part, _)| is_cone(part))
+    {
+        intervals.notes.push(ONE_ARC.into());
+    }
+    (Margins::new(intervals, kinds), judged)
+}
+
+/// Finds the intervals of components that no earlier frame had; returns the number of changed components that were judged.
+fn find_fresh_intervals(
+    parts: &[Part],
+    kinds: MarginKinds,
+    with_tilt: bool,
+    known: &mut BTreeMap<Key, ComponentIntervals>,
+) -> usize {
     let is_known = |key: &Key| {
         let found = known.get(key);
         found.is_some_and(|found| found.tilt.is_some() || !with_tilt)
@@ -93,7 +130,7 @@ pub(super) fn of(
     let each = fresh.par_iter();
     #[cfg(not(feature = "parallel"))]
     let each = fresh.iter();
-    // A deadline belongs to a thread: the workers get that of this one.
+    // A deadline belongs to a thread, so pass it to the worker threads.
     let deadline = deadline();
     let found: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
@@ -108,10 +145,11 @@ pub(super) fn of(
         known.insert(key, intervals);
         judged += tries;
     }
-    let components: Vec<(&Part, &ComponentIntervals)> = parts
-        .iter()
-        .filter_map(|part| Some((part, known.get(part.key)?)))
-        .collect();
+    judged
+}
+
+/// The intervals of a frame: the intersection of those of its components.
+fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
     let whole =
         |kind: MarginKind, all: Interval, of: fn(&ComponentIntervals) -> &Option<Interval>| {
             kinds.has(kind).then(|| {
@@ -131,46 +169,30 @@ pub(super) fn of(
         }),
         kernel: whole(MarginKind::Kernel, from_zero(), |found| &found.kernel),
         load_factor: None,
-        robots: robots(&components),
+        robots: robots(components),
         notes: Vec::new(),
     };
-    // A component without loads stands at every factor or at none; without any loads the factor has no meaning.
-    if components
-        .iter()
-        .any(|(_, found)| found.load_factor.is_some())
-    {
-        intervals.load_factor = whole(MarginKind::LoadFactor, from_zero(), |found| {
+    // A component without loads stands at every factor or at none. If no component has loads, the factor has no meaning.
+    let is_loaded = |(_, found): &(&Part, &ComponentIntervals)| found.load_factor.is_some();
+    if components.iter().any(is_loaded) {
+        let loaded = whole(MarginKind::LoadFactor, from_zero(), |found| {
             &found.load_factor
         });
-        for (part, found) in &components {
-            if found.load_factor.is_none() {
-                let unloaded = part.at_present(from_zero());
-                intervals.load_factor = intervals
-                    .load_factor
-                    .map(|whole| whole.intersection(unloaded));
-            }
-        }
+        let unloaded = components.iter().filter(|component| !is_loaded(component));
+        intervals.load_factor = loaded.map(|loaded| {
+            unloaded.fold(loaded, |whole, (part, _)| {
+                whole.intersection(part.at_present(from_zero()))
+            })
+        });
     }
-    if kinds.has(MarginKind::Tilt) && !all_stand {
-        let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
-        intervals.tilt = Some(tilt::nearest(&mut trials));
-        judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
-    }
-    let is_cone =
-        |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
-    if let Some(Interval::Between { .. }) = intervals.tilt
-        && !components.iter().all(|(part, _)| is_cone(part))
-    {
-        intervals.notes.push(ONE_ARC.into());
-    }
-    (Margins::new(intervals, kinds), judged)
+    intervals
 }
 
 /// Loads that do not turn and limits make the tilts at which a frame stands several arcs.
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
                        tilts too; this interval contains 0, or is the nearest one where the frame falls unturned";
 
-/// The intervals of all limits: no robot can save a frame in which another component falls.
+/// The intervals of all limits. No robot can save a frame in which another component falls.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, found)) in components.iter().enumerate() {
@@ -189,7 +211,7 @@ fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
             });
         }
     }
-    // Holds stand by robot number in a frame.
+    // The holds of a frame are in the order of the robots.
     robots.sort_by_key(|robot| robot.robot);
     robots
 }

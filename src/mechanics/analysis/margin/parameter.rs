@@ -4,15 +4,16 @@ use super::edge::Threshold;
 use super::interval::{End, Interval, RobotIntervals};
 use super::kind::{MarginKind, MarginKinds};
 use super::line::Line;
+use super::linear::linear;
 use super::margins::Margins;
 use super::trial::{Limited, Setting, Trial};
 use super::{ComponentIntervals, tilt};
 use crate::analysis::Verdict;
 use crate::program::Scale;
-use crate::solve::{Limit, largest_factor, least_grip_limit, nearest_factor};
+use crate::solve::{Limit, least_grip_limit};
 
-/// All intervals of a component that were requested. `stands` is whether it does as it is; `with_tilt` whether all
-/// components of its frame do, so that the tilts around 0 are wanted.
+/// All requested intervals of a component. `stands` says whether the component stands at present. `with_tilt` says whether
+/// all components of its frame stand, so that the tilts around 0 are needed.
 pub(super) fn intervals(
     trial: &mut Trial,
     stands: bool,
@@ -33,7 +34,7 @@ pub(super) fn intervals(
         }
     });
     let robots = robots.collect();
-    // A tilt of plain weights follows from the horizontal share.
+    // If only weights act, the tilt follows from the horizontal load.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];
     let horizontal_load = horizontal
         .iter()
@@ -105,75 +106,6 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
     linear(trial, &line, 1.0, stands, &alone)
 }
 
-/// The interval of a parameter in which the loads are linear. `stands` is whether the component does at `present`. `alone`
-/// has only what grows in one direction: if what needs no limit of any robot carries that, nothing bounds it.
-pub(super) fn linear(
-    trial: &mut Trial,
-    line: &Line,
-    present: f64,
-    stands: bool,
-    alone: &dyn Fn(f64) -> Setting,
-) -> Interval {
-    let mut start = present;
-    // Where it falls at present, the value nearest to it at which it stands is one end.
-    let mut nearest = None;
-    if !stands {
-        let (program, toward) =
-            trial.direction(&(line.setting)(present), &(line.setting)(present + 1.0));
-        let found = nearest_factor(&program, &toward);
-        let at = match found.limit {
-            Limit::At(change) => (present + change).max(line.least),
-            _ => present,
-        };
-        let toward_present = (present - at).signum();
-        // Of a motion that no value stops, the present one is well beyond.
-        let beyond = match found.limit {
-            Limit::Never => [present; 3],
-            _ => line.around(at, toward_present),
-        };
-        trial.learn_edge(&program, &found, beyond, line.setting, None);
-        nearest = matches!(found.limit, Limit::At(_)).then_some(at);
-        start = match line.nearest(trial, present, nearest) {
-            Ok(start) => start,
-            Err(interval) => return interval,
-        };
-    }
-    let [low, high] = [-1.0, 1.0].map(|outward| {
-        let faces_present = (present - start) * outward > 0.0;
-        if let Some(hint) = nearest.filter(|_| faces_present) {
-            return line.end(trial, start, outward, Some(hint));
-        }
-        if outward < 0.0 && line.least.is_finite() {
-            let stands = trial.judge(&(line.setting)(line.least)).0 == Verdict::Stable;
-            if stands {
-                return End::natural(line.least);
-            }
-        }
-        let (program, toward) =
-            trial.direction(&(line.setting)(start), &(line.setting)(start + outward));
-        let found = largest_factor(&program, &toward);
-        match found.limit {
-            Limit::Unbounded if trial.judge(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
-            Limit::At(change) => {
-                let at = (start + outward * change).max(line.least);
-                let base = stands.then_some(present);
-                trial.learn_edge(
-                    &program,
-                    &found,
-                    line.around(at, outward),
-                    line.setting,
-                    base,
-                );
-                line.end(trial, start, outward, Some(at))
-            }
-            // It stands within the proof's band and not beyond it: on the edge.
-            Limit::Never => line.end(trial, start, outward, Some(start)),
-            _ => line.end(trial, start, outward, None),
-        }
-    });
-    Interval::Between { low, high }
-}
-
 /// The interval of one limit of one grip.
 fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
     let setting = |most: f64| Setting {
@@ -194,6 +126,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         least: 0.0,
         natural: unit * Scale::HEAVIEST,
     };
+    // The limit as the scene gives it: it is enough where the component stands.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
         match trial.judge(&setting(f64::INFINITY)).0 {
@@ -203,6 +136,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         }
     }
     let enough = if stands { given } else { f64::INFINITY };
+    // The least limit from one linear program, confirmed by verdicts.
     let found = least_grip_limit(&program, grip, component);
     let hint = match found.limit {
         Limit::At(at) => {

@@ -8,7 +8,7 @@
 
 use super::interval::{End, Interval};
 use super::line::Line;
-use super::parameter::linear;
+use super::linear::linear;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::decide::Place;
@@ -24,10 +24,16 @@ const FAR: f64 = 256e-6;
 const MIN_GAP: f64 = 1e-6;
 /// How far the first look goes at a time, degrees: no part of a right angle, at which much lies on the edge of standing.
 const STRIDE: f64 = 77.7;
+/// Where a cut gains less than this, relative to the turn, the search looks ahead by [`AHEAD`] times the gain. Cuts whose
+/// mechanisms change a little each time can gain less and less, a fifteenth less in a lintel that a load pulls off its posts.
+const SLOW: f64 = 1e-2;
+/// How far the search looks ahead, in gains.
+const AHEAD: f64 = 16.0;
 /// The most cuts of one search.
 const MAX_CUTS: usize = 200;
 
-/// The turns around 0 of a component that stands unturned. `horizontal` are the horizontal shares that it bears.
+/// The interval of tilts around 0 of a component that stands without tilt. `horizontal` is its interval of horizontal
+/// loads.
 pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
     match horizontal {
         Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
@@ -39,7 +45,7 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
     }
 }
 
-/// The turns at which a frame stands that are nearest to 0, where it falls unturned.
+/// The interval of tilts nearest to 0 at which the frame stands, for a frame that falls without tilt.
 pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     match first_standing(trials) {
         Err(interval) => interval,
@@ -50,14 +56,14 @@ pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// The turn nearest to 0 at which all components stand: each mechanism cuts an arc around 0 off, until one end of what is
-/// cut off stands.
+/// The tilt nearest to 0 at which all components stand. Each mechanism excludes an arc around 0, until the frame stands at
+/// one end of the excluded range.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     let mut turn = 0.0;
     'cuts: for _ in 0..MAX_CUTS {
         let outward = if turn < 0.0 { -1.0 } else { 1.0 };
-        // At the very end of what is cut off a verdict may be open.
+        // Exactly at the end of the excluded range the verdict may be undecided.
         let far = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
         let steps = std::iter::once(0.0)
             .chain(steps())
@@ -73,10 +79,10 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
                 (Verdict::Undecided, _) => {}
                 (Verdict::Unstable, None) => return Err(Interval::Empty),
                 (Verdict::Unstable, Some([from, to])) => {
-                    // What is cut off meets what was cut off before, up to what no verdict tells apart.
+                    // Merge the arc with the excluded range, including gaps that no verdict can resolve.
                     low = low.min(from);
                     high = high.max(to);
-                    // A cut that gains nothing is stepped over.
+                    // If the arc adds nothing, take a small step.
                     if outward > 0.0 {
                         high = high.max(at + MIN_GAP)
                     } else {
@@ -85,7 +91,20 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
                     if high - low >= 360.0 {
                         return Err(Interval::Empty);
                     }
-                    turn = if high <= -low { high } else { low };
+                    let next = if high <= -low { high } else { low };
+                    let gain = (next - turn) * outward;
+                    turn = next;
+                    if (0.0..SLOW * size(turn)).contains(&gain) {
+                        let ahead = turn + AHEAD * outward * gain;
+                        match judged_together(trials, ahead) {
+                            (Verdict::Stable, _) => return Ok(ahead),
+                            (Verdict::Unstable, Some([from, to])) if from <= high && to >= low => {
+                                (low, high) = (low.min(from), high.max(to));
+                                turn = if high <= -low { high } else { low };
+                            }
+                            _ => {}
+                        }
+                    }
                     continue 'cuts;
                 }
             }
@@ -95,7 +114,8 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     Err(Interval::Undecided)
 }
 
-/// The verdict of a whole frame, and the arc that a mechanism cuts off where it falls; all turns where there is no arc.
+/// The verdict of the whole frame at a tilt, and the arc that a mechanism excludes if it falls. The arc contains all tilts
+/// if the mechanism does not depend on the tilt.
 fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]>) {
     let mut verdict = Verdict::Stable;
     for trial in trials {
@@ -109,7 +129,7 @@ fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]
     (verdict, None)
 }
 
-/// The turns of a component around one at which it stands.
+/// The interval of tilts of a component around a tilt at which it stands.
 fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
         let mut arc = Arc {
@@ -139,7 +159,7 @@ enum Exit {
 impl Arc<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // A turn of 0 is where other parts of the frame may fall: the first look ends there.
+        // At a tilt of 0 other components of the frame may fall: the first step ends there.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
         loop {
@@ -147,7 +167,7 @@ impl Arc<'_, '_> {
                 (Verdict::Unstable, motion) => Some(self.edge(reached, next, motion)),
                 (Verdict::Stable, _) => self.gap(reached, next),
                 (Verdict::Undecided, _) => {
-                    // Another place says more.
+                    // Another value is more informative.
                     let other = 0.5 * (reached + next) + 0.137 * (next - reached);
                     match self.judge(other) {
                         (Verdict::Unstable, motion) => Some(self.edge(reached, other, motion)),
@@ -184,13 +204,13 @@ impl Arc<'_, '_> {
         }
     }
 
-    /// Where it first falls between a way at which it stands and one at which it falls by a mechanism.
+    /// The end between a tilt at which the component stands and a tilt at which it falls by a mechanism.
     fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
-        // Where a mechanism gains next to nothing, halving the stretch comes next.
+        // If a mechanism excludes almost nothing, bisect next.
         let mut is_slow = false;
         for _ in 0..MAX_CUTS {
-            // The mechanism rules out every way from here to where it was found.
+            // The mechanism excludes every tilt from here to the one where it was found.
             let arc = cut(self.trial, self.from + self.outward * falls, &motion);
             let bound = arc.map_or(stands, |[low, high]| {
                 let turn = if self.outward > 0.0 { low } else { high };
@@ -201,7 +221,7 @@ impl Arc<'_, '_> {
             }
             let size = size(self.from + self.outward * bound);
             let near = steps().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
-            // Where verdicts close to the end are open, one farther away narrows the search.
+            // If the verdicts near the end are undecided, a value farther away narrows the search.
             let far = [0.5, 0.75, 0.25].map(|share| stands + share * (bound - stands));
             let mut ways: Vec<(f64, bool)> = near.map(|way| (way, true)).collect();
             let first_far = if is_slow { 0 } else { ways.len() };
@@ -232,7 +252,7 @@ impl Arc<'_, '_> {
         Exit::Unconfirmed(stands, falls)
     }
 
-    /// Where it first falls between two ways at which it stands, if it does.
+    /// The first end between two tilts at which the component stands, if it falls between them.
     ///
     /// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
     /// them meet, it holds the triangle of the three and so the whole arc. If it is a cone, it holds every arc of less
@@ -265,7 +285,7 @@ impl Arc<'_, '_> {
     }
 }
 
-/// Gravity turned by an angle in degrees, positive to the right, `stretch` times as strong.
+/// Gravity turned by an angle in degrees, positive to the right, and multiplied by `stretch`.
 fn turned(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
     Setting {
@@ -275,7 +295,8 @@ fn turned(degrees: f64, stretch: f64) -> Setting {
     }
 }
 
-/// The arc around a turn at which a component falls by a motion, in degrees; `None` where it falls at every turn.
+/// The arc of tilts in degrees, around a given tilt, at which a component falls by a motion; `None` if it falls at every
+/// tilt.
 fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
         let setting = Setting {
@@ -300,19 +321,19 @@ fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     Some([turn - off - half, turn - off + half])
 }
 
-/// Growing steps away from an end, in parts of its size.
+/// Growing distances from an end, relative to its size.
 fn steps() -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
         .take_while(|step| *step <= FAR)
 }
 
-/// What distances from a turn are measured in, degrees.
+/// The size of a tilt in degrees, to which distances from it are relative.
 fn size(turn: f64) -> f64 {
     turn.abs().max(1.0)
 }
 
-/// The largest turn where only weights act and no limit cuts a force: what is carried is a cone then, and the turn's
-/// tangent is the largest horizontal share; beyond a quarter turn, the rest's tangent the largest lifting share.
+/// The largest tilt if only weights act and no limit bounds a force. The admissible loads then form a cone, and the tangent
+/// of the tilt is the largest horizontal load. Beyond 90° the tangent of the rest is the largest lifting share.
 fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
     let turn = |share: f64| libm::atan(share).to_degrees();
     match horizontal {

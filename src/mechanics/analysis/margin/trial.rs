@@ -1,4 +1,4 @@
-//! [`Trial`]: one component with something about it changed, judged as any other.
+//! [`Trial`]: decides a component with changed parameters.
 //!
 //! What balanced one changed component, and by what motion another fell, is remembered: where it proves the verdict of the
 //! next one no program is solved for that.
@@ -19,7 +19,7 @@ use crate::solve::{Extreme, Tangent};
 /// Changed components judged by this process, for who waits to see that it lives.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
-/// How many changed components this process has judged for margins so far: for a progress bar.
+/// The number of changed components that this process has decided for margins, for a progress bar.
 pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }
@@ -83,7 +83,7 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// A component, with the forces that balance it where it stands.
+    /// A trial of a component, with the forces that balance it if it stands.
     pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
         let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
@@ -97,7 +97,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The robots that hold a body of the component, grip by grip.
+    /// The robots that hold a body of the component, in the order of the grips.
     pub fn holds(&self) -> Vec<RobotId> {
         self.given.grips.iter().map(|grip| grip.robot).collect()
     }
@@ -107,28 +107,28 @@ impl<'a> Trial<'a> {
         is_loaded(self.given)
     }
 
-    /// Whether some robot's limit is neither none nor infinite, so that twice the loads is not twice the forces.
+    /// Whether a limit of some robot is neither 0 nor infinite, so that twice the loads does not give twice the forces.
     pub fn is_limited(&self) -> bool {
         is_limited(self.given)
     }
 
-    /// Whether the changed component stands, and how it begins to move where it falls.
+    /// The verdict on the changed component, and its mechanism if it falls.
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judge_at(setting, Place::Anywhere)
     }
 
-    /// The same of a component of which it is known where it is.
+    /// Like [`Trial::judge`], if it is known whether the component is near its limit.
     pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
         self.count();
         decide_verdict(&self.changed(setting), place, &mut self.guesses)
     }
 
-    /// The same where something remembered proves it; undecided elsewhere.
+    /// Like [`Trial::judge`], with cached proofs only; undecided if none holds.
     pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         verdict_from_cache(&self.changed(setting), &self.guesses)
     }
 
-    /// The least that forces leave unbalanced of the changed component, and how it changes.
+    /// The least residual of the changed component, and its derivative.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))
@@ -139,7 +139,7 @@ impl<'a> Trial<'a> {
         TRIALS.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Where the least residual would vanish, if it went on as it does at one value, of which the tangent is.
+    /// The value at which the tangent of the least residual is zero (a step of Newton's method).
     pub fn root(
         &self,
         tangent: &Tangent,
@@ -150,7 +150,7 @@ impl<'a> Trial<'a> {
         from + (to - from) * tangent.left / (tangent.left - there)
     }
 
-    /// Remembers the forces and the motion of a tangent, those of a standing and this of a falling setting.
+    /// Caches the forces and the motion of a tangent: the forces if the component stands, the motion if it falls.
     pub fn learn_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
         let changed = self.changed(setting);
         let program = Program::new(&changed, Scale::from_assembly(&changed));
@@ -163,8 +163,8 @@ impl<'a> Trial<'a> {
         remember_limit(&ends, &mut self.guesses);
     }
 
-    /// Remembers what one program found at the edge: the forces there, the motion well beyond, and, where the loads are
-    /// linear and `base` is the value at which the component is as given, forces just inside.
+    /// Caches the results of one program at the end of an interval: the forces there, and the motion well beyond. If the
+    /// loads are linear and `base` is the present value, also the forces just inside.
     pub fn learn_edge(
         &mut self,
         program: &Program,
@@ -192,7 +192,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The power of the changed loads along a motion, less what limited robots can hold, in W.
+    /// The power of the changed loads along a motion, less the power that limited robots can absorb, in watts.
     pub fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
         let changed = self.changed(setting);
         let mut power = 0.0;
@@ -200,6 +200,7 @@ impl<'a> Trial<'a> {
             let Some(m) = motion.iter().find(|m| m.block == body.block) else {
                 continue;
             };
+            // The work of weight and loads, less what limited robots absorb.
             power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
             for grip in changed.grips.iter().filter(|grip| grip.body == number) {
                 let speed = m.about(body.centroid, grip.at);
@@ -223,11 +224,12 @@ impl<'a> Trial<'a> {
         Program::new(&changed, Scale::from_assembly(&changed))
     }
 
-    /// The program at one setting, and what must be added to its load vector for another.
+    /// The program with one setting, and the change of its load vector to another setting.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());
         let scale = Scale::new(self.given.length, heaviest);
+        // One scale for both, so that their load vectors can be subtracted.
         let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
         let toward = toward.collect();
@@ -242,7 +244,7 @@ impl<'a> Trial<'a> {
         if let Some(mu) = setting.friction {
             changed = changed.with_friction(mu);
         }
-        // A weight along gravity and one across it are one weight along a turned gravity.
+        // A weight along gravity and a weight across it are one weight along turned gravity.
         let down = self.given.pull;
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
@@ -261,7 +263,7 @@ pub(super) fn is_loaded(component: &Assembly) -> bool {
     bodies.any(|body| body.listed != LoadVector::NONE)
 }
 
-/// Whether some limit of a robot on a component is neither 0 nor infinite.
+/// Whether a limit of a robot on the component is neither 0 nor infinite.
 pub(super) fn is_limited(component: &Assembly) -> bool {
     component.grips.iter().any(|grip| {
         [grip.limits.fx, grip.limits.fy, grip.limits.torque]
@@ -270,7 +272,7 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
     })
 }
 
-/// The limits of a grip as a setting has them.
+/// The limits of a grip with a setting.
 fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
@@ -295,7 +297,7 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     }
 }
 
-/// Forces a share of the way from some to others: what is admissible is convex.
+/// The mixture of two sets of forces. Admissible forces form a convex set.
 fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);

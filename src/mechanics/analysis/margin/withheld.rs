@@ -1,10 +1,10 @@
-//! What is withheld: margins between whose sides no verdict was reached, in words.
+//! Describes withheld margins: those for which the verdicts on both sides are too far apart.
 
 use super::{End, Interval, Intervals};
 use crate::scene::RobotId;
 
 impl Intervals {
-    /// What is withheld and why, a sentence each.
+    /// A sentence for each withheld margin, with the reason.
     pub(in crate::mechanics::analysis) fn withheld(
         &self,
         robot: impl Fn(RobotId) -> String,

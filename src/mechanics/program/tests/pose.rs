@@ -60,7 +60,7 @@ fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
         .filter(|c| matches!(c.force, Force::Ray { .. }));
     assert_eq!(pressing.count(), 3);
     let mut all = columns(&program);
-    all.extend(sticking_columns(&program));
+    all.extend(adhesion_columns(&program));
     all.extend(smooth);
     for a in &all {
         for b in &all {
@@ -83,7 +83,7 @@ fn forces_of_other_contacts_and_robots_are_other_places() {
     assert_eq!(product(&ray(0, 0), &ray(1, 0)), None);
     assert_eq!(product(&ray(1, 0), &ray(1, 0)), Some(0.25 + 0.0625));
     assert_eq!(product(&ray(1, 0), &ray(1, 1)), Some(0.0625));
-    let beyond = |grip, component| Force::StickGrip {
+    let beyond = |grip, component| Force::AdhesionGrip {
         grip,
         component,
         sign: -1.0,
@@ -91,13 +91,13 @@ fn forces_of_other_contacts_and_robots_are_other_places() {
     assert_eq!(product(&beyond(0, 1), &beyond(1, 1)), None);
     assert_eq!(product(&beyond(1, 1), &beyond(1, 1)), Some(1.0));
     assert_eq!(product(&beyond(1, 1), &beyond(1, 2)), Some(0.0));
-    let stick = |contact, point| Force::StickNormal { contact, point };
+    let stick = |contact, point| Force::AdhesionNormal { contact, point };
     assert_eq!(product(&stick(1, 0), &stick(1, 0)), Some(1.0));
     assert_eq!(product(&stick(1, 0), &stick(1, 1)), Some(0.0));
-    let hold = |contact, sign| Force::StickFriction { contact, sign };
+    let hold = |contact, sign| Force::AdhesionFriction { contact, sign };
     assert_eq!(product(&hold(1, 1.0), &hold(1, -1.0)), Some(-1.0));
     assert_eq!(product(&stick(1, 0), &hold(1, -1.0)), Some(0.0));
-    assert_eq!(product(&hold(1, -1.0), &stick(1, 0)), None);
+    assert_eq!(product(&hold(1, -1.0), &stick(1, 0)), Some(0.0));
     assert_eq!(product(&ray(1, 0), &stick(1, 0)), None);
 }
 

@@ -1,4 +1,4 @@
-//! A scene file built in code: a method for every key, with the key's name, that gives back what it was called on.
+//! Methods that build a scene file in code: one for each key, with the same name. Each method returns the object itself.
 //!
 //! Nothing is checked before [`SceneFile::build`], which is the way of every scene: what a file may not say may not be said
 //! here either, and all problems are reported at once.
@@ -26,19 +26,19 @@ macro_rules! words {
 /// Methods that say what an outline is.
 macro_rules! outline {
     () => {
-        /// Corners [x, y] of the outline in metres, either way round.
+        /// Sets the outline: corners [x, y] in metres, in either direction.
         pub fn polygon(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.polygon = Some(corners.into());
             self
         }
 
-        /// Adds a hole in the polygon: its corners [x, y] in metres.
+        /// Adds a hole to the polygon: its corners [x, y] in metres.
         pub fn hole(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.holes.push(corners.into());
             self
         }
 
-        /// Lattice cells, joined by edges.
+        /// Sets the outline: lattice cells that are connected by edges.
         pub fn cells(mut self, cells: impl Into<Vec<CellEntry>>) -> Self {
             self.cells = Some(cells.into());
             self
@@ -85,20 +85,14 @@ macro_rules! from_corners {
 from_corners! { GroundEntry BlockEntry ShapeEntry }
 
 impl SceneFile {
-    optional_setters! {
-        gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
-        friction: f64, "Friction coefficient μ of whatever gives none itself, at least 0.";
-        kernel: f64, "Safety kernel, 0 to 1.";
-        density: f64, "Density in kg/m³ of whatever gives none itself, at least 0.";
-        thickness: f64, "Thickness of all blocks across the plane in metres, at least 0.";
-        contact_tolerance: f64, "Edges within this many metres of each other touch; at least 0.";
-        corner_contacts: bool, "Whether tips that touch edges or tips carry force.";
-    }
     words! {
         title, "Title of the scene, for reports and captions.";
+        author, "Author of the calculation, for reports.";
+        project, "Project that the structure belongs to, for reports.";
+        date, "Date of the calculation, for reports: any text.";
     }
 
-    /// The lattice, and the edge length of its cells in metres.
+    /// Sets the lattice and the edge length of its cells in metres.
     pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
         let side = Some(side);
         self.grid = Some(GridEntry { kind, side });
@@ -119,19 +113,19 @@ impl SceneFile {
         self
     }
 
-    /// Adds a shape: its corners in metres, or a [`ShapeEntry`].
+    /// Adds a shape: corners in metres, or a [`ShapeEntry`].
     pub fn shape(mut self, name: impl Into<String>, shape: impl Into<ShapeEntry>) -> Self {
         self.shapes.0.push((name.into(), shape.into()));
         self
     }
 
-    /// Adds a part of the ground: its corners in metres, or a [`GroundEntry`].
+    /// Adds a part of the ground: corners in metres, or a [`GroundEntry`].
     pub fn ground(mut self, part: impl Into<GroundEntry>) -> Self {
         self.ground.push(part.into());
         self
     }
 
-    /// Adds a block: a [`BlockEntry`], or corners in metres, which are then named by their number from 1.
+    /// Adds a block: a [`BlockEntry`], or corners in metres. A block from corners gets its number as id, from 1.
     pub fn block(mut self, block: impl Into<BlockEntry>) -> Self {
         self.blocks.push(block.into());
         self
@@ -155,13 +149,13 @@ impl SceneFile {
         self
     }
 
-    /// Leaves out notes of a sort.
+    /// Switches off the notes with a code.
     pub fn silence(mut self, code: NoteCode) -> Self {
         self.silence.push(code.to_string());
         self
     }
 
-    /// The scene, checked as one from a file is; the same as [`Scene::new`].
+    /// Checks the scene, like [`Scene::new`].
     ///
     /// # Errors
     /// Everything that is wrong with it, each with its path.
@@ -189,7 +183,7 @@ impl GroundEntry {
 }
 
 impl BlockEntry {
-    /// A block by name.
+    /// A block with an id.
     pub fn new(id: impl Into<String>) -> BlockEntry {
         BlockEntry::default().id(id)
     }
@@ -206,7 +200,7 @@ impl BlockEntry {
 }
 
 impl RobotEntry {
-    /// A robot by name, which gives any force and no torque.
+    /// A robot with an id. It has no force limits and gives no torque.
     pub fn new(id: impl Into<String>) -> RobotEntry {
         RobotEntry::default().id(id)
     }
@@ -231,7 +225,7 @@ impl LimitsEntry {
 }
 
 impl LoadEntry {
-    /// A load on a block; by itself it is nothing.
+    /// A load on a block. Force and torque are zero until they are set.
     pub fn on(block: impl Into<String>) -> LoadEntry {
         LoadEntry {
             block: block.into(),
@@ -247,7 +241,7 @@ impl LoadEntry {
 }
 
 impl StepEntry {
-    /// A step with the title of its frame.
+    /// A step with a title for its frame.
     pub fn new(title: impl Into<String>) -> StepEntry {
         StepEntry::default().title(title)
     }
@@ -256,32 +250,33 @@ impl StepEntry {
         title, "Title of the frame this step leads to.";
     }
 
-    /// Robots that let go of what they hold.
+    /// Adds robots that release their blocks.
     pub fn release<S: Into<String>>(mut self, robots: impl IntoIterator<Item = S>) -> Self {
         self.release.extend(robots.into_iter().map(Into::into));
         self
     }
 
-    /// Blocks taken away.
+    /// Adds blocks that are removed.
     pub fn remove<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
         self.remove.extend(blocks.into_iter().map(Into::into));
         self
     }
 
-    /// Blocks placed, in this order.
+    /// Adds blocks that are placed, in this order.
     pub fn place<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
         self.place.extend(blocks.into_iter().map(Into::into));
         self
     }
 
-    /// A robot takes hold of a block: at the robot's own `at` for the block it `holds`, else at the centroid.
+    /// Adds a robot that takes hold of a block. The grip point is the robot's own `at` for the block that it `holds`,
+    /// otherwise the centroid.
     pub fn hold(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
         let hold = HoldEntry::Block(block.into());
         self.hold.0.push((robot.into(), hold));
         self
     }
 
-    /// A robot takes hold of a block at a point [x, y] in metres.
+    /// Adds a robot that takes hold of a block at a point [x, y] in metres.
     pub fn hold_at(mut self, robot: impl Into<String>, block: impl Into<String>, at: Pair) -> Self {
         let (block, at) = (block.into(), Some(at));
         let hold = HoldEntry::Grip(GripEntry { block, at });
@@ -289,7 +284,7 @@ impl StepEntry {
         self
     }
 
-    /// A robot is about to place a block, which is drawn as an outline and carries no force.
+    /// Adds a block that a robot is about to place. It is drawn as an outline and carries no force.
     pub fn plan(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
         self.plan.0.push((robot.into(), block.into()));
         self

@@ -1,4 +1,5 @@
-//! [`Lines`]: how a result or a scene file is broken into lines, so that a person can look through it too.
+//! [`Lines`]: a JSON formatter that puts each entry of the outer objects on a line of its own, so that a person can read
+//! the file.
 
 use std::io;
 
@@ -13,7 +14,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Breaks the outermost object, and those in it down to `depth` of them.
+    /// A formatter that breaks the outermost object into lines, and the objects inside it down to `depth` levels.
     pub(crate) fn new(depth: usize) -> Lines {
         Lines {
             depth,

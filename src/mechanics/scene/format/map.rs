@@ -1,4 +1,4 @@
-//! [`Map`]: an object of the file whose keys are names the author chose.
+//! [`Map`]: an object of the scene file whose keys are names that the author chose.
 //!
 //! Entries keep the file's order. No key stands twice in one that was read; of one that was made in code it is checked
 //! with all else.
@@ -26,7 +26,7 @@ impl<T> Default for Map<T> {
 }
 
 impl<T> Map<T> {
-    /// Whether there is no entry.
+    /// Whether the map is empty.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -1,4 +1,4 @@
-//! [`StepEntry`]: one step of the assembly, as a scene file has it.
+//! [`StepEntry`]: one step of the assembly in a scene file.
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
@@ -30,6 +30,21 @@ pub struct StepEntry {
     /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
+    /// The verdict that is meant. A frame that falls as expected ends `check` like one that stands. Default: that of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expect: Option<Expectation>,
+}
+
+/// The verdict that the author of a scene expects of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Expectation {
+    /// It stands.
+    Stable,
+    /// It falls.
+    Unstable,
 }
 
 /// What a robot takes hold of: a block's id, or the block with a grip point.

@@ -1,4 +1,4 @@
-//! [`Code`]: the stable word for every sort of problem, for programs that sort or count them.
+//! [`Code`]: a fixed word for each kind of problem, for programs that sort or count problems.
 
 /// Declares the codes of one sort with their words and meanings, so that none can lack either.
 macro_rules! codes {
@@ -14,14 +14,14 @@ macro_rules! codes {
             /// Every code, in the order of the documentation.
             pub const ALL: &'static [$name] = &[$($name::$variant),*];
 
-            /// The stable word, as in JSON.
+            /// The fixed word, as in JSON.
             pub fn word(self) -> &'static str {
                 match self {
                     $($name::$variant => $word,)*
                 }
             }
 
-            /// What the word means, in a phrase.
+            /// The meaning of the word as a phrase.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $($name::$variant => $meaning,)*

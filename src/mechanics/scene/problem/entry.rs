@@ -1,4 +1,4 @@
-//! What is reported of keys and values that are not what a scene file holds.
+//! The messages about keys and values that do not fit the format.
 
 use super::{Code, Wording, choice, say, shortened};
 use crate::text::nearest;
@@ -11,7 +11,15 @@ pub(in crate::mechanics::scene) fn wrong_type(expected: &str, found: &str) -> Wo
     )
 }
 
-/// What to write in place of something of another sort: as it stands in a file, where that shows more than words.
+pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) -> Wording {
+    say(
+        Code::WrongType,
+        format!("expected {expected}, found {found}"),
+        "write a number such as 0.6; to name what a body is made of, use `material`, and give its friction in `materials`",
+    )
+}
+
+/// The remedy for a value of a wrong type. It shows the text to write in the file if that is clearer than words.
 fn help(expected: &str, found: &str) -> String {
     let (is_number, is_text) = (
         found.starts_with("the number "),
@@ -21,9 +29,12 @@ fn help(expected: &str, found: &str) -> String {
         "a point [x, y]" if is_number => {
             "write points in brackets: an outline is [[x, y], [x, y], …], and a list of holes one level deeper".into()
         }
-        "a vector [x, y]" if is_number => "write [x, y]; downwards is [0, -9.81]".into(),
+        "a vector [x, y]" if is_number => {
+            let size = found.trim_start_matches("the number ").trim_start_matches('-');
+            format!("write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block")
+        }
         "a number" if is_text => "write a bare number in SI units: metres, newtons, kilograms, degrees".into(),
-        // There is one: the version of the format.
+        // The format has only one whole number: its version.
         "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {
             format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
@@ -65,7 +76,7 @@ pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     )
 }
 
-/// A small number in words.
+/// A small number as a word.
 fn count(n: usize) -> String {
     match n {
         0 => "none".into(),
@@ -94,7 +105,12 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     known: impl Iterator<Item = &'k str> + Clone,
 ) -> Wording {
     let meant = synonym(key).filter(|meant| known.clone().any(|k| k == *meant));
+    let is_cohesive = ["cohesion", "adhesion", "mortar", "tensile_strength"].contains(&key);
     let help = match meant.or_else(|| nearest(key, known.clone())) {
+        _ if is_cohesive => {
+            "joints are dry: they press and rub, without mortar or cohesion; take the key out"
+                .into()
+        }
         Some(near) if meant.is_some() => format!("it is called `{near}` here"),
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
@@ -106,7 +122,7 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     )
 }
 
-/// What a key of other programs and formats is called here.
+/// The name in this format of a key that other programs and formats use.
 fn synonym(key: &str) -> Option<&'static str> {
     Some(match key.to_lowercase().as_str() {
         "mu" | "μ" | "friction_coefficient" => "friction",
@@ -137,7 +153,7 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
     )
 }
 
-/// The same of an object that was made in code.
+/// The message about a duplicate key in an object made in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
     say(
         Code::DuplicateKey,

@@ -1,4 +1,4 @@
-//! What is reported of names and ids.
+//! The messages about names and ids.
 
 use super::{Code, Wording, say, shortened};
 use crate::text::nearest;

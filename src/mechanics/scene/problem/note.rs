@@ -1,8 +1,8 @@
-//! What is reported of what is allowed and seldom meant.
+//! The messages of notes.
 
 use super::{Code, Wording, digits, pair, say, shortened};
 
-/// Notes have codes of their own; that of a problem is not shown.
+/// The message of a note. Notes have their own codes, so the code of the problem is not shown.
 fn note(message: String, hint: impl Into<String>) -> Wording {
     say(Code::OutOfRange, message, hint)
 }
@@ -65,13 +65,16 @@ pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn default_density(blocks: usize, beside: &str) -> Wording {
-    let (count, have) = match blocks {
-        1 => ("1 block".to_owned(), "has"),
-        _ => (format!("{blocks} blocks"), "have"),
+pub(in crate::mechanics::scene) fn default_density(blocks: usize, beside: Option<&str>) -> Wording {
+    let weight = match blocks {
+        1 => "the weight of 1 block comes".to_owned(),
+        _ => format!("the weights of {blocks} blocks come"),
     };
+    let beside = beside.map_or(String::new(), |beside| {
+        format!(", but the {beside} are in newtons")
+    });
     note(
-        format!("{count} {have} the default density of 1 kg/m³ beside {beside} in newtons"),
+        format!("{weight} from the default density of 1 kg/m³{beside}"),
         "give `density` in kg/m³ (stone has about 2500), or `weight` in newtons",
     )
 }

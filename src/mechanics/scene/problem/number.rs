@@ -1,4 +1,4 @@
-//! What is reported of numbers and colours.
+//! The messages about numbers and colours.
 
 use super::{Code, Wording, digits, say, shortened};
 

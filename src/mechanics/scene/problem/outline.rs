@@ -1,4 +1,4 @@
-//! What is reported of outlines, cells and overlaps.
+//! The messages about outlines, cells and overlaps.
 
 use std::fmt;
 
@@ -197,7 +197,7 @@ pub(in crate::mechanics::scene) fn overlap(
         depth, area, at, ..
     } = common;
     let help = "move them apart until they only touch".to_owned();
-    // Rounded up, so that the number given is enough.
+    // Round up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
     say(
         Code::Overlap,

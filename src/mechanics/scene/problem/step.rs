@@ -1,4 +1,4 @@
-//! What is reported of steps that cannot be played.
+//! The messages about steps that are not possible.
 
 use super::{Code, Wording, say, shortened};
 

@@ -1,4 +1,4 @@
-//! What is reported of a text that is no JSON.
+//! The messages about text that is not JSON.
 
 use super::{Code, Wording, say, shortened};
 
@@ -158,6 +158,14 @@ pub(in crate::mechanics::scene) fn surrogate() -> Wording {
         Code::NotJson,
         "the escape is half of a character",
         "write the character itself, or both halves of its surrogate pair",
+    )
+}
+
+pub(in crate::mechanics::scene) fn conflict() -> Wording {
+    say(
+        Code::NotJson,
+        "a merge has left two versions of the file here",
+        "keep one version, and delete the lines that begin with <<<<<<<, ======= and >>>>>>>",
     )
 }
 

@@ -1,11 +1,11 @@
-//! Every object of a scene file, from the syntax tree to its type in [`format`](super::super::format).
+//! Reads the objects of a scene file from the syntax tree into the types of [`format`](super::super::format).
 //!
 //! The lists of keys are held against those of the types by a test in `format::schema`.
 
 use super::super::format::{
-    BlockEntry, CellEntry, CellHalf, FrictionPairEntry, GridEntry, GridKind, GripEntry,
-    GroundEntry, HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile,
-    ShapeEntry, StepEntry, Version,
+    BlockEntry, CellEntry, CellHalf, Expectation, FrictionPairEntry, GridEntry, GridKind,
+    GripEntry, GroundEntry, HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry,
+    SceneFile, ShapeEntry, StepEntry, Version,
 };
 use super::super::path::Trail;
 use super::super::tree::{Node, NodeKind};
@@ -30,11 +30,14 @@ pub(in crate::mechanics::scene) const KEYS: &[(&str, &[&str])] = &[
 
 const SCENE: &[&str] = &[
     "$schema",
+    "author",
     "blocks",
     "contact_tolerance",
     "corner_contacts",
+    "date",
     "density",
     "drystone",
+    "expect",
     "friction",
     "friction_pairs",
     "gravity",
@@ -43,6 +46,7 @@ const SCENE: &[&str] = &[
     "kernel",
     "loads",
     "materials",
+    "project",
     "robots",
     "shapes",
     "silence",
@@ -64,14 +68,16 @@ const BLOCK: &[&str] = &[
 const ROBOT: &[&str] = &["at", "holds", "id", "limits"];
 const LIMITS: &[&str] = &["force", "fx", "fy", "torque"];
 const LOAD: &[&str] = &["at", "block", "force", "torque"];
-const STEP: &[&str] = &["hold", "place", "plan", "release", "remove", "title"];
+const STEP: &[&str] = &[
+    "expect", "hold", "place", "plan", "release", "remove", "title",
+];
 const GRIP: &[&str] = &["at", "block"];
 
 const CELL: &str = "[x, y, \"up\"], [x, y, \"down\"] or [x, y]";
 
 type R<'s, 't> = Reader<'s, 't>;
 
-/// The whole file; what does not fit is as if it were not there.
+/// Reads the whole file. A value that does not fit is reported and left out.
 pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
     let at = &Trail::Top;
     let Some(o) = r.object(node, at, SCENE) else {
@@ -81,6 +87,9 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         schema: r.optional(o, at, "$schema", |r, n, at| r.text(n, at)),
         drystone: r.required(o, at, "drystone", version).unwrap_or_default(),
         title: r.optional(o, at, "title", |r, n, at| r.text(n, at)),
+        author: text(r, o, at, "author"),
+        project: text(r, o, at, "project"),
+        date: text(r, o, at, "date"),
         gravity: r.optional(o, at, "gravity", |r, n, at| r.vector(n, at)),
         friction: number(r, o, at, "friction"),
         kernel: number(r, o, at, "kernel"),
@@ -98,6 +107,7 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         contact_tolerance: number(r, o, at, "contact_tolerance"),
         corner_contacts: r.optional(o, at, "corner_contacts", |r, n, at| r.flag(n, at)),
         steps: r.list(o, at, "steps", step),
+        expect: expectation(r, o, at),
         silence: names(r, o, at, "silence"),
     }
 }
@@ -132,7 +142,7 @@ fn holes<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Vec<Vec<Pa
 
 fn cells<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec<CellEntry>> {
     let list = r.optional(o, at, "cells", |r, n, at| {
-        // A cell that cannot be read leaves its body in doubt; what stands in its place does not matter.
+        // A cell that cannot be read marks its body as not readable, so its value does not matter.
         r.entries(n, at, |r, n, at| cell(r, n, at).map(Some))
     })?;
     let read = |cell: Option<CellEntry>| cell.unwrap_or(CellEntry::Square(0.0, 0.0));
@@ -289,7 +299,16 @@ fn step<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<StepEn
         place: names(r, o, at, "place"),
         hold: r.map(o, at, "hold", hold),
         plan: r.map(o, at, "plan", |r, n, at| r.text(n, at)),
+        expect: expectation(r, o, at),
     })
+}
+
+fn expectation<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Expectation> {
+    let choices = [
+        ("stable", Expectation::Stable),
+        ("unstable", Expectation::Unstable),
+    ];
+    r.optional(o, at, "expect", |r, n, at| r.choice(n, at, &choices))
 }
 
 fn hold<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<HoldEntry> {

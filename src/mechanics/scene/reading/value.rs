@@ -1,4 +1,4 @@
-//! [`Reader`]: values of the kinds a scene file has, taken from the syntax tree.
+//! [`Reader`]: reads values of the types of a scene file from the syntax tree.
 //!
 //! Every misfit is noted, with what is expected and what was found, and its place put in doubt: what follows is read as
 //! if nothing stood there, and nobody complains of what follows from that.
@@ -29,7 +29,7 @@ pub(super) struct Object<'n, 't> {
 }
 
 impl<'n, 't> Object<'n, 't> {
-    /// The value of a key; of a key given twice the first.
+    /// The value of a key. If the key occurs twice, its first value.
     fn get(self, key: &str) -> Option<&'n Node<'t>> {
         let found = self.entries.iter().find(|e| e.name == key);
         found.map(|e| &e.value)
@@ -52,7 +52,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// What stands in a list.
+    /// The entries of a list.
     pub(super) fn items(&self, list: &List) -> &'s [Node<'t>] {
         let tree = self.source.tree.as_ref();
         tree.map_or(&[], |tree| tree.items(list))
@@ -60,7 +60,7 @@ impl<'s, 't> Reader<'s, 't> {
 
     fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
-            // A file with this many wrong values is not examined further.
+            // A file with so many wrong values is not examined any further.
             self.doubt.paths = vec![Trail::Top.path()];
             return;
         }
@@ -71,7 +71,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// Notes that something else is expected here.
+    /// Reports a value of a wrong type.
     pub(super) fn wrong(&mut self, node: &Node<'_>, at: &Trail<'_>, expected: &str) {
         let quoted = match &node.kind {
             NodeKind::Text(text) if expected == "a number" => {
@@ -79,14 +79,18 @@ impl<'s, 't> Reader<'s, 't> {
             }
             _ => None,
         };
+        let is_text = matches!(node.kind, NodeKind::Text(_));
         let wording = match quoted {
             Some(number) => problem::entry::quoted_number(expected, &problem::shortened(number)),
+            None if expected == "a number" && at.ends_in("friction") && is_text => {
+                problem::entry::friction_word(expected, &self.found(node))
+            }
             None => problem::entry::wrong_type(expected, &self.found(node)),
         };
         self.misfit(at, Mark::Value, wording);
     }
 
-    /// What stands there, in words.
+    /// The value in words, for messages.
     fn found(&self, node: &Node<'_>) -> String {
         match &node.kind {
             NodeKind::Null => "null".into(),
@@ -98,7 +102,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// A value as it is written.
+    /// The text of a value.
     pub(super) fn written(&self, node: &Node<'_>) -> &'t str {
         &self.source.text[node.range.clone()]
     }
@@ -131,7 +135,7 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// One of some words.
+    /// Reads one of some fixed words.
     pub(super) fn choice<T: Copy>(
         &mut self,
         node: &Node<'_>,
@@ -155,7 +159,7 @@ impl<'s, 't> Reader<'s, 't> {
         chosen
     }
 
-    /// Two numbers. Of a point in space the first two count, and the rest of the file is examined with them.
+    /// Reads two numbers. If there are three, as for a point in space, the error is reported and the first two are used.
     pub(super) fn pair(
         &mut self,
         node: &Node<'_>,
@@ -204,7 +208,7 @@ impl<'s, 't> Reader<'s, 't> {
         self.pair(node, at, Meaning::Vector)
     }
 
-    /// An object with some of these keys and no others.
+    /// Reads an object with some of these keys and no others.
     pub(super) fn object(
         &mut self,
         node: &Node<'t>,
@@ -222,7 +226,7 @@ impl<'s, 't> Reader<'s, 't> {
         Some(object)
     }
 
-    /// An object with any keys, each once.
+    /// Reads an object with any keys, and reports duplicate keys.
     fn any_object(&mut self, node: &Node<'t>, at: &Trail<'_>) -> Option<Object<'s, 't>> {
         let NodeKind::Object(object) = &node.kind else {
             self.wrong(node, at, "an object");
@@ -237,7 +241,7 @@ impl<'s, 't> Reader<'s, 't> {
         Some(Object { entries })
     }
 
-    /// The value of a key that may be left out or be `null`.
+    /// Reads the value of an optional key. `null` counts as absent.
     pub(super) fn optional<T>(
         &mut self,
         object: Object<'_, 't>,
@@ -252,7 +256,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// The value of a key that has to be there.
+    /// Reads the value of a required key.
     pub(super) fn required<T>(
         &mut self,
         object: Object<'_, 't>,
@@ -268,7 +272,7 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// The list of a key; empty if the key is absent.
+    /// Reads the list of a key; empty if the key is absent.
     pub(super) fn list<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -281,7 +285,8 @@ impl<'s, 't> Reader<'s, 't> {
             .unwrap_or_default()
     }
 
-    /// A list, each entry read; one that does not fit is as if nothing stood there, so that the others keep their numbers.
+    /// Reads all entries of a list. An entry that does not fit is replaced by an empty one, so that the other entries keep
+    /// their numbers.
     pub(super) fn entries<T: Default>(
         &mut self,
         node: &Node<'t>,
@@ -300,7 +305,7 @@ impl<'s, 't> Reader<'s, 't> {
         Some(list)
     }
 
-    /// The object of a key, by names; empty if the key is absent.
+    /// Reads the object of a key as a map of names; empty if the key is absent.
     pub(super) fn map<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -330,7 +335,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 }
 
-/// The entries whose keys stand before them, each with the first of its key.
+/// The entries with a duplicate key. Each is returned with the first entry that has the same key.
 fn repeated<'n, 't>(
     entries: &'n [Entry<'t>],
 ) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {

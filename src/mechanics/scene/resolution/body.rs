@@ -1,4 +1,4 @@
-//! Blocks and parts of the ground: what they are, where they lie, what they weigh.
+//! Resolves blocks and parts of the ground: their outlines, positions and weights.
 
 use super::Resolution;
 use crate::scene::finding::Findings;
@@ -188,7 +188,7 @@ impl Resolution<'_> {
     }
 }
 
-/// A colour written `#rrggbb` or `#rgb`.
+/// Parses a colour `#rrggbb` or `#rgb`.
 pub(super) fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
     let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
         hex.chars()

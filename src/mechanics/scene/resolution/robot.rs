@@ -1,4 +1,4 @@
-//! Robots and loads.
+//! Resolves robots and loads.
 
 use super::Resolution;
 use crate::geometry::{Point, Vector};

@@ -1,4 +1,4 @@
-//! The outlines of a scene file's bodies as far as they can be drawn, sound or not.
+//! The outlines of the bodies of a scene file as far as they can be drawn, also if they are not valid.
 
 use super::Resolution;
 use super::body::BodyEntry;
@@ -6,10 +6,40 @@ use crate::geometry::{Cell, CellShape, Point, Vector, sin_cos_degrees};
 use crate::scene::finding::{Findings, UnreadParts};
 use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
-use crate::scene::sketch::{Placement, SketchedBody};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Every body that has corners, the ground first, and the scene where all its bodies are sound; these may overlap in it.
+/// A body as it is written, in its place.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct SketchedBody {
+    /// Which body.
+    pub id: BodyId,
+    /// A block's id, or `ground[2]`.
+    pub name: String,
+    /// Its outline and holes in metres; they may cross, and have any number of corners.
+    pub rings: Vec<Vec<Point>>,
+    pub(in crate::mechanics::scene) placement: Placement,
+}
+
+/// How a body is put into its place: turned about its origin, then moved.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::mechanics::scene) struct Placement {
+    by: Vector,
+    sin: f64,
+    cos: f64,
+}
+
+impl Placement {
+    pub(in crate::mechanics::scene) fn place(&self, p: Point) -> Point {
+        let turned = Vector::new(
+            p.x * self.cos - p.y * self.sin,
+            p.x * self.sin + p.y * self.cos,
+        );
+        Point::from(turned + self.by)
+    }
+}
+
+/// All bodies with corners, the ground first. Also the scene, if all its bodies are valid; they may overlap.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
     doubt: UnreadParts,
@@ -63,7 +93,7 @@ impl Resolution<'_> {
         }
     }
 
-    /// The corners as they are written, where they can be drawn at all.
+    /// The corners as they are written, if they can be drawn.
     fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;
@@ -94,7 +124,7 @@ impl Resolution<'_> {
             .collect()
     }
 
-    /// The corners of one cell, where it is one of the scene's lattice.
+    /// The corners of one cell, if the scene has a lattice with such cells.
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
         let (x, y, half) = match cell {

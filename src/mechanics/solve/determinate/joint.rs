@@ -3,8 +3,9 @@
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};
 
-/// Points closer together than this, relative to the median face, take no moment. The forces would be 10⁹ times the loads, and a
-/// proof would keep none of their digits.
+/// A face whose two points are closer together than this, relative to the median face, cannot resist a moment.
+///
+/// Its forces would be 10⁹ times the loads, and the proof could not use any of their digits.
 const MIN_FACE_LENGTH: f64 = 1e-9;
 
 /// A force and its moment about a body's centroid.
@@ -14,53 +15,56 @@ pub(super) struct Wrench {
     pub moment: f64,
 }
 
-/// N1, N2 and T of a contact; pulls are negative.
+/// The forces ([N1, N2], T) of a contact; a pull is a negative N.
 pub(super) type ContactForces = ([f64; 2], f64);
 
 /// The speeds at which the two points open, and at which the face slides along its tangent.
 pub(super) type JointSpeeds = ([f64; 2], f64);
 
-/// A contact, and the body that it joins to the ground.
+/// A contact of a tree of blocks, and the body that it joins to the ground.
 pub(super) struct Joint<'a> {
     /// The index of the contact.
     pub number: usize,
     pub contact: &'a ContactTerm,
     /// The joined body.
     pub body: usize,
-    /// The arms of the points about its centroid.
+    /// The vectors from that body's centroid to the two application points.
     arms: [Vector; 2],
     /// 1 if the contact pushes the body along the normal, −1 if against it.
     sign: f64,
-    /// The body between it and the ground, and the vector from that body's centroid to its own.
+    /// The next body on the way to the ground, and the vector from the centroid of that body to the centroid of `body`.
     pub below: Option<(usize, Vector)>,
 }
 
 impl Joint<'_> {
-    /// The moments about the body's centroid of a unit force along the normal at each point, and of one along the face.
+    /// The moments about the body's centroid of unit forces: along the normal at each of the two points, and along the
+    /// face.
     fn levers(&self) -> ([f64; 2], f64) {
         let normal = self.contact.normal;
         let levers = self.arms.map(|arm| cross(arm, normal));
         (levers, cross(self.arms[0], quarter_turn(normal)))
     }
 
-    /// The contact forces that give the body a wrench: three equations, three unknowns.
+    /// The contact forces that exert a given wrench on the body: three equations for three unknowns.
     pub fn forces(&self, wrench: Wrench) -> ContactForces {
         let (levers, lever) = self.levers();
         let normal = self.contact.normal;
         let across = self.sign * normal.dot(&wrench.force);
         let along = self.sign * quarter_turn(normal).dot(&wrench.force);
         let moment = self.sign * wrench.moment - lever * along;
-        // The normal forces share `across` so that their moments, and that of T, add up.
+        // N1 + N2 = `across`, and the moments of N1, N2 and T add up to the moment of the wrench.
         let by = 1.0 / (levers[1] - levers[0]);
         let first = (levers[1] * across - moment) * by;
         let second = (moment - levers[0] * across) * by;
         ([first, second], along)
     }
 
-    /// Writes the body's velocities into `motion`: those of the body below, plus those of the joint that opens and slides.
+    /// Writes the body's velocities into `motion`: the velocities of the body below plus the opening and sliding of the
+    /// joint.
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);
+        // The velocity of a point of a rigid body.
         let at = |[x, y, spin]: [f64; 3], arm: Vector| Vector::new(x, y) + quarter_turn(arm) * spin;
         let below = self.below.map_or([[0.0; 2].into(); 2], |(body, between)| {
             let velocity = [0, 1, 2].map(|row| motion[3 * body + row]);
@@ -76,12 +80,16 @@ impl Joint<'_> {
     }
 }
 
-/// The joints from the ground outwards, one for each body; `None` if a body has several ways to the ground, or none.
+/// The joints in order from the ground outwards, one for each body.
+///
+/// `None` if the contacts do not form a tree: a body has several ways to the ground or none. Also `None` if the program
+/// has grips or a face is too short.
 pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
         return None;
     }
+    // The contacts of each body. The search starts from the contacts with the ground, which are put into the queue.
     let mut touching = vec![Vec::new(); program.blocks];
     let mut queue = Vec::new();
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -95,7 +103,7 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     }
     let mut found = vec![false; program.blocks];
     let mut joints = Vec::with_capacity(program.blocks);
-    // Depth first from the ground. A body that is reached twice has two ways to it: not a tree.
+    // Depth-first search from the ground. A body that is reached twice has two ways to the ground: not a tree.
     while let Some((number, below)) = queue.pop() {
         let contact = &program.contacts[number];
         let both = [

@@ -1,12 +1,14 @@
 //! Closed forms for statically determinate structures: stacks, and all trees of blocks.
 //!
-//! Every contact is the only one that joins what lies beyond it to the ground. So the balance of what lies beyond gives its
-//! forces N1, N2 and T uniquely. If the contact can give them, these are the forces. What it cannot give has to stick: a pull −N, and
-//! friction beyond μ(N1 + N2). With μ ≤ 1 no other way takes less: one more newton pressed and pulled at once would allow
-//! μ newtons of friction, and cost one.
+//! In a tree, each contact is the only connection of the blocks beyond it to the ground. The balance of these blocks
+//! determines its forces N1, N2 and T. If the contact can exert them, the structure stands. Otherwise the missing part
+//! is the adhesion: a pull −N, and friction beyond μ(N1 + N2). With μ ≤ 1 no other choice needs less adhesion: one
+//! newton of additional pressure, balanced by one newton of pull, allows only μ newtons of friction.
 //!
-//! No program is solved, and no digits are lost to the length of a chain. An interior-point method loses all of them at
-//! 10 000 blocks.
+//! No program is solved, and the accuracy does not depend on the length of a chain. An interior-point method has no
+//! correct digits left at 10 000 blocks. Steps: order the joints from the ground outwards; sum the loads from the ends
+//! inwards; split the forces of each joint; derive the motion from the joints that give way. Reference: Hibbeler,
+//! Structural Analysis, 2012, chapter 2 (determinacy and equilibrium of parts).
 
 mod joint;
 #[cfg(test)]
@@ -18,15 +20,19 @@ use crate::geometry::{Vector, cross};
 use crate::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
 
-/// A missing force below this fraction of the contact's forces is rounding: the contact neither moves nor fails. A tower of 1000
-/// blocks sums that many loads, each with a rounding of 1e-16. At a tenth its joints would seem to fail.
+/// A missing force up to this fraction of the contact's forces is rounding: the contact does not fail.
+///
+/// A tower of 1000 blocks sums 1000 loads, each with a rounding of 1e-16. At a tenth of this value, some of its joints
+/// would seem to fail. At ten times, real failures of the size that proofs accept (1e-7) are still far above it.
 const ROUNDING_TOL: f64 = 1e-12;
 
-/// Every joint opens by this more, relative to the fastest velocity: some fifty times the rounding of one. Then no rounding
-/// makes a joint close, and the loads hardly notice.
+/// The additional opening of every joint in a motion, relative to the largest velocity.
+///
+/// It is about fifty times the rounding of a velocity, so that rounding cannot make a joint close. The power of the
+/// loads changes by about as little.
 const EXTRA_OPENING: f64 = 1e-14;
 
-/// The forces, if they are unique and every contact can give them; else `None`.
+/// The contact forces, if they are unique and every contact can exert them; otherwise `None`.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
@@ -34,7 +40,7 @@ pub fn determinate(program: &Program) -> Option<Amounts> {
     joints.iter().all(holds).then_some(split.forces)
 }
 
-/// The forces that balance needs at every joint, in the joints' order: loads are summed from the ends towards the ground.
+/// The forces that each joint must exert to balance the loads, in the order of the joints.
 fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     let mut needed: Vec<Wrench> = program
         .loads
@@ -44,7 +50,8 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
             moment: load[2],
         })
         .collect();
-    // From the ends towards the ground: what a joint carries acts on the body below it.
+    // From the ends towards the ground: the wrench that a joint must exert on its body is added to that of the body
+    // below.
     for joint in joints.iter().rev() {
         let wrench = needed[joint.body];
         if let Some((below, between)) = joint.below {
@@ -62,15 +69,17 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     Split::new(program, &joints)?.stuck(program, &joints)
 }
 
-/// A collapse mechanism with few moving joints, and the least adhesion. On each way from the ground only the first failing
-/// contact gives way; what lies beyond moves with it as one body. `None` if the forces are not unique, or if nothing sticks.
+/// A collapse mechanism with few moving joints, and the least adhesion.
+///
+/// On each way from the ground only the first failing contact moves; the blocks beyond it move as one body. `None` if
+/// the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
-        // A joint on a moving body stays closed, and its body moves along.
+        // A joint on a moving body stays closed: its own body moves with the body below.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
         let (opens, slides) = match rests {
             true => split.speeds(joint),
@@ -86,9 +95,9 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     Some((motion, split.stuck(program, &joints)?))
 }
 
-/// The velocities of the bodies, from the speeds at which joints open and slide; `None` if one is not finite.
+/// The velocities of the bodies, from the speeds at which the joints open and slide; `None` if one is not finite.
 ///
-/// Every joint opens by [`EXTRA_OPENING`] more, unless that takes half of the loads' power.
+/// Every joint opens by an additional [`EXTRA_OPENING`], unless this costs half of the loads' power or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
     let opened = |extra: f64| {
         let mut motion = vec![0.0; program.loads.len()];
@@ -101,6 +110,7 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option
         let both = program.loads.iter().zip(motion);
         both.map(|(load, v)| -load * v).sum()
     };
+    // The additional opening is applied only if it leaves at least half of the power.
     let plain = opened(0.0);
     if !plain.iter().all(|v| v.is_finite()) {
         return None;
@@ -113,33 +123,34 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option
     }
 }
 
-/// The forces that balance needs, split into what contacts can give and what has to stick.
+/// The forces that balance the loads, split into the part that contacts can exert and the part that needs adhesion.
 struct Split {
     forces: Amounts,
-    sticking: Amounts,
+    adhesion: Amounts,
 }
 
 impl Split {
     fn new(program: &Program, joints: &[Joint]) -> Option<Split> {
-        let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
+        let (mut forces, mut adhesion) = (Amounts::none(program), Amounts::none(program));
         for (joint, ([first, second], along)) in joints.iter().zip(needed_forces(program, joints)) {
             if !(first.is_finite() && second.is_finite() && along.is_finite()) {
                 return None;
             }
-            // The contact gives what is inside its friction cone; the rest has to stick.
+            // The contact exerts the part inside its friction cone; the rest is adhesion.
             let pressed = [first.max(0.0), second.max(0.0)];
             let limit = joint.contact.friction * (pressed[0] + pressed[1]);
             let friction = along.clamp(-limit, limit);
             forces.normal[joint.number] = pressed;
             forces.friction[joint.number] = friction;
-            sticking.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
-            sticking.friction[joint.number] = along - friction;
+            adhesion.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
+            adhesion.friction[joint.number] = along - friction;
         }
-        Some(Split { forces, sticking })
+        Some(Split { forces, adhesion })
     }
 
-    /// The optimum of the program of least adhesion, with the motion of all joints that give way; `None` if a friction above 1
-    /// might need less sticking.
+    /// The optimum of the program of least adhesion, with the motion of all joints that fail.
+    ///
+    /// `None` if a friction coefficient exceeds 1: the closed form is then not always the least adhesion.
     fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
         if program
             .contacts
@@ -153,17 +164,17 @@ impl Split {
             balanced: Some(true),
             motion: Some(motion(program, joints, &speeds)?),
             forces: self.forces,
-            sticking: self.sticking,
+            adhesion: self.adhesion,
             priced: false,
             effort: Effort::default(),
         })
     }
 
-    /// The speeds at which the points open and the face slides if its sticking gives way.
+    /// The speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if it needs none.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
         let (pull, missing) = (
-            self.sticking.normal[joint.number],
-            self.sticking.friction[joint.number],
+            self.adhesion.normal[joint.number],
+            self.adhesion.friction[joint.number],
         );
         let [first, second] = self.forces.normal[joint.number];
         let is_above_rounding = |v: f64| v.abs() > ROUNDING_TOL * (first + second + v.abs());
@@ -171,7 +182,7 @@ impl Split {
             true => -missing.signum(),
             false => 0.0,
         };
-        // Friction is associated here: sliding opens the points that press, by μ times the slip.
+        // The flow rule is associated: a sliding face also opens, at μ times the speed of sliding.
         let opens = pull.map(|pull| match is_above_rounding(pull) {
             true => 1.0,
             false => joint.contact.friction * f64::abs(slides),

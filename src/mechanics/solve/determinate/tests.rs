@@ -4,7 +4,7 @@ use super::*;
 use crate::geometry::quarter_turn;
 use crate::interface::ContactKind;
 use crate::program::ContactTerm;
-use crate::program::{Scale, columns, sticking_columns};
+use crate::program::{Scale, adhesion_columns, columns};
 use crate::solve::Conditioning;
 use crate::solve::least_adhesion::by_programs;
 use crate::solve::numbers::Numbers;
@@ -59,15 +59,15 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
         let program = branches(blocks, &mut numbers);
         let found = least_adhesion(&program).unwrap();
         let other = by_programs(&program, Conditioning::Full.into());
-        let total = found.sticking.total();
-        assert!((total - other.sticking.total()).abs() < 1e-6 * (1.0 + total));
+        let total = found.adhesion.total();
+        assert!((total - other.adhesion.total()).abs() < 1e-6 * (1.0 + total));
         assert!((found.forces.total() - other.forces.total()).abs() < 1e-5 * (1.0 + total));
-        let all: Vec<_> = [columns(&program), sticking_columns(&program)].concat();
+        let all: Vec<_> = [columns(&program), adhesion_columns(&program)].concat();
         let sum = Amounts {
-            normal: std::iter::zip(&found.forces.normal, &found.sticking.normal)
+            normal: std::iter::zip(&found.forces.normal, &found.adhesion.normal)
                 .map(|(a, s)| [a[0] - s[0], a[1] - s[1]])
                 .collect(),
-            friction: std::iter::zip(&found.forces.friction, &found.sticking.friction)
+            friction: std::iter::zip(&found.forces.friction, &found.adhesion.friction)
                 .map(|(a, s)| a + s)
                 .collect(),
             grip: Vec::new(),
@@ -77,7 +77,7 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
         let motion = found.motion.unwrap();
         let fastest = motion.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
         for column in &all {
-            let cost = if column.force.is_sticking() { 1.0 } else { 0.0 };
+            let cost = if column.force.is_adhesion() { 1.0 } else { 0.0 };
             assert!(-column.dot(&motion) <= cost + 1e-10 * fastest);
         }
         let power = |motion: &[f64]| -> f64 {
@@ -113,13 +113,13 @@ fn its_forces_are_those_that_stick_nowhere() {
         let forces = determinate(&program).unwrap();
         assert!(forces.unbalanced(&program) < 1e-10);
         let stuck = least_adhesion(&program).unwrap();
-        assert!(stuck.sticking.total() < 1e-10);
+        assert!(stuck.adhesion.total() < 1e-10);
         assert_eq!(stuck.forces, forces);
         // One contact that has to pull is enough.
-        let pulled = sticking_columns(&program);
+        let pulled = adhesion_columns(&program);
         pulled[0].add_to(&mut program.loads, 20.0);
         assert!(determinate(&program).is_none());
-        assert!(least_adhesion(&program).unwrap().sticking.total() > 1.0);
+        assert!(least_adhesion(&program).unwrap().adhesion.total() > 1.0);
     }
 }
 

@@ -1,4 +1,5 @@
-//! [`BlockDiagonal`]: a symmetric matrix that couples only the columns of one contact, and Cholesky factors of its blocks.
+//! [`BlockDiagonal`]: a symmetric matrix that couples only the columns of one contact, and the Cholesky factors of its
+//! blocks.
 
 use std::ops::Range;
 
@@ -13,17 +14,19 @@ pub(super) struct BlockDiagonal {
     pub blocks: Vec<Range<usize>>,
     /// A full square matrix for each block, row by row.
     pub entries: Vec<f64>,
-    /// Where the matrix of each block begins, and the end of the last.
+    /// The index in `entries` at which the matrix of each block begins, followed by the end of the last one.
     begin: Vec<usize>,
 }
 
 impl BlockDiagonal {
-    /// The quadratic objective of a problem; `None` if it couples more than [`MAX_BLOCK_COLUMNS`] consecutive columns.
+    /// The matrix of a problem's quadratic objective; `None` if it couples more than [`MAX_BLOCK_COLUMNS`] consecutive
+    /// columns.
     pub fn quadratic_of(problem: &QuadraticProgram) -> Option<BlockDiagonal> {
         let blocks = blocks(problem);
         if blocks.iter().any(|block| block.len() > MAX_BLOCK_COLUMNS) {
             return None;
         }
+        // Store the square matrices of the blocks one after the other.
         let mut begin = vec![0];
         let mut block_of = vec![0; problem.unknowns];
         for (k, block) in blocks.iter().enumerate() {
@@ -33,6 +36,7 @@ impl BlockDiagonal {
         let mut entries = vec![0.0; begin[blocks.len()]];
         for (i, j, value) in &problem.quadratic {
             let k = block_of[*i];
+            // The problem stores the upper triangle; fill both.
             let (start, width) = (blocks[k].start, blocks[k].len());
             entries[begin[k] + (i - start) * width + (j - start)] += value;
             if i != j {
@@ -70,6 +74,7 @@ fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     for (i, j, _) in &problem.quadratic {
         first[*j] = first[*j].min(*i);
     }
+    // Go through the columns backwards. A block begins at column j if no column from j on is coupled with one before j.
     let (mut starts, mut low) = (Vec::new(), n);
     for j in (0..n).rev() {
         low = low.min(first[j]);
@@ -83,7 +88,7 @@ fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     starts.iter().zip(ends).map(|(a, b)| *a..b).collect()
 }
 
-/// Replaces the lower triangle of a small positive definite matrix by L, with L·Lᵀ the matrix; row by row.
+/// Replaces the lower triangle of a small positive definite matrix, stored row by row, by its Cholesky factor L.
 pub(super) fn cholesky_in_place(matrix: &mut [f64], width: usize) {
     for i in 0..width {
         for j in 0..=i {

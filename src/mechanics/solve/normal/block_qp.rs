@@ -1,13 +1,14 @@
-//! Least squares of amounts with lower bounds: an interior-point method for a quadratic program with a block-diagonal matrix.
+//! An interior-point method for least squares of amounts with lower bounds: a quadratic program with a block-diagonal
+//! matrix.
 //!
 //! ```text
 //! min ½ xᵀPx + linearᵀx   s.t.   A x = loads,   s = x + floor ≥ 0,   multipliers z ≥ 0 of the bounds
 //! ```
 //!
 //! P couples only the few columns of one contact. The method is Mehrotra's predictor and corrector (Nocedal and Wright,
-//! Numerical Optimization, 2006, section 16.6). Each step solves A·W·Aᵀ·dy = right-hand side with W = (P + Z/S)⁻¹, one small
-//! block for each contact. With P + Z/S = L·Lᵀ the matrix is that of the columns L⁻¹·Aᵀ, each of weight 1, so the factor of
-//! the linear programs serves here too.
+//! Numerical Optimization, 2006, section 16.6). Each step solves A·W·Aᵀ·dy = right-hand side with W = (P + Z/S)⁻¹,
+//! which has one small block for each contact. With P + Z/S = L·Lᵀ and B = A·L⁻ᵀ, this matrix is B·Bᵀ. It is therefore
+//! factored by the same code as that of a linear program, with the columns of B and weights of 1.
 //!
 //! The amounts x and their distances s from the bounds are separate variables: for an amount far above its bound, a small
 //! change of x would be lost in the rounding of s.
@@ -25,25 +26,31 @@ use crate::program::QuadraticProgram;
 use crate::solve::answer::{Answer, Status};
 use crate::solve::settings::StoppingCriteria;
 
-/// The gap is closed to this fraction of the tolerance, if that can be reached. A gap of a billionth of the squares leaves
-/// forces off by some 10⁻⁵ of themselves (the square root), and one or two more steps are cheap.
+/// The duality gap is reduced to this fraction of the tolerance, if that can be reached.
+///
+/// The error of a force is about the square root of the gap: a gap of 10⁻⁹ leaves relative errors of about 10⁻⁵. One or
+/// two more steps cost little.
 const GAP_FACTOR: f64 = 1e-3;
 
-/// A step shorter than this makes hardly any progress.
+/// A step shorter than this counts as a step without progress.
 const SHORT_STEP: f64 = 0.1;
 
-/// A step longer than [`LONG_STEP`] makes none either if it leaves more than [`STALLED_SHARE`] of the unbalanced loads: such a step
-/// usually leaves a third of them.
+/// A step longer than this counts as a step without progress if more than [`STALLED_SHARE`] of the primal residual
+/// remains.
+///
+/// A step of this length usually leaves a third of the residual.
 const LONG_STEP: f64 = 0.8;
+
+/// The share of the primal residual above which a long step has made no progress.
 const STALLED_SHARE: f64 = 0.8;
 
-/// After this many steps in a row without progress the method gives up: no amounts balance the loads.
+/// After this number of consecutive steps without progress the method stops: no amounts balance the loads.
 const MAX_IDLE_STEPS: usize = 3;
 
-/// Solves the program; `None` if it is of another form, or if the method ends without an optimum.
+/// Solves the program; `None` if it has another form, or if the method ends without an optimum.
 ///
-/// Chains are welcome: for an arch of 10 000 stones, whose thrust is thousands of loads, clarabel calls the least squares
-/// infeasible.
+/// It also solves chains: for an arch of 10 000 stones, whose thrust is thousands of times a stone's weight, clarabel
+/// reports that the least squares are infeasible.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     if !has_only_floors(problem) {
         return None;
@@ -51,6 +58,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     let tolerance = criteria.tolerance;
     let mut run = BlockQp::new(BlockDiagonal::quadratic_of(problem)?, problem)?;
     run.set_starting_point();
+    // Iterate until the fine tolerance is met; at the end, the normal tolerance is enough.
     let (mut iterations, mut idle_steps) = (0, 0);
     while !run.is_optimal(tolerance, GAP_FACTOR * tolerance) {
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
@@ -60,6 +68,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
             }
             return None;
         }
+        // Count steps without progress: short ones, and long ones that leave most of the residual.
         let former = max_norm(&run.residuals.primal);
         let step = run.step();
         let is_stalled = max_norm(&run.residuals.primal) > STALLED_SHARE * former;
@@ -74,6 +83,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
         }
         iterations += 1;
     }
+    // Return the variables in the order and with the signs of the problem.
     let y = run.factor.to_program_order(&run.y);
     Some(Answer {
         status: Status::Solved,
@@ -84,14 +94,14 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     })
 }
 
-/// Whether the rows are the balance and one lower bound for each column.
+/// Whether the rows of a problem are the balance and exactly one lower bound for each column.
 fn has_only_floors(problem: &QuadraticProgram) -> bool {
     let n = problem.unknowns;
     let is_floor = |(row, column, value): &(usize, usize, f64)| {
         *row - problem.equalities == *column && *value == -1.0
     };
     let mut below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
-    // With fewer columns than rows there is seldom a balance at all, which clarabel sees after two iterations.
+    // With fewer columns than rows there is rarely a balance. clarabel detects this after two iterations.
     problem.equalities != 0
         && n >= problem.equalities
         && problem.bound.len() == problem.equalities + n
@@ -103,11 +113,11 @@ struct BlockQp {
     quadratic: BlockDiagonal,
     /// A, with the unknowns in the order of elimination.
     columns: ColumnGroups,
-    /// L⁻¹·Aᵀ, the columns of which have weight 1.
+    /// B = A·L⁻ᵀ, whose columns have a weight of 1.
     whitened: ColumnGroups,
     factor: Cholesky,
     ones: Vec<f64>,
-    /// L for each block, in the lower triangle.
+    /// The Cholesky factor L of each block of P + Z/S, in the lower triangle.
     lower: Vec<f64>,
     loads: Vec<f64>,
     linear: Vec<f64>,
@@ -119,7 +129,7 @@ struct BlockQp {
     residuals: Residuals,
 }
 
-/// What the conditions of an optimum leave at the iterate.
+/// The residuals of the optimality conditions at the iterate.
 struct Residuals {
     /// loads − A x.
     primal: Vec<f64>,
@@ -127,11 +137,11 @@ struct Residuals {
     dual: Vec<f64>,
     /// x + floor − s.
     bound: Vec<f64>,
-    /// Largest entries of A x, of Px and of Aᵀy.
+    /// The largest entries of A x, of P x and of Aᵀy, to which the residuals are compared.
     size: [f64; 3],
 }
 
-/// A direction of the iterate.
+/// A search direction: the changes of x, y, s and z.
 struct Direction {
     x: Vec<f64>,
     y: Vec<f64>,
@@ -176,7 +186,7 @@ impl BlockQp {
         })
     }
 
-    /// The starting point: the least squares without bounds, then s and z shifted until they are positive.
+    /// Sets the starting point: x is the least squares without bounds, s and z are at least the mean size of x.
     fn set_starting_point(&mut self) {
         self.factor_system();
         let mut side: Vec<[f64; 1]> = self.loads.iter().map(|v| [*v]).collect();
@@ -186,6 +196,7 @@ impl BlockQp {
         let mut x = std::mem::take(&mut self.x);
         self.apply_weight(&mut x);
         self.x = x;
+        // Shift s and z into the interior; their products are about the squared mean size of x.
         let mean = self.x.iter().map(|x| x.abs()).sum::<f64>() / self.x.len().max(1) as f64;
         let inside = if mean > 0.0 { mean } else { 1.0 };
         for k in 0..self.x.len() {
@@ -195,6 +206,7 @@ impl BlockQp {
         self.update_residuals();
     }
 
+    /// Recomputes all residuals at the iterate.
     fn update_residuals(&mut self) {
         let residuals = &mut self.residuals;
         residuals.primal.fill(0.0);
@@ -219,11 +231,13 @@ impl BlockQp {
         dot(&self.s, &self.z) / self.s.len().max(1) as f64
     }
 
+    /// Whether the primal residual is at most the tolerance, relative to the largest entry of A x or 1.
     fn is_balanced(&self, tolerance: f64) -> bool {
         max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
     }
 
-    /// The convergence test: residuals relative to their terms, and the gap Σ s·z relative to the objective.
+    /// The convergence test: every residual is small relative to its terms, and Σ s·z is at most `gap` times the
+    /// objective.
     fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
         let [_, squared, along] = self.residuals.size;
         let is_small = |list: &[f64], of: f64| max_norm(list) <= tolerance * f64::max(1.0, of);
@@ -236,7 +250,7 @@ impl BlockQp {
             && dot(&self.s, &self.z) <= gap * f64::max(1.0, objective.abs())
     }
 
-    /// Factors P + Z/S block by block, and with it the normal equations.
+    /// Factors P + Z/S block by block, then the matrix of the normal equations.
     fn factor_system(&mut self) {
         for (k, block) in self.quadratic.blocks.iter().enumerate() {
             let (width, range) = (block.len(), self.quadratic.range(k));
@@ -246,7 +260,7 @@ impl BlockQp {
                 lower[i * width + i] += self.z[at] / self.s[at];
             }
             cholesky_in_place(lower, width);
-            // Row by row of the group: L⁻¹ times that row of the columns.
+            // Transform each row of the group's columns by L⁻¹.
             let rows = self.columns.group(k).rows.len();
             let values = self.columns.group(k).values;
             let whitened = self.whitened.values_mut(k);
@@ -264,7 +278,7 @@ impl BlockQp {
         (self.factor).factor(&self.whitened, &self.ones, REGULARIZATION);
     }
 
-    /// Replaces a list by W·list, W = (P + Z/S)⁻¹.
+    /// Replaces a list by W·list, where W = (P + Z/S)⁻¹.
     fn apply_weight(&self, list: &mut [f64]) {
         for (k, block) in self.quadratic.blocks.iter().enumerate() {
             let lower = &self.lower[self.quadratic.range(k)];
@@ -274,10 +288,11 @@ impl BlockQp {
         }
     }
 
-    /// Newton's direction along which each product s·z changes by `target`, and a share of the residuals vanishes.
+    /// The Newton direction along which each product s·z changes by `target` and the given share of the residuals
+    /// vanishes.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
-        // (P + Z/S) dx = Aᵀdy + side.
+        // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.
         let side: Vec<f64> = (0..n)
             .map(|k| {
                 let (s, z) = (self.s[k], self.z[k]);
@@ -285,6 +300,7 @@ impl BlockQp {
                     + (target[k] - residual_share * z * self.residuals.bound[k]) / s
             })
             .collect();
+        // Elimination of dx: the normal equations A·W·Aᵀ dy = residual − A·W·side.
         let mut weighted = side.clone();
         self.apply_weight(&mut weighted);
         let mut sum = vec![0.0; self.loads.len()];
@@ -320,23 +336,23 @@ impl BlockQp {
         shorten_step(1.0 / STEP_TO_BOUNDARY, s.chain(z))
     }
 
-    /// One iteration; returns the step length.
+    /// Performs one iteration and returns its step length.
     fn step(&mut self) -> f64 {
         self.factor_system();
         // Predictor (affine scaling).
         let products = self.s.iter().zip(&self.z);
         let mut target: Vec<f64> = products.map(|(s, z)| -s * z).collect();
         let predictor = self.direction(&target, 1.0);
-        // Centring: σ falls with the cube of what the predictor leaves.
+        // Centring: σ = (1 − predictor's step length)³.
         let short = 1.0 - self.max_step(&predictor).min(1.0);
         let sigma = short * short * short;
         let centre = sigma * self.mu();
-        // Corrector.
+        // Corrector: the predictor's second-order error ds·dz is subtracted from each product.
         for (k, target) in target.iter_mut().enumerate() {
             *target += centre - predictor.s[k] * predictor.z[k];
         }
         let along = self.direction(&target, 1.0 - sigma);
-        // Step length.
+        // Step length: one for all variables, a little short of the nearest bound.
         let step = f64::min(STEP_TO_BOUNDARY * self.max_step(&along), 1.0);
         let lists = [
             (&mut self.x, &along.x),

@@ -5,7 +5,7 @@
 //! 1. assembles its frontal matrix: the columns of A whose first unknown it eliminates, and the update matrices of its
 //!    children from the stack (extend-add);
 //! 2. factors its own columns;
-//! 3. pushes what is left of the rows below, its own update matrix, onto the stack.
+//! 3. pushes its own update matrix, the rest of the frontal matrix in the rows below, onto the stack.
 //!
 //! A·W·Aᵀ itself is never assembled as a whole.
 
@@ -13,11 +13,11 @@ use super::column_groups::ColumnGroups;
 use super::dense::{PackedRows, dot, factor_columns};
 use super::supernodes::{Supernode, Supernodes};
 
-/// A factor, and all that is needed to compute it again with other weights.
+/// A Cholesky factor with its symbolic analysis, so that it can be computed again with other weights.
 pub(super) struct Cholesky {
     supernodes: Supernodes,
-    /// Where the values of each supernode begin. They are stored column by column; each column has the supernode's own
-    /// rows and the rows below.
+    /// The index in `values` at which each supernode begins. Its values are stored column by column; each column has
+    /// the supernode's own rows, then the rows below.
     begin: Vec<usize>,
     values: Vec<f64>,
     /// For each supernode, the groups of columns of A whose first unknown it eliminates.
@@ -25,7 +25,7 @@ pub(super) struct Cholesky {
     workspace: Workspace,
 }
 
-/// Buffers that every factorization uses again.
+/// Buffers that are reused by every factorization.
 #[derive(Default)]
 struct Workspace {
     /// The local row of each position in the current front.
@@ -39,7 +39,7 @@ struct Workspace {
     packed: PackedRows,
 }
 
-/// Where row 0 of column c would be in a packed lower triangle of `rows` rows, were it stored.
+/// The index at which row 0 of column c would be in a packed lower triangle of `rows` rows. Row r is at this index + r.
 fn packed_begin(rows: usize, c: usize) -> usize {
     c * rows - c * (c + 1) / 2
 }
@@ -50,9 +50,10 @@ fn packed_size(rows: usize) -> usize {
 }
 
 impl Cholesky {
-    /// Symbolic analysis. Finds the order of elimination and permutes the rows of the columns into it; `None` if no order
-    /// is found.
+    /// Symbolic analysis: finds the order of elimination and permutes the rows of `columns` into this order. `None` if
+    /// no order is found.
     pub fn new(columns: &mut ColumnGroups) -> Option<Cholesky> {
+        // The order of elimination and the rows of each supernode.
         let supernodes = Supernodes::new(columns)?;
         columns.permute_rows(&supernodes.position);
         let mut begin = vec![0];
@@ -61,6 +62,7 @@ impl Cholesky {
             supernode_of[node.first..node.first + node.width].fill(k);
             begin.push(begin[k] + node.width * (node.width + node.rows.len()));
         }
+        // Each group of columns is assembled into the supernode that eliminates its first row.
         let mut assembled_groups = vec![Vec::new(); supernodes.list.len()];
         for k in 0..columns.group_count() {
             if let Some(first) = columns.group(k).rows.first() {
@@ -131,8 +133,8 @@ impl Cholesky {
             for (k, row) in rows.iter().enumerate() {
                 local[*row as usize] = (width + k) as u32;
             }
-            // The children's update matrices lie on top of the stack. This supernode's own one is assembled above them and
-            // moved into their place at the end.
+            // The children's update matrices are on top of the stack. The supernode's own update matrix is assembled
+            // above them, and moved to their place at the end.
             let first_child = on_stack.len() - node.children;
             let update_size = |p: &usize| packed_size(self.supernodes.list[*p].rows.len());
             let size: usize = on_stack[first_child..].iter().map(update_size).sum();
@@ -152,6 +154,7 @@ impl Cholesky {
                 front.assemble(group.rows, gram, local);
             }
             let mut at = base;
+            // Extend-add: add the update matrices of the children to the front.
             for child in on_stack.drain(first_child..) {
                 let rows = &self.supernodes.rows[self.supernodes.list[child].rows.clone()];
                 RowRun::find(rows, local, runs);
@@ -178,7 +181,7 @@ impl Cholesky {
         self.backward(x);
     }
 
-    /// L·x = right-hand side, children first.
+    /// Forward substitution L·x = right-hand side, children before parents.
     fn forward<const N: usize>(&self, x: &mut [[f64; N]]) {
         let mut sums: Vec<[f64; N]> = Vec::new();
         for (p, node) in self.supernodes.list.iter().enumerate() {
@@ -200,7 +203,7 @@ impl Cholesky {
                     }
                 }
             }
-            // Scatter what the supernode contributes to the rows below.
+            // Scatter the supernode's contribution to the rows below.
             for (row, sum) in rows.iter().zip(&sums[width..]) {
                 for n in 0..N {
                     x[*row as usize][n] -= sum[n];
@@ -209,14 +212,14 @@ impl Cholesky {
         }
     }
 
-    /// Lᵀ·x = right-hand side, parents first.
+    /// Backward substitution Lᵀ·x = right-hand side, parents before children.
     fn backward<const N: usize>(&self, x: &mut [[f64; N]]) {
         let mut lists: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
         for (p, node) in self.supernodes.list.iter().enumerate().rev() {
             let rows = &self.supernodes.rows[node.rows.clone()];
             let (width, height) = (node.width, node.width + rows.len());
             let values = &self.values[self.begin[p]..self.begin[p + 1]];
-            // Gather the unknowns of the supernode and those below it, which are known.
+            // Gather the unknowns of the supernode, and the unknowns of the rows below, which are known already.
             for (n, list) in lists.iter_mut().enumerate() {
                 list.clear();
                 list.extend(x[node.first..node.first + width].iter().map(|x| x[n]));
@@ -235,14 +238,16 @@ impl Cholesky {
 
 /// Rows of a child's update matrix that are consecutive in its parent's front too.
 struct RowRun {
+    /// The child's row at which the run begins.
     from: usize,
+    /// The child's row after the run.
     end: usize,
-    /// The local row of the first of them in the parent.
+    /// The local row in the parent's front at which the run begins.
     to: usize,
 }
 
 impl RowRun {
-    /// Splits the rows of a child into runs; `local` has the local row of each position in the parent.
+    /// Splits the rows of a child into runs; `local` maps each position to the local row in the parent's front.
     fn find(rows: &[u32], local: &[u32], runs: &mut Vec<RowRun>) {
         runs.clear();
         for (k, row) in rows.iter().enumerate() {
@@ -259,7 +264,7 @@ impl RowRun {
     }
 }
 
-/// The frontal matrix of one supernode, a lower triangle: its own columns, and the update matrix it passes on.
+/// The frontal matrix of one supernode, a lower triangle: its own columns, and the update matrix for its parent.
 struct Front<'a> {
     width: usize,
     height: usize,
@@ -268,7 +273,7 @@ struct Front<'a> {
 }
 
 impl Front<'_> {
-    /// Adds the Gram matrix of a group of columns with these rows.
+    /// Adds the Gram matrix of a group of columns whose entries are in the given rows.
     fn assemble(&mut self, rows: &[u32], gram: &[f64], local: &[u32]) {
         for (i, column) in rows.iter().enumerate() {
             let mut column = self.column(local[*column as usize] as usize);
@@ -279,7 +284,7 @@ impl Front<'_> {
         }
     }
 
-    /// Adds the update matrix of a child, a packed lower triangle of `rows` rows.
+    /// Extend-add: adds the update matrix of a child, a packed lower triangle of `rows` rows.
     fn extend_add(&mut self, rows: usize, update: &[f64], runs: &[RowRun]) {
         let mut end = 0;
         for (k, run) in runs.iter().enumerate() {
@@ -297,7 +302,7 @@ impl Front<'_> {
         }
     }
 
-    /// Column c of the front, from the diagonal on or earlier, indexed by its local rows.
+    /// Column c of the front, indexed by local rows. It contains at least the rows from the diagonal down.
     fn column(&mut self, c: usize) -> FrontColumn<'_> {
         match c.checked_sub(self.width) {
             None => FrontColumn {
@@ -316,14 +321,14 @@ impl Front<'_> {
     }
 }
 
-/// The rows of a column, from `first_row` on.
+/// The rows of a column of the front, starting at `first_row`.
 struct FrontColumn<'a> {
     list: &'a mut [f64],
     first_row: usize,
 }
 
 impl FrontColumn<'_> {
-    /// Adds a list to the rows from `row` on.
+    /// Adds a list to consecutive rows, starting at `row`.
     fn add(&mut self, row: usize, list: &[f64]) {
         let begin = row - self.first_row;
         for (v, w) in self.list[begin..begin + list.len()].iter_mut().zip(list) {

@@ -1,8 +1,9 @@
 //! [`ColumnGroups`]: the sparse columns of the linear program, grouped into small dense matrices.
 //!
-//! A column is one force. The forces of one contact follow each other and enter the balance of the same two bodies. They
-//! are stored as one dense matrix, a group, so that the row indices are looked up once for all columns of the group. Most
-//! groups have 3 rows (a body and the ground) or 6 (two bodies); their loops have a width known at compile time.
+//! A column is one force. The columns of one contact are consecutive and have entries in the balance of the same two
+//! bodies. They are stored as one dense matrix, a group, so that the row indices are looked up once for all columns of
+//! the group. Most groups have 3 rows (a body and the ground) or 6 (two bodies); loops over these have a width known at
+//! compile time.
 
 use std::ops::Range;
 
@@ -17,7 +18,7 @@ pub(super) struct ColumnGroups {
     values: Vec<f64>,
 }
 
-/// Which part of the lists belongs to one group.
+/// The ranges of the common lists that belong to one group.
 #[derive(Clone, Debug)]
 struct GroupRange {
     columns: Range<usize>,
@@ -39,7 +40,8 @@ pub(super) struct ColumnGroup<'a> {
 impl ColumnGroups {
     /// Builds the columns from (column, row, value) entries, where each body owns three consecutive rows.
     ///
-    /// A column joins the group before it if one of the two touches no body that the other does not touch.
+    /// A column joins the previous group if its bodies are all among the group's bodies, or the group's all among its
+    /// own.
     pub fn new(
         unknowns: usize,
         columns: usize,
@@ -49,6 +51,7 @@ impl ColumnGroups {
         let mut groups: Vec<Range<usize>> = Vec::new();
         let (mut bodies, mut own): (Vec<u32>, Vec<u32>) = Default::default();
         for k in 0..columns {
+            // The bodies that the column acts on.
             own.clear();
             own.extend(sparse.entries(k).map(|(row, _)| row / 3));
             let is_subset = |a: &[u32], b: &[u32]| a.iter().all(|body| b.contains(body));
@@ -64,7 +67,7 @@ impl ColumnGroups {
         sparse.grouped(unknowns, &groups)
     }
 
-    /// Builds the columns from (column, row, value) entries with given groups.
+    /// Builds the columns from (column, row, value) entries; the ranges of the groups are given.
     pub fn with_groups(
         unknowns: usize,
         groups: &[Range<usize>],
@@ -89,6 +92,7 @@ impl ColumnGroups {
         self.groups.len()
     }
 
+    /// Group k.
     pub fn group(&self, k: usize) -> ColumnGroup<'_> {
         let range = &self.groups[k];
         ColumnGroup {
@@ -258,6 +262,7 @@ impl SparseColumns {
         for k in 0..columns {
             start[k + 1] += start[k];
         }
+        // Counting sort: place the entries of each column behind each other.
         let mut next = start.clone();
         let mut list = vec![(0, 0.0); start[columns]];
         for (column, row, value) in entries {
@@ -276,7 +281,7 @@ impl SparseColumns {
             .copied()
     }
 
-    /// Gathers columns into groups. A group has all rows that its columns touch; repeated entries are added.
+    /// Gathers columns into groups. A group has all rows in which its columns have entries; repeated entries are added.
     fn grouped(&self, unknowns: usize, groups: &[Range<usize>]) -> ColumnGroups {
         let mut grouped = ColumnGroups {
             unknowns,
@@ -286,6 +291,7 @@ impl SparseColumns {
         };
         let mut rows: Vec<u32> = Vec::new();
         for columns in groups {
+            // The rows of the group: all rows of its columns, sorted, each once.
             rows.clear();
             let entries = columns.clone().flat_map(|k| self.entries(k));
             rows.extend(entries.map(|(row, _)| row));

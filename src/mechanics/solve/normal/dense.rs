@@ -4,17 +4,18 @@
 //! in groups of four, so that a product of four by four numbers is sixteen independent sums, which the compiler keeps in
 //! vector registers.
 
-/// A pivot below this fraction of the diagonal entry before elimination consists of rounding. Its column is set to zero, which
-/// leaves the unknown at 0: nothing holds the body in that direction.
+/// A pivot up to this fraction of the diagonal entry before elimination is rounding. Its column is set to zero, so that
+/// the unknown becomes 0: nothing holds the body in that direction.
 ///
-/// Relative, some hundred times the rounding of a sum of f64. Ten times larger, weak but real supports would be dropped; ten
-/// times smaller, the rounding of a sum of many terms would count as a support and make the unknown huge.
+/// It is some hundred times the relative rounding of an f64. Ten times larger, weak but real supports would be dropped;
+/// ten times smaller, the rounding of a sum of many terms would count as a support and make the unknown very large.
 const LOST_PIVOT: f64 = 1e-13;
 
-/// Columns that are factored one by one before the columns to their right are updated together.
+/// The number of columns that are factored one by one before all columns to their right are updated together.
 const BLOCK_COLUMNS: usize = 16;
 
-/// Rows of some columns, in groups of four: entry k of group g is at g·columns + k.
+/// Some rows of a matrix, packed in groups of four: entry k of group g, at g·columns + k, holds column k of its four
+/// rows.
 #[derive(Default)]
 pub(super) struct PackedRows {
     entries: Vec<[f64; 4]>,
@@ -23,7 +24,7 @@ pub(super) struct PackedRows {
 }
 
 impl PackedRows {
-    /// Packs the rows from `from` on of columns that have `height` rows each.
+    /// Packs the rows from `from` to the end of columns that have `height` rows each.
     pub fn pack(&mut self, columns: &[f64], height: usize, from: usize) {
         self.columns = columns.len() / height;
         self.rows = height - from;
@@ -54,7 +55,7 @@ impl PackedRows {
             for (h, right) in groups().skip(g) {
                 let r = 4 * h;
                 let sums = products(left, right);
-                // Off the diagonal and away from the last rows all four entries are in the triangle.
+                // All four entries are in the triangle, except on the diagonal and in the last rows.
                 let whole = h > g && r + 4 <= self.rows;
                 for (i, sums) in sums.iter().enumerate().take(wide) {
                     let at = begin(c + i) + r;
@@ -100,12 +101,13 @@ pub(super) fn factor_columns(
     width: usize,
     packed: &mut PackedRows,
 ) {
+    // The diagonal before elimination, with which the pivots are compared.
     let diagonal: Vec<f64> = (0..width).map(|k| values[k * height + k]).collect();
     let mut begin = 0;
     while begin < width {
         let end = (begin + BLOCK_COLUMNS).min(width);
         for k in begin..end {
-            // Columns of this block that were factored before; earlier blocks have updated this column already.
+            // Subtract the earlier columns of this block. The columns of earlier blocks were subtracted before.
             let (left, right) = values.split_at_mut(k * height);
             let column = &mut right[k..height];
             for source in left.chunks_exact(height).skip(begin) {
@@ -114,6 +116,7 @@ pub(super) fn factor_columns(
                     *v -= by * l;
                 }
             }
+            // Scale the column by the pivot, or drop it if the pivot is lost to rounding.
             let pivot = column[0];
             if pivot > LOST_PIVOT * diagonal[k] {
                 let scale = 1.0 / pivot.sqrt();
@@ -123,6 +126,7 @@ pub(super) fn factor_columns(
                 column.fill(0.0);
             }
         }
+        // Update all columns to the right of the block at once.
         if end < width {
             let (done, rest) = values.split_at_mut(end * height);
             packed.pack(&done[begin * height..], height, end);

@@ -1,11 +1,13 @@
-//! The order of elimination of a sparse symmetric matrix, its elimination tree and the column counts of its factor.
+//! Finds the order of elimination of a sparse symmetric matrix, its elimination tree and the column counts of its
+//! factor.
 //!
 //! Steps: approximate minimum degree order (crate `amd`), elimination tree, postorder of the tree, column counts.
 //! Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapters 4 and 7.
 
 use super::column_groups::ColumnGroups;
 
-/// The pattern of A·Aᵀ: for every unknown, the unknowns that share a column with it, itself included, increasing.
+/// The sparsity pattern of A·Aᵀ: for every unknown, the unknowns that share a column with it, itself included, in
+/// ascending order.
 pub(super) struct Graph {
     starts: Vec<usize>,
     list: Vec<u32>,
@@ -23,6 +25,7 @@ impl Graph {
         for k in 0..n {
             begin[k + 1] += begin[k];
         }
+        // Counting sort: list the groups that have an entry in each row.
         let mut next = begin.clone();
         let mut groups_of = vec![0; begin[n]];
         for (k, rows) in groups().enumerate() {
@@ -37,7 +40,8 @@ impl Graph {
             list: Vec::new(),
         };
         graph.starts.push(0);
-        // The union of the rows of these groups; `seen` marks what the current unknown has already.
+        // The neighbours of an unknown: the union of the rows of its groups. `seen` marks those that are already in the
+        // list.
         let mut seen = vec![usize::MAX; n];
         for unknown in 0..n {
             let first = graph.list.len();
@@ -61,7 +65,7 @@ impl Graph {
         self.starts.len() - 1
     }
 
-    /// The same in the integers of `amd`; `None` if there are too many entries for them.
+    /// The pattern as the 32-bit integers that `amd` expects; `None` if there are too many entries for them.
     fn as_i32(&self) -> Option<(Vec<i32>, Vec<i32>)> {
         let starts = self.starts.iter().map(|k| i32::try_from(*k).ok());
         let list = self.list.iter().map(|k| i32::try_from(*k).ok());
@@ -69,7 +73,7 @@ impl Graph {
     }
 }
 
-/// The matrix in its order of elimination, with the elimination tree.
+/// The pattern of the matrix in the order of elimination, with the elimination tree.
 pub(super) struct OrderedGraph<'a> {
     graph: &'a Graph,
     /// The unknown at each position.
@@ -82,10 +86,12 @@ pub(super) struct OrderedGraph<'a> {
 }
 
 impl<'a> OrderedGraph<'a> {
-    /// Finds an order with little fill-in and sorts it by the elimination tree; `None` if `amd` finds none.
+    /// Finds an order of elimination with little fill-in, and sorts it into a postorder of the elimination tree. `None`
+    /// if `amd` finds no order.
     pub fn new(graph: &'a Graph) -> Option<OrderedGraph<'a>> {
         let count = i32::try_from(graph.count()).ok()?;
         let (starts, list) = graph.as_i32()?;
+        // Approximate minimum degree order (Amestoy, Davis and Duff 1996).
         let (order, _, _) = amd::order(count, &starts, &list, &amd::Control::default()).ok()?;
         let order: Vec<usize> = order.iter().map(|k| *k as usize).collect();
         let by_degree = OrderedGraph {
@@ -116,14 +122,17 @@ impl<'a> OrderedGraph<'a> {
         others.map(|other| self.position[*other as usize])
     }
 
-    /// The elimination tree: the parent of a column is its first row below the diagonal. `ancestor` is a shortcut to
-    /// the root of the subtree so far, compressed on the way up.
+    /// The elimination tree: the parent of a column is the first row below the diagonal in which the factor has an
+    /// entry.
+    ///
+    /// `ancestor` leads from a column towards the root of its present subtree; paths are compressed on the way (Liu
+    /// 1986).
     fn elimination_tree(&self) -> Vec<Option<usize>> {
         let n = self.order.len();
         let (mut parent, mut ancestor) = (vec![None; n], vec![None; n]);
         for k in 0..n {
             for mut i in self.row(k).filter(|i| *i < k) {
-                // Up to the root of the subtree, which becomes a child of k.
+                // Climb to the root of the subtree that contains i; this root becomes a child of k.
                 while i < k {
                     match ancestor[i].replace(k) {
                         Some(up) => i = up,
@@ -140,7 +149,8 @@ impl<'a> OrderedGraph<'a> {
 
     /// The number of entries in each column of the factor, the diagonal included.
     ///
-    /// Row k of the factor is a subtree of the elimination tree: the paths from the entries of row k up to k.
+    /// The pattern of row k of the factor is a subtree of the elimination tree: the paths from the entries of row k to
+    /// k.
     pub fn column_counts(&self) -> Vec<usize> {
         let n = self.order.len();
         let (mut counts, mut seen) = (vec![1; n], vec![usize::MAX; n]);

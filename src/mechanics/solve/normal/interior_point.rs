@@ -1,4 +1,4 @@
-//! The primal-dual interior-point method for linear programs, on the homogeneous self-dual form.
+//! A primal-dual interior-point method for linear programs, on the homogeneous self-dual form.
 //!
 //! Unknowns are amounts f ≥ 0, velocities y, slacks z ≥ 0 and the pair τ, κ ≥ 0:
 //!
@@ -6,13 +6,14 @@
 //! A f = loads·τ,   Aᵀy + z = cost·τ,   loadsᵀy − costᵀf = κ.
 //! ```
 //!
-//! At the end either τ > 0, and f/τ, y/τ are optima, or κ > 0, and y or f is a certificate that there is no optimum. With
-//! the quadratic term, max loadsᵀy − ½|y|², there always is one: τ stays 1, and the first equation has y on its left too.
+//! At the end, either τ > 0, and f/τ and y/τ are optima; or κ > 0, and y or f is a certificate that there is no
+//! optimum. The quadratic program max loadsᵀy − ½|y|² always has an optimum: τ stays 1, and y is added to the left of
+//! the first equation.
 //!
 //! Steps of each iteration: residuals, convergence test, then one Newton step ([`super::newton`]: predictor, centring,
-//! corrector, step length). Two steps are not in textbooks: [`InteriorPoint::restore_balance`] and
+//! corrector, step length). Two steps at the end are not in textbooks: [`InteriorPoint::restore_balance`] and
 //! [`InteriorPoint::drop_non_basic`]. References: Xu, Hung and Ye 1996; Andersen and Andersen 2000 (homogeneous form);
-//! Mehrotra 1992 (predictor and corrector); Gondzio 1996 (further correctors).
+//! Mehrotra 1992 (predictor and corrector); Gondzio 1996 (additional correctors).
 
 use std::time::Instant;
 
@@ -26,7 +27,7 @@ use crate::solve::settings::{CrossoverTolerance, StoppingCriteria};
 
 /// The optimum, a certificate, or the last iterate.
 pub(super) struct Solution {
-    /// `None` if the method gave up.
+    /// The status; `None` if the method ended without one.
     pub termination: Option<Termination>,
     /// f, one for each column.
     pub amounts: Vec<f64>,
@@ -40,15 +41,20 @@ pub(super) struct Solution {
 /// The largest number of calls to [`InteriorPoint::restore_balance`]. Each costs as much as an iteration.
 const MAX_RESTORATIONS: usize = 3;
 
-/// A variable this many times larger than its slack is taken to be basic. At 10 the method's own centring, whose products are all
-/// near μ, would make variables look basic that are not; at 1000 basic ones would be dropped.
+/// A column is taken to be basic if its amount exceeds its slack by this factor.
+///
+/// At 10, centring, which keeps all products near μ, would make non-basic columns look basic; at 1000, basic columns
+/// would be dropped.
 const BASIC_RATIO: f64 = 100.0;
 
-/// Below this τ/κ allow [`EXTRA_ITERATIONS`] more iterations: an infeasibility certificate is that close.
+/// If τ/κ is below this, [`EXTRA_ITERATIONS`] more iterations are allowed: a certificate of infeasibility is then
+/// close.
 const CERTIFICATE_RATIO: f64 = 1e-4;
+
+/// The number of iterations beyond the limit in which a certificate may still be reached.
 const EXTRA_ITERATIONS: usize = 3;
 
-/// Solves a linear program with the factor's pattern, which belongs to its columns.
+/// Solves a linear program. `factor` must have been analysed for the columns of this program.
 pub(super) fn solve(
     lp: &LinearProgram,
     factor: &mut Cholesky,
@@ -65,6 +71,7 @@ pub(super) fn solve(
         if let Some(termination) = optimality.termination(lp, final_tolerance) {
             break Some(termination);
         }
+        // Crossover: stop early if the basic columns will not become distinct.
         if let Some(crossover) = criteria.crossover {
             let early = crossover.early_factor * criteria.tolerance;
             if run.is_never_complementary(&optimality, crossover, final_tolerance, &mut trend)
@@ -74,6 +81,7 @@ pub(super) fn solve(
                 break Some(Termination::Optimal);
             }
         }
+        // If only the balance is missing, remove its residual instead of taking another step.
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
         if restorations < MAX_RESTORATIONS && optimality.lacks_only_balance(lp, final_tolerance) {
             run.restore_balance();
@@ -86,11 +94,12 @@ pub(super) fn solve(
         };
         let is_over = iterations >= max_iterations || is_late || !optimality.mu.is_finite();
         if is_over || !run.step(&optimality) {
-            // The crossover tolerance is out of reach: the plain one may be met.
+            // The finer tolerance of the crossover was not reached; the normal tolerance may be met.
             break optimality.termination(lp, criteria.tolerance);
         }
         iterations += 1;
     };
+    // Scale the iterate: an optimum to τ = 1, a certificate to a gain of 1.
     let at = run.at;
     let scale = match termination {
         Some(Termination::PrimalInfeasible) => 1.0 / dot(lp.loads, &at.y),
@@ -131,12 +140,13 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
+    /// One Newton step; false if it is too short to make progress.
     fn step(&mut self, optimality: &Optimality) -> bool {
         let (lp, residuals) = (self.lp, &self.residuals);
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
     }
 
-    /// Whether the slack of the basic columns will still be too large at the final tolerance, as far as its trend shows.
+    /// Whether, according to its trend, the slack of the basic columns will still be too large at the final tolerance.
     fn is_never_complementary(
         &self,
         optimality: &Optimality,
@@ -150,12 +160,13 @@ impl<'a> InteriorPoint<'a> {
             .is_some_and(|slack| slack > crossover.max_slack)
     }
 
-    /// Changes the amounts until they balance the loads, by the least Σ (df/f)².
+    /// Removes the primal residual by the least relative change of the amounts, min Σ (df/f)².
     ///
-    /// A Newton step finds amounts as f/z times differences of velocities. Near the limit of standing these weights differ so
-    /// much that 10⁻⁶ of the loads remain unbalanced, step after step. The amounts themselves differ less, so weights
-    /// of f² restore the balance. Needed only at the end, where the residual consists of rounding.
+    /// A Newton step weights the columns by f/z. Near the limit of standing these weights differ so much that a
+    /// residual of 10⁻⁶ of the loads remains after every step. The amounts f differ less, so weights of f² remove the
+    /// residual. This is needed only at the end, when the residual consists of rounding.
     fn restore_balance(&mut self) {
+        // Solve A·F²·Aᵀ·multipliers = residual; the change is f² Aᵀ·multipliers.
         let weights: Vec<f64> = self.at.f.iter().map(|f| f * f).collect();
         (self.factor).factor(self.lp.columns, &weights, REGULARIZATION);
         let mut side: Vec<[f64; 1]> = self.residuals.primal.iter().map(|v| [*v]).collect();
@@ -163,7 +174,7 @@ impl<'a> InteriorPoint<'a> {
         let multipliers: Vec<f64> = side.iter().map(|v| v[0]).collect();
         let mut changes = vec![0.0; weights.len()];
         (self.lp.columns).transpose_product(&multipliers, &mut changes);
-        // Step length: no amount may fall to 0.
+        // Step length: all amounts must stay positive.
         let decrease = |(f, change): (&f64, &f64)| -f * change;
         let most = self.at.f.iter().zip(&changes).map(decrease);
         let step = f64::min(
@@ -175,8 +186,9 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
-    /// Sets the amounts to 0 that cost something and are not clearly basic. Keeps them if the others are not an
-    /// optimum to the tolerance.
+    /// Sets the amounts of columns that have a cost and are not clearly basic to 0.
+    ///
+    /// The former amounts are restored if the remaining ones are not an optimum to the given tolerance.
     fn drop_non_basic(&mut self, tolerance: f64) {
         let former = self.at.f.clone();
         let slack = self.at.z.iter().zip(self.lp.cost);

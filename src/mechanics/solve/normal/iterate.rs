@@ -1,18 +1,18 @@
-//! [`LinearProgram`] and [`Iterate`]: the problem of the interior-point method, and a point on its way.
+//! [`LinearProgram`] and [`Iterate`]: the problem that the interior-point method solves, and its current point.
 
 use super::cholesky::Cholesky;
 use super::column_groups::ColumnGroups;
 
-/// Added to the diagonal of the normal equations, so that an unknown that nothing holds has a pivot.
+/// A number added to the diagonal of the normal equations, so that the velocity of an unsupported body has a pivot too.
 ///
-/// In the units of the entries, which are near 1. Ten times more would be felt in the digits of the step near the end, when
-/// weights spread over many powers of ten; a tenth would be lost in the rounding of a diagonal entry of a thousand.
+/// The entries of the columns are near 1. Ten times this value would reduce the accuracy of the last steps, whose
+/// weights differ by many powers of ten; a tenth would vanish in the rounding of a diagonal entry of a thousand.
 pub(super) const REGULARIZATION: f64 = 1e-12;
 
-/// The fraction of the way to the nearest bound that a step goes, so that all variables stay positive.
+/// The fraction of the distance to the nearest bound that a step covers, so that all variables stay positive.
 ///
-/// Closer to 1, variables stick to their bounds and the next steps are short; at 0.9 each iteration gains one digit
-/// at most.
+/// Closer to 1, variables come too close to their bounds and the next steps are short; at 0.9, each iteration gains at
+/// most one digit.
 pub(super) const STEP_TO_BOUNDARY: f64 = 0.99;
 
 /// min costᵀf  s.t.  A f = loads, f ≥ 0, and its dual max loadsᵀy − ½ velocity_weight |y|²  s.t.  Aᵀy + z = cost, z ≥ 0.
@@ -21,9 +21,9 @@ pub(super) struct LinearProgram<'a> {
     pub columns: &'a ColumnGroups,
     /// The cost of each column.
     pub cost: &'a [f64],
-    /// In the order of elimination, like all velocities here.
+    /// The loads, in the order of elimination, as are all velocities in this module.
     pub loads: &'a [f64],
-    /// 0 for a linear program; 1 where the dual has the term −½|y|².
+    /// 0 for a linear program; 1 if the dual has the term −½|y|².
     pub velocity_weight: f64,
 }
 
@@ -47,8 +47,8 @@ impl Iterate {
         }
     }
 
-    /// Mehrotra's starting point: the least-squares solutions of A f = loads and Aᵀy + z = cost, with f and z shifted until
-    /// they are positive. Factors A·Aᵀ.
+    /// Mehrotra's starting point: the least-squares solutions of A f = loads and Aᵀy + z = cost, with f and z shifted
+    /// until they are positive. Replaces the values of `factor` by the factor of A·Aᵀ.
     pub fn starting_point(lp: &LinearProgram, factor: &mut Cholesky) -> Iterate {
         let columns = lp.cost.len();
         factor.factor(
@@ -56,7 +56,7 @@ impl Iterate {
             &vec![1.0; columns],
             REGULARIZATION + lp.velocity_weight,
         );
-        // One pass for both: A·Aᵀ·multipliers = loads gives f, A·Aᵀ·y = A·cost gives y and z.
+        // Solve for two right-hand sides at once: A·Aᵀ·multipliers = loads gives f, A·Aᵀ·y = A·cost gives y and z.
         let mut weighted_cost = vec![0.0; lp.loads.len()];
         lp.columns.add_product(lp.cost, &mut weighted_cost);
         let sides = lp.loads.iter().zip(&weighted_cost);
@@ -67,6 +67,7 @@ impl Iterate {
             kappa: 1.0 - lp.velocity_weight,
             ..Iterate::zero(columns, lp.loads.len())
         };
+        // f = Aᵀ·multipliers and z = cost − Aᵀy.
         let multipliers: Vec<f64> = both.iter().map(|v| v[0]).collect();
         lp.columns.transpose_product(&multipliers, &mut at.f);
         at.y = both.iter().map(|v| v[1]).collect();
@@ -74,11 +75,11 @@ impl Iterate {
         for (z, c) in at.z.iter_mut().zip(lp.cost) {
             *z = c - *z;
         }
-        // Shift.
+        // Shift f and z by a constant each.
         for list in [&mut at.f, &mut at.z] {
             let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;
-            // Well inside: at least 1, and at least a tenth of the mean.
+            // The smallest variable becomes at least 1, and at least a tenth of the mean.
             let inside = f64::max(1.0, 0.1 * mean);
             let shift = if least < inside {
                 inside - least.min(0.0)
@@ -90,7 +91,7 @@ impl Iterate {
         at
     }
 
-    /// The sum of the slacks of the basic columns, whose amount is larger than their slack.
+    /// The sum of the slacks of the basic columns, which are those whose amount exceeds their slack.
     pub fn basic_slack(&self) -> f64 {
         let both = self.f.iter().zip(&self.z);
         both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
@@ -110,7 +111,7 @@ impl Iterate {
         step
     }
 
-    /// Moves along a direction.
+    /// Moves the iterate along a direction by a step.
     pub fn advance(&mut self, direction: &Iterate, step: f64) {
         let lists = [
             (&mut self.f, &direction.f),
@@ -124,7 +125,7 @@ impl Iterate {
         }
         self.tau += step * direction.tau;
         self.kappa += step * direction.kappa;
-        // The homogeneous form fixes ratios only: rescale before numbers leave the range of f64.
+        // The homogeneous form determines only ratios: rescale before numbers leave the range of f64.
         let size = self.tau.max(self.kappa);
         if !(1e-3..1e3).contains(&size) {
             let lists = [&mut self.f, &mut self.z, &mut self.y];
@@ -135,7 +136,7 @@ impl Iterate {
     }
 }
 
-/// The longest step up to `step` along which no value becomes negative, from (value, change) pairs.
+/// The longest step, at most `step`, along which no value becomes negative; `pairs` are (value, change).
 pub(super) fn shorten_step<'a>(
     mut step: f64,
     pairs: impl Iterator<Item = (&'a f64, &'a f64)>,

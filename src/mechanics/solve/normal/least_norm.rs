@@ -1,22 +1,22 @@
 //! The amounts of least norm that balance the loads, of any sign: f = Aᵀ(A·Aᵀ)⁻¹·loads.
 //!
-//! One factor of A·Aᵀ, and iterative refinement of the multipliers y in A·Aᵀ·y = loads (Golub and Van Loan, Matrix Computations,
-//! section 3.5.3).
+//! A·Aᵀ is factored once, and the multipliers y of A·Aᵀ·y = loads are improved by iterative refinement (Golub and Van
+//! Loan, Matrix Computations, section 3.5.3).
 
 use super::cholesky::Cholesky;
 use super::column_groups::ColumnGroups;
 use super::dense::max_norm;
 
-/// Solves with the factor, the first and those that refine; each gains the digits that the factor has.
+/// The number of solves with the factor: the first one and two of refinement. Each gains the digits of the factor.
 const MAX_SOLVES: usize = 3;
 
-/// The amounts, and the multipliers y of the balance in the order of elimination.
+/// The amounts of least norm, and the multipliers y of the balance in the order of elimination.
 pub(super) struct LeastNorm {
     pub amounts: Vec<f64>,
     pub multipliers: Vec<f64>,
 }
 
-/// Returns the amounts of least norm; `None` if they leave more than the tolerance unbalanced.
+/// Finds the amounts of least norm; `None` if the largest entry of their residual exceeds `tolerance`.
 pub(super) fn solve(
     columns: &ColumnGroups,
     factor: &mut Cholesky,
@@ -28,11 +28,13 @@ pub(super) fn solve(
     let mut multipliers = vec![0.0; loads.len()];
     let mut residual = loads.to_vec();
     for _ in 0..MAX_SOLVES {
+        // Solve for the residual and add the correction to the multipliers.
         let mut change: Vec<[f64; 1]> = residual.iter().map(|v| [*v]).collect();
         factor.solve(&mut change);
         let changes = multipliers.iter_mut().zip(&change);
         changes.for_each(|(y, d)| *y += d[0]);
         columns.transpose_product(&multipliers, &mut amounts);
+        // Recompute the residual loads − A·amounts.
         residual.fill(0.0);
         columns.add_product(&amounts, &mut residual);
         let both = residual.iter_mut().zip(loads);

@@ -1,4 +1,4 @@
-//! A second solver, for programs of many blocks: interior-point methods on the normal equations.
+//! The second solver, for programs of many blocks: interior-point methods that solve the normal equations.
 //!
 //! A program's forces and velocities are optima of a pair of dual linear programs,
 //!
@@ -6,19 +6,20 @@
 //! min Σ cost·amount  s.t.  Σ amount·column = loads, amount ≥ 0   and   max loadsᵀy  s.t.  columnᵀy ≤ cost.
 //! ```
 //!
-//! Every step of an interior-point method solves A·W·Aᵀ·y = right-hand side, a matrix with three rows for each block that
-//! couples blocks which touch. For walls of a thousand blocks and more its supernodal factor takes less than half the time
-//! of clarabel's, which has a row for each force. Gondzio's correctors let it end near the limit of standing, where
-//! clarabel runs out of iterations. Measured times are in [`crate::doc::performance`].
+//! Every step of an interior-point method solves A·W·Aᵀ·y = right-hand side. The matrix has three rows for each block,
+//! and it couples blocks that touch. For walls of a thousand blocks or more, its supernodal factor takes less than half
+//! the time of clarabel's factor, which has a row for each force. With Gondzio's correctors the method also converges
+//! near the limit of standing, where clarabel runs out of iterations. Measured times are in
+//! [`crate::doc::performance`].
 //!
 //! | program | solved by |
 //! |---|---|
 //! | linear, in velocities or in forces | [`interior_point`] |
 //! | least ½\|velocities\|² | [`interior_point`], with 1 added to the diagonal |
 //! | least ½\|forces\|² of any sign | [`least_norm`]: one factor, no iteration |
-//! | least squares of forces above floors | [`block_qp`], each contact with a small weight matrix |
+//! | least squares of forces with lower bounds | [`block_qp`], each contact with a small weight matrix |
 //!
-//! Nothing here has to be trusted: the answer goes to the proof like that of clarabel.
+//! The results are checked by the proof, as those of clarabel are.
 
 mod block_matrix;
 mod block_qp;
@@ -45,19 +46,21 @@ use interior_point::Solution;
 use iterate::LinearProgram;
 use residuals::Termination;
 
-/// Programs of fewer blocks go to clarabel, where little time is at stake.
+/// Programs of fewer blocks go to clarabel, for which they take little time.
 ///
-/// From here on optima are also sharper. For a wall of 410 bricks 10⁻⁵ past its limit the least sticking is right to 10⁻⁶ of
-/// itself; clarabel's is off by half a hundredth, since velocities may violate by 10⁻⁸ a column that carries 10⁷ times as much.
+/// For more blocks, this solver is also more accurate. For a wall of 410 bricks, 10⁻⁵ past its limit, the least
+/// sticking has a relative error of 10⁻⁶. clarabel's has one of 0.5 %: its velocities may violate a column by 10⁻⁸, and
+/// a column may carry 10⁷ times the loads.
 const MIN_BLOCKS: usize = 60;
 
-/// A factor that takes fewer operations for each unknown is that of a chain, such as an arch.
+/// A structure is a chain, such as an arch, if its factor takes fewer operations than this for each unknown.
 ///
-/// A chain that ends without a status goes to clarabel. Chains are quick for either solver, and long ones lose digits in the
-/// normal equations: an arch of 10 000 stones keeps 10⁻⁶ of its loads unbalanced.
+/// If a chain ends here without a status, clarabel solves it. Chains take little time in either solver. Long chains
+/// lose digits in the normal equations: for an arch of 10 000 stones a residual of 10⁻⁶ of the loads remains.
 const CHAIN_OPERATIONS: f64 = 1e3;
 
-/// A column of more entries is refused: it would couple many blocks and fill the factor.
+/// Programs with a column of more entries than this are refused: such a column couples many blocks and fills the
+/// factor.
 const MAX_ENTRIES: usize = 12;
 
 /// Solves a program: returns an optimum, a certificate, or an answer without a status.
@@ -75,12 +78,13 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     solve_any_size(problem, criteria, CHAIN_OPERATIONS)
 }
 
-/// Whether a problem asks for the least squares of forces.
+/// Whether a problem is a least-squares problem in forces.
 pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
     problem.equalities > 0 && !problem.quadratic.is_empty()
 }
 
-/// As [`solve`], for any number of blocks. A factor of fewer operations for each unknown is taken for that of a chain.
+/// Like [`solve`], for any number of blocks. With fewer than `chain_operations` operations for each unknown, the
+/// structure is a chain.
 fn solve_any_size(
     problem: &QuadraticProgram,
     criteria: StoppingCriteria,
@@ -106,6 +110,7 @@ fn solve_any_size(
         loads: &factor.to_elimination_order(&loads),
         velocity_weight: f64::from(u8::from(form == LinearForm::ShortestVelocities)),
     };
+    // If the method ends without a status for a chain or for the shortest velocities, clarabel is tried.
     let solution = interior_point::solve(&lp, &mut factor, criteria);
     if (is_chain || form == LinearForm::ShortestVelocities) && solution.termination.is_none() {
         return None;
@@ -137,28 +142,29 @@ fn solve_least_norm(
             s: vec![0.0; loads.len()],
             iterations: 1,
         }),
-        // For a chain that loses too many digits clarabel finds no optimum either, after two hundred iterations.
+        // For a chain that loses too many digits, clarabel finds no optimum either, even after two hundred iterations.
         None => is_chain.then(|| Answer::without_status(problem)),
     }
 }
 
+/// Whether the structure is a chain, judged by the number of operations of its factorization.
 fn is_chain(factor: &Cholesky, columns: &ColumnGroups, chain_operations: f64) -> bool {
     factor.operations() < chain_operations * columns.unknowns() as f64
 }
 
-/// What a problem asks for, among what is solved here with unit weights.
+/// The kinds of problem that this module solves, apart from those of [`block_qp`].
 enum ProblemKind {
     Linear(LinearForm),
-    /// The least ½|amounts|² of any sign: one row = for each velocity.
+    /// The least ½|amounts|² without bounds: one equality for each velocity.
     LeastNorm,
 }
 
-/// Which of the dual pair a [`QuadraticProgram`] states.
+/// The form in which a [`QuadraticProgram`] states the linear program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum LinearForm {
-    /// Velocities are the unknowns: one row ≤ for each column.
+    /// The unknowns are velocities: one inequality for each column.
     Kinematic,
-    /// Amounts are the unknowns: one row = for each velocity, and amount ≥ 0 for each column.
+    /// The unknowns are amounts: one equality for each velocity, and amount ≥ 0 for each column.
     Forces,
     /// The kinematic form with the objective ½|velocities|² added.
     ShortestVelocities,
@@ -166,6 +172,7 @@ enum LinearForm {
 
 impl ProblemKind {
     fn new(problem: &QuadraticProgram) -> Option<ProblemKind> {
+        // Recognise the form by its quadratic objective and its rows.
         let mut squares = problem.quadratic.iter().enumerate();
         let all_squared = problem.quadratic.len() == problem.unknowns
             && squares.all(|(k, entry)| *entry == (k, k, 1.0));
@@ -182,7 +189,7 @@ impl ProblemKind {
         if problem.equalities == 0 {
             return Some(ProblemKind::Linear(LinearForm::Kinematic));
         }
-        // Below the balance only the rows −amount ≤ 0 are allowed, one for each column.
+        // After the balance, only the rows −amount ≤ 0 are allowed, one for each column.
         let signs = problem.bound.len() - problem.equalities;
         let is_sign = |(row, column, value): &(usize, usize, f64)| {
             *row - problem.equalities == *column && *value == -1.0
@@ -227,7 +234,7 @@ impl LinearForm {
         }
     }
 
-    /// Translates the solution of the pair into the unknowns, rows and signs of the problem.
+    /// Converts the solution of the dual pair to the unknowns, rows and signs of the problem.
     fn answer(
         self,
         problem: &QuadraticProgram,

@@ -1,6 +1,8 @@
-//! [`Newton`]: one iteration of the interior-point method. Predictor, corrector, and Gondzio's further correctors.
+//! [`Newton`]: one iteration of the interior-point method, with predictor, corrector and Gondzio's additional
+//! correctors.
 //!
-//! Newton's equations for a direction (df, dy, dz, dτ, dκ), with r the residuals and η the share of them to remove:
+//! Newton's equations for a direction (df, dy, dz, dτ, dκ), where r are the residuals and η is the share of them to
+//! remove:
 //!
 //! ```text
 //! A df + w dy − loads dτ = η r_primal        z df + f dz = target
@@ -8,29 +10,33 @@
 //! costᵀdf − loadsᵀdy + dκ = −η gap
 //! ```
 //!
-//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration use one
-//! factor. dτ follows from a second right-hand side, solved together with the predictor's: `tau_direction` is the change per dτ.
+//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration use
+//! the same factor. A second right-hand side, solved together with the predictor's, gives the change per dτ
+//! (`tau_direction`); the last equation then gives dτ.
 
 use super::cholesky::Cholesky;
 use super::dense::dot;
 use super::iterate::{Iterate, LinearProgram, REGULARIZATION, STEP_TO_BOUNDARY};
 use super::residuals::{Optimality, Residuals};
 
-/// The largest number of Gondzio correctors for a direction. Walls near their limit end after 82, 77, 69 and 82 iterations with 1,
-/// 2, 3 and 5 of them; without any they have not ended after 100.
+/// The largest number of Gondzio correctors for a direction.
+///
+/// Walls near their limit take 82, 77, 69 and 82 iterations with 1, 2, 3 and 5 correctors; without any they do not
+/// converge in 100 iterations.
 const MAX_CORRECTORS: usize = 3;
 
-/// A corrector aims at a step longer by this (Gondzio's δ). Longer aims miss the products by more, shorter ones are not worth
-/// a solve with the factor.
+/// A corrector aims at a step that is longer by this amount (Gondzio's δ).
+///
+/// With a larger value the products miss their targets by more; with a smaller one the gain is not worth another solve.
 const STEP_INCREASE: f64 = 0.3;
 
-/// A corrector is kept if the step becomes longer by this share of [`STEP_INCREASE`].
+/// A corrector is accepted if it makes the step longer by at least this share of [`STEP_INCREASE`].
 const MIN_SHARE_OF_INCREASE: f64 = 0.1;
 
-/// Products amount·slack within this factor of μ are well centred and need no correction (Gondzio's β).
+/// Products amount·slack between μ divided by this factor and μ times this factor need no correction (Gondzio's β).
 const CENTRALITY_BAND: f64 = 10.0;
 
-/// Steps shorter than this make no progress: the method gives up.
+/// If a step is shorter than this, the method makes no progress and stops.
 const MIN_STEP: f64 = 1e-6;
 
 /// Directions and buffers of an iteration.
@@ -46,7 +52,7 @@ pub(super) struct Newton {
     /// The change of each product amount·slack, to first order.
     target: Vec<f64>,
     next_target: Vec<f64>,
-    /// What dz has to make up for: η r_dual − target/f.
+    /// The right-hand side η r_dual − target/f after the elimination of dz.
     slack_side: Vec<f64>,
 }
 
@@ -82,8 +88,9 @@ impl Newton {
         residuals: &Residuals,
         optimality: &Optimality,
     ) -> bool {
-        // 0 if τ stays 1.
+        // 1 for a linear program; 0 if τ stays 1.
         let is_homogeneous = 1.0 - lp.velocity_weight;
+        // Weights of this iterate, and the factor of the normal equations.
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *weight = f / z;
         }
@@ -100,7 +107,7 @@ impl Newton {
             pivot: 0.0,
         };
 
-        // Predictor (affine scaling): all residuals and all products to 0.
+        // Predictor (affine scaling): the direction that aims at zero residuals and zero products.
         for (target, (f, z)) in self.target.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *target = -f * z;
         }
@@ -110,7 +117,7 @@ impl Newton {
         };
         self.predict(&mut system, at, sides);
 
-        // Centring: the further the predictor gets, the smaller σ, so that the products aim at σμ.
+        // Centring: the products aim at σμ, with σ = (1 − predictor's step length)³.
         let short = 1.0 - at.max_step(&self.direction).min(1.0);
         let sigma = short * short * short;
         let centre = sigma * optimality.mu;
@@ -135,8 +142,9 @@ impl Newton {
         step > MIN_STEP
     }
 
-    /// Gondzio's correctors: products that a longer step would push off centre are brought back. Improves `direction`, and
-    /// returns its longest step.
+    /// Gondzio's correctors: products that a longer step would move away from the centre are corrected.
+    ///
+    /// Improves `direction`, and returns the longest step along it.
     fn correct_centrality(
         &mut self,
         system: &System,
@@ -146,10 +154,11 @@ impl Newton {
     ) -> f64 {
         let mut max_step = at.max_step(&self.direction);
         for _ in 0..MAX_CORRECTORS {
-            // A full step is near enough.
+            // The step is close enough to a full step.
             if max_step > 1.0 - MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
             }
+            // Aim at a longer step: correct the products that would leave the band.
             let aim = f64::min(max_step + STEP_INCREASE, 1.0);
             let pair = (1.0 - system.lp.velocity_weight) * self.recentre(at, aim, centre);
             std::mem::swap(&mut self.target, &mut self.next_target);
@@ -158,6 +167,7 @@ impl Newton {
                 ..sides
             };
             self.solve_candidate(system, at, next);
+            // Accept the corrector only if it makes the step longer.
             let step = at.max_step(&self.candidate);
             if step < max_step + MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
@@ -168,8 +178,9 @@ impl Newton {
         max_step
     }
 
-    /// Writes into `next_target` the products that a corrector aims at: those that a step of this length would bring out of
-    /// the band around `centre` are projected onto it. Returns the correction for τκ.
+    /// Writes the products that a corrector aims at into `next_target`. Returns the correction for τκ.
+    ///
+    /// Products that a step of this length would move out of the band around `centre` are projected onto the band.
     fn recentre(&mut self, at: &Iterate, step: f64, centre: f64) -> f64 {
         let correction = |v: f64, dv: f64, w: f64, dw: f64| {
             let product = (v + step * dv) * (w + step * dw);
@@ -185,7 +196,7 @@ impl Newton {
         correction(at.tau, by.tau, at.kappa, by.kappa)
     }
 
-    /// The predictor and, with the same pass through the factor, `tau_direction` and the pivot of dτ.
+    /// Computes the predictor and, in the same solve, `tau_direction` and the pivot of dτ.
     fn predict(&mut self, system: &mut System, at: &Iterate, sides: Sides) {
         let lp = system.lp;
         let mut tau_side = lp.loads.to_vec();
@@ -198,7 +209,7 @@ impl Newton {
         let mut both: Vec<[f64; 2]> = tau_side.iter().zip(&side).map(|(a, b)| [*a, *b]).collect();
         system.factor.solve(&mut both);
 
-        // First right-hand side: the velocities, amounts and pivot that belong to dτ = 1.
+        // First right-hand side: velocities and amounts for dτ = 1, and the pivot of dτ.
         let part = &mut self.tau_direction;
         part.y.iter_mut().zip(&both).for_each(|(y, v)| *y = v[0]);
         lp.columns.transpose_product(&part.y, &mut part.f);
@@ -208,14 +219,14 @@ impl Newton {
         }
         system.pivot = dot(lp.loads, &part.y) - dot(lp.cost, &part.f) + at.kappa / at.tau;
 
-        // Second: the predictor.
+        // Second right-hand side: the predictor.
         let velocities = self.candidate.y.iter_mut().zip(&both);
         velocities.for_each(|(y, v)| *y = v[1]);
         self.complete_candidate(system, at, sides);
         std::mem::swap(&mut self.direction, &mut self.candidate);
     }
 
-    /// Computes a direction with the same factor, into `candidate`.
+    /// Computes a direction into `candidate`, with the factor of this iteration.
     fn solve_candidate(&mut self, system: &System, at: &Iterate, sides: Sides) {
         let side = self.velocity_side(system, at, sides);
         let mut side: Vec<[f64; 1]> = side.into_iter().map(|v| [v]).collect();
@@ -225,7 +236,8 @@ impl Newton {
         self.complete_candidate(system, at, sides);
     }
 
-    /// The right-hand side of the normal equations. Leaves in `slack_side` what [`Self::complete_candidate`] needs.
+    /// The right-hand side of the normal equations. Stores in `slack_side` the numbers that
+    /// [`Self::complete_candidate`] needs.
     fn velocity_side(&mut self, system: &System, at: &Iterate, sides: Sides) -> Vec<f64> {
         let (residuals, share) = (system.residuals, sides.residual_share);
         for (k, side) in self.slack_side.iter_mut().enumerate() {
@@ -254,7 +266,7 @@ impl Newton {
             + dot(lp.cost, &to.f)
             + sides.pair / at.tau;
         to.tau = (1.0 - lp.velocity_weight) * gap / system.pivot;
-        // dy, df and dz with the part that goes with dτ; dz from the linearized product.
+        // Add the part that is proportional to dτ to dy and df; dz follows from the linearised product.
         for (y, part) in to.y.iter_mut().zip(&tau_part.y) {
             *y += part * to.tau;
         }
@@ -266,12 +278,12 @@ impl Newton {
     }
 }
 
-/// What all directions of an iteration share.
+/// The data that all directions of an iteration share.
 struct System<'a> {
     lp: &'a LinearProgram<'a>,
     factor: &'a Cholesky,
     residuals: &'a Residuals,
     gap: f64,
-    /// The coefficient of dτ once all else is eliminated.
+    /// The coefficient of dτ after all other unknowns are eliminated.
     pivot: f64,
 }

@@ -1,12 +1,12 @@
-//! [`Residuals`] and [`Optimality`]: what the equations of the homogeneous form leave, and the convergence tests.
+//! [`Residuals`] and [`Optimality`]: the residuals of the homogeneous form, and the convergence tests.
 
 use super::dense::{dot, max_norm};
 use super::iterate::{Iterate, LinearProgram};
 
-/// How the interior-point method ended. The primal program is the one in forces.
+/// The status with which the interior-point method ended. The primal program is the one in forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Termination {
-    /// f/τ and y/τ are optima.
+    /// f/τ is an optimum of the program in forces, y/τ of the program in velocities.
     Optimal,
     /// No amounts balance the loads: y is a certificate, loadsᵀy > 0 and Aᵀy ≤ 0.
     PrimalInfeasible,
@@ -14,11 +14,11 @@ pub(super) enum Termination {
     Unbounded,
 }
 
-/// A certificate of infeasibility may violate its equations by this fraction of what it gains.
+/// A certificate of infeasibility may violate its equations by this fraction of its objective.
 ///
-/// Forces that live on the violation would have to be 10⁸ times the loads. Ten times larger, a wall near its limit, whose
-/// thrusts are many times its loads, could be called infeasible. A tenth asks for more digits than the normal equations
-/// keep there.
+/// Forces that used this violation would have to be 10⁸ times the loads. Ten times larger, a wall near its limit, whose
+/// thrusts are many times its loads, could be called infeasible. A tenth requires more digits than the normal equations
+/// have there.
 const CERTIFICATE_TOL: f64 = 1e-8;
 
 /// The residual vectors of the homogeneous form.
@@ -29,7 +29,7 @@ pub(super) struct Residuals {
     pub dual: Vec<f64>,
 }
 
-/// The sizes by which convergence is judged, at one iterate.
+/// The numbers that the convergence tests compare, at one iterate.
 pub(super) struct Optimality {
     /// κ + costᵀf − loadsᵀy, the residual of the last equation.
     pub gap: f64,
@@ -48,8 +48,9 @@ pub(super) struct Optimality {
 }
 
 impl Optimality {
-    /// Computes the residuals at an iterate, into `residuals`, and their sizes.
+    /// Computes the residuals at an iterate into `residuals`, and returns their sizes.
     pub fn evaluate(lp: &LinearProgram, at: &Iterate, residuals: &mut Residuals) -> Optimality {
+        // Primal residual: loads·τ − A f − velocity_weight·y.
         residuals.primal.fill(0.0);
         lp.columns.add_product(&at.f, &mut residuals.primal);
         let balanced = max_norm(&residuals.primal);
@@ -57,6 +58,7 @@ impl Optimality {
         for (rest, (load, y)) in residuals.primal.iter_mut().zip(loads) {
             *rest = load * at.tau - *rest - lp.velocity_weight * y;
         }
+        // Dual residual: cost·τ − Aᵀy − z.
         lp.columns.transpose_product(&at.y, &mut residuals.dual);
         let mut priced = 0.0f64;
         for ((rest, cost), z) in residuals.dual.iter_mut().zip(lp.cost).zip(&at.z) {
@@ -64,6 +66,7 @@ impl Optimality {
             priced = priced.max(sum.abs());
             *rest = cost * at.tau - sum;
         }
+        // Objectives and gap.
         let half_square = 0.5 * lp.velocity_weight * dot(&at.y, &at.y);
         let primal_objective = dot(lp.cost, &at.f) + half_square;
         let dual_objective = dot(lp.loads, &at.y) - half_square;
@@ -80,14 +83,14 @@ impl Optimality {
         }
     }
 
-    /// Whether the amounts balance the loads, relative to the largest load and amount.
+    /// Whether the amounts balance the loads to the tolerance, relative to the sum of the largest load and amount.
     pub fn is_primal_feasible(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let f = self.size[0];
         let scale = f64::max(1.0, max_norm(lp.loads) + f / self.tau);
         self.primal[0] < tolerance * self.tau * scale
     }
 
-    /// Whether velocities and slacks meet the costs, and the gap between the objectives is closed.
+    /// Whether Aᵀy + z equals the costs and the two objectives are equal, both to the tolerance.
     fn is_dual_optimal(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let tau = self.tau;
         let [_, z, y] = self.size;
@@ -103,7 +106,7 @@ impl Optimality {
         self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// Whether the balance is all that is missing.
+    /// Whether all conditions of an optimum hold except the balance of the loads.
     pub fn lacks_only_balance(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
@@ -114,7 +117,7 @@ impl Optimality {
             .map(|v| v.abs() / self.primal_objective.abs())
     }
 
-    /// The convergence test: an optimum, a certificate, or `None` to go on.
+    /// The convergence test: returns that the iterate is an optimum or a certificate, or `None` if neither.
     pub fn termination(&self, lp: &LinearProgram, tolerance: f64) -> Option<Termination> {
         let [f, z, y] = self.size;
         if self.is_optimal(lp, tolerance) {
@@ -123,6 +126,7 @@ impl Optimality {
         if self.tau >= self.kappa {
             return None;
         }
+        // κ exceeds τ: test the two certificates.
         let (primal, dual) = (self.primal_objective, self.dual_objective);
         if dual > 0.0 && self.dual[1] < CERTIFICATE_TOL * dual.min(y + z) {
             return Some(Termination::PrimalInfeasible);

@@ -1,25 +1,27 @@
-//! [`SlackTrend`]: predicts whether an optimum will be strictly complementary, before the method ends.
+//! [`SlackTrend`]: predicts, before the method ends, whether the optimum will be strictly complementary.
 //!
-//! If it is, the slack of the basic columns falls in proportion to the duality gap, in the end much quicker. If it is
-//! not, as in walls near their limit, the slack falls like the square root of the gap, and more iterations do not
-//! separate basic columns from others. The exponent is fitted to two points: slack ∝ gap^exponent.
+//! If so, the slack of the basic columns falls in proportion to the duality gap, and faster at the end. Otherwise, as
+//! in walls near their limit, it falls like the square root of the gap, and more iterations do not separate basic
+//! columns from the others. The exponent of slack ∝ gap^exponent is fitted to two points.
 
-/// The trend is measured from this gap on, relative to the cost. Earlier the basic columns are not yet known.
+/// The trend is measured once the gap, relative to the cost, is at most this. Before that, the basic columns are not
+/// known.
 const FIRST_GAP: f64 = 2e-6;
 
-/// The gap must have fallen by this factor before the exponent is computed: two points closer together give a random one.
+/// The gap must have fallen by this factor before the exponent is computed. Two points closer together would give a
+/// random exponent.
 const MIN_GAP_RATIO: f64 = 10.0;
 
-/// How the slack of the basic columns falls with the gap; both relative to the cost.
+/// The trend of the slack of the basic columns against the duality gap, both relative to the cost.
 #[derive(Default)]
 pub(super) struct SlackTrend {
-    /// The gap and the slack of the first iteration that counts.
+    /// The gap and the slack of the first iteration whose gap is at most [`FIRST_GAP`].
     first: Option<[f64; 2]>,
 }
 
 impl SlackTrend {
-    /// Records the gap and slack of an iteration. Returns the slack expected at `final_gap`, or `None` as long as the
-    /// trend is unknown.
+    /// Records the gap and slack of an iteration. Returns the slack expected at `final_gap`, or `None` if the trend is
+    /// not yet known.
     pub fn extrapolate(&mut self, [gap, slack]: [f64; 2], final_gap: f64) -> Option<f64> {
         if gap > FIRST_GAP {
             return None;

@@ -1,4 +1,4 @@
-//! [`Supernodes`]: the pattern of the factor, in supernodes.
+//! [`Supernodes`]: the sparsity pattern of the factor, divided into supernodes.
 //!
 //! Consecutive columns of the factor with the same rows below them form a supernode, which is stored as a dense matrix.
 //! A supernode is merged with its parent if that stores few extra zeros (relaxed supernodes, Ashcraft and Grimes 1989).
@@ -22,19 +22,20 @@ pub(super) struct Supernode {
     pub children: usize,
 }
 
-/// The pattern of a factor, without values.
+/// The sparsity pattern of a factor, without values.
 #[derive(Clone, Debug)]
 pub(super) struct Supernodes {
     /// The position of each unknown in the order of elimination.
     pub position: Vec<u32>,
     /// The supernodes in postorder: children before their parents, each subtree consecutive.
     pub list: Vec<Supernode>,
-    /// The rows of all supernodes, as positions, increasing within each.
+    /// The rows below all supernodes, as positions in the order of elimination, ascending within each supernode.
     pub rows: Vec<u32>,
 }
 
 impl Supernodes {
-    /// Analyses A·W·Aᵀ, whose pattern does not depend on the weights; `None` if no order of elimination is found.
+    /// Symbolic analysis of A·W·Aᵀ, whose pattern does not depend on the weights; `None` if no order of elimination is
+    /// found.
     pub fn new(columns: &ColumnGroups) -> Option<Supernodes> {
         let graph = Graph::new(columns);
         let ordered = OrderedGraph::new(&graph)?;
@@ -48,7 +49,8 @@ impl Supernodes {
     }
 }
 
-/// The rows of every supernode: those of the matrix, and those of its children's update matrices.
+/// Symbolic factorization: the rows of every supernode are the rows of the matrix and those of its children's update
+/// matrices.
 fn symbolic_factor(
     ordered: &OrderedGraph<'_>,
     ranges: &[ColumnRange],
@@ -63,6 +65,7 @@ fn symbolic_factor(
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); ranges.len()];
     let mut seen = vec![usize::MAX; n];
     for (g, range) in ranges.iter().enumerate() {
+        // Collect the rows below the supernode; `seen` avoids repeated rows.
         let begin = rows.len();
         let mut insert = |i: usize, rows: &mut Vec<u32>| {
             if i >= range.end() && seen[i] != g {
@@ -73,6 +76,7 @@ fn symbolic_factor(
         for k in range.first..range.end() {
             ordered.row(k).for_each(|i| insert(i, &mut rows));
         }
+        // Add the rows of the children's update matrices.
         let own_children = std::mem::take(&mut children[g]);
         for child in &own_children {
             for k in supernodes[*child].rows.clone() {
@@ -94,13 +98,13 @@ fn symbolic_factor(
     (supernodes, rows)
 }
 
-/// Columns that will make one supernode.
+/// A range of columns that will form one supernode.
 struct ColumnRange {
     first: usize,
     width: usize,
-    /// The number of rows below them.
+    /// The number of rows below the columns.
     rows: usize,
-    /// The number of zeros that are stored.
+    /// The number of zeros that are stored among the values.
     zeros: f64,
 }
 
@@ -111,8 +115,8 @@ impl ColumnRange {
 
     /// This supernode merged with its parent, which follows it; `None` if too many zeros would be stored.
     ///
-    /// The wider the merged supernode, the smaller the share of zeros that is worth it: the work grows with the width. The
-    /// scheme is that of CHOLMOD, which has the widths 4, 16 and 48 and the shares 0.8, 0.1 and 0.05.
+    /// A wider supernode may have a smaller share of zeros, because the work for each zero grows with the width.
+    /// CHOLMOD uses the same scheme with widths of 4, 16 and 48 and shares of 0.8, 0.1 and 0.05.
     fn merge(&self, parent: &ColumnRange) -> Option<ColumnRange> {
         let width = self.width + parent.width;
         let new = self.width * (parent.width + parent.rows).saturating_sub(self.rows);
@@ -137,6 +141,9 @@ impl ColumnRange {
 /// Finds the fundamental supernodes (chains of columns with equal rows), and merges them with their parents.
 fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnRange> {
     let n = parent.len();
+    // A column belongs to the supernode of the previous column if it is that column's parent in the tree, has one row
+    // less
+    // and has no other child.
     let mut children = vec![0; n];
     for p in parent.iter().flatten() {
         children[*p] += 1;

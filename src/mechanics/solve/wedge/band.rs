@@ -1,12 +1,13 @@
 //! [`Band`]: banded linear systems, solved by LU factorization with partial pivoting.
 //!
-//! The matrices are not symmetric if faces slide. [`order`] numbers blocks that touch near each other (Cuthill and McKee
-//! 1969), so that the bandwidth is that of a layer of the structure. Reference: Golub and Van Loan, Matrix Computations,
-//! section 4.3.
+//! The matrices are not symmetric if faces slide. [`order`] gives blocks that touch nearby positions (Cuthill and McKee
+//! 1969). The bandwidth is then about the number of rows of one layer of the structure. Reference: Golub and Van Loan,
+//! Matrix Computations, section 4.3.
 
 use crate::program::Program;
 
-/// A smaller pivot is replaced by this. The unknown is then not determined, and the balance shows whether that matters.
+/// The smallest pivot; a smaller one is replaced by it. The unknown is then arbitrary, and the test of the balance
+/// decides.
 ///
 /// The entries are near 1, and the springs to the ground add at least 1e-11 to the diagonal, so only rounding is replaced.
 const MIN_PIVOT: f64 = 1e-14;
@@ -26,12 +27,13 @@ impl Band {
         Band {
             size,
             bandwidth,
-            // Row exchanges fill in as many entries again on the right.
+            // Row exchanges can fill in up to `bandwidth` more entries on the right.
             rows: vec![0.0; size * (3 * bandwidth + 1)],
             pivot_rows: Vec::with_capacity(size),
         }
     }
 
+    /// The index of an entry in `rows`.
     fn at(&self, row: usize, column: usize) -> usize {
         row * (3 * self.bandwidth + 1) + column + self.bandwidth - row
     }
@@ -66,7 +68,7 @@ impl Band {
             if self.rows[diagonal].abs() < MIN_PIVOT {
                 self.rows[diagonal] = MIN_PIVOT;
             }
-            // Elimination; the factors are kept in place of the zeros.
+            // Elimination. The factors L are stored in place of the eliminated entries.
             for row in k + 1..=last {
                 let at = self.at(row, k);
                 if self.rows[at] == 0.0 {
@@ -86,7 +88,7 @@ impl Band {
     /// Solves with the LU factors for one right-hand side.
     pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
-        // L, with the row exchanges of the factorization.
+        // Forward substitution with L and the row exchanges.
         for k in 0..self.size {
             x.swap(k, self.pivot_rows[k]);
             let known = x[k];
@@ -97,7 +99,7 @@ impl Band {
                 }
             }
         }
-        // U.
+        // Backward substitution with U.
         for k in (0..self.size).rev() {
             let end = (k + 2 * self.bandwidth).min(self.size - 1);
             for column in k + 1..=end {
@@ -109,9 +111,10 @@ impl Band {
     }
 }
 
-/// A position for every block such that blocks that touch have positions near each other, and the largest distance
-/// between the positions of blocks that touch.
+/// Finds a position for every block, so that blocks that touch have nearby positions. Also returns the largest
+/// difference between the positions of two blocks that touch.
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
+    // The graph of blocks that touch.
     let mut neighbours = vec![Vec::new(); program.blocks];
     let pairs = || {
         let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
@@ -123,7 +126,8 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
     }
     let mut place = vec![usize::MAX; program.blocks];
     let mut next = 0;
-    // Breadth first from a peripheral block: the farthest one of a first pass. Blocks of few neighbours come first.
+    // Breadth-first search, in which blocks with few neighbours come first. It starts from a peripheral block, the last
+    // one that a first search reaches.
     let breadth_first = |from: usize, place: &[usize]| {
         let mut list = vec![from];
         let mut seen: Vec<bool> = place.iter().map(|p| *p != usize::MAX).collect();
@@ -146,6 +150,7 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
         if place[block] != usize::MAX {
             continue;
         }
+        // Number each connected part of the structure in turn.
         let farthest = breadth_first(block, &place)
             .last()
             .copied()

@@ -1,15 +1,17 @@
-//! Branch and bound over the patterns of pressing and sliding: a proof that no springs come to rest.
+//! Branch and bound over the patterns of pressing and sliding: it proves that no springs come to rest.
 //!
-//! A node decides of some points whether they press and of some faces how they slide. Its relaxation holds the others only by
-//! N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2). Together with the balance, the robots' limits and the fact that springs at rest hold no
-//! more energy than the loads gave them, these are linear in displacements and forces. Steps for each node:
+//! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
+//! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance,
+//! the robots' limits and that the loads do no negative work. All rows are linear in displacements and forces. Steps
+//! for each node:
 //!
 //! 1. solve the relaxation;
-//! 2. if it is infeasible, check the multipliers that show it (Farkas), and prune the node;
+//! 2. if it is infeasible, check the multipliers that prove it (Farkas), and prune the node;
 //! 3. if it has a solution, try to complete it to springs at rest;
-//! 4. else branch on the point or face that misses the law most.
+//! 4. otherwise branch on the point or face that violates the springs' law most.
 //!
-//! The pruned nodes cover all patterns. So their multipliers together are the certificate.
+//! The pruned nodes together cover all patterns, so their multipliers together are the certificate. Reference: Wolsey,
+//! Integer Programming, 1998, chapter 7 (branch and bound).
 
 use super::certificate::proves_infeasible;
 use super::node::{Node, RuledOut};
@@ -18,20 +20,20 @@ use super::spring::Springs;
 use crate::program::Program;
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Nodes explored before the question stays open.
+/// The largest number of explored nodes. After that, the search ends undecided.
 const MAX_NODES: usize = 1500;
 
-/// Rows of all relaxations together: large structures get fewer nodes.
+/// The largest total number of rows of all relaxations. It limits the time for large structures, which get fewer nodes.
 const MAX_ROWS: usize = 100_000;
 
 /// The result of the search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Search {
-    /// No springs come to rest. These nodes cover all patterns, and each was ruled out.
+    /// No springs come to rest: the listed nodes cover all patterns, and each was ruled out.
     NoRest(Vec<RuledOut>),
     /// Springs come to rest.
     Rests,
-    /// Too many nodes, or one that was neither ruled out nor led to rest.
+    /// Undecided: too many nodes, or a node that was neither ruled out nor led to a rest.
     Open,
 }
 
@@ -48,19 +50,22 @@ pub(super) fn search(program: &Program) -> Search {
         if explored > MAX_NODES || rows > MAX_ROWS {
             return Search::Open;
         }
+        // Step 1: solve the relaxation.
         let answer = solve(&relaxation, TOLERANCE, Conditioning::Full);
         let branch = match answer.status {
+            // Step 2: prune the node if the certificate is valid.
             Status::Infeasible if proves_infeasible(&relaxation, &answer.z, program) => {
                 ruled_out.push(node.described(&springs));
                 continue;
             }
+            // Steps 3 and 4: complete the solution, or find where to branch.
             Status::Solved => {
                 if leads_to_rest(program, &springs, &layout, &node, &answer.x) {
                     return Search::Rests;
                 }
                 layout.most_violated(&springs, &node, &answer.x)
             }
-            // Without an answer the node is branched on all the same: its children have more equalities.
+            // Without a valid status, branch as well: the children have more equalities and may be easier to decide.
             _ => node.first_open(&springs),
         };
         let Some(branch) = branch else {
@@ -71,7 +76,7 @@ pub(super) fn search(program: &Program) -> Search {
     Search::NoRest(ruled_out)
 }
 
-/// Whether springs come to rest in the pattern that a solution of a relaxation has, with or without the node's decisions.
+/// Whether springs come to rest in the pattern of a relaxation's solution, with or without the decisions of the node.
 fn leads_to_rest(
     program: &Program,
     springs: &Springs,
@@ -80,7 +85,8 @@ fn leads_to_rest(
     x: &[f64],
 ) -> bool {
     let u = &x[..program.loads.len()];
-    // Robots' springs yield around given forces. Here they are to give what the solution has, at its displacements.
+    // The springs of robots yield around given forces. Choose these so that they exert the solution's forces at its
+    // displacements.
     let components = layout.grips(x).iter().zip(&springs.grips);
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
     let robots = Springs::around(program, &given, 1.0);

@@ -1,20 +1,25 @@
 //! Checks certificates of infeasibility (Farkas): multipliers z with Aᵀz = 0, bᵀz < 0 and z ≥ 0 on inequalities.
 //!
-//! Then no x meets the rows Ax ≤ b. Numbers from a solver meet Aᵀz = 0 only nearly. So z is corrected until every x up to
-//! [`MAX_DISPLACEMENT`] is ruled out.
+//! With such multipliers, no x satisfies the rows Ax ≤ b (equalities for the first rows). The multipliers of a solver
+//! satisfy Aᵀz = 0 only approximately. They are corrected until every x up to [`MAX_DISPLACEMENT`] is ruled out.
+//! Reference: Boyd and Vandenberghe, Convex Optimization, 2004, §5.8 (theorems of alternatives).
 
 use crate::program::{Program, QuadraticProgram};
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Displacements and forces up to this multiple of the loads are ruled out. Ten times more asks for one more digit of the
-/// multipliers; springs of stiffness 1 that come to rest move by far less.
+/// Displacements and forces up to this multiple of the loads are ruled out.
+///
+/// Springs of stiffness 1 that come to rest move by far less. Ten times this value would require one more digit of the
+/// multipliers.
 const MAX_DISPLACEMENT: f64 = 1e6;
 
-/// Corrections of the multipliers; each gains the solver's digits.
+/// The largest number of corrections of the multipliers. Each gains the digits of the solver.
 const MAX_CORRECTIONS: usize = 6;
 
-/// The gain of the multipliers must exceed this fraction of the loads' part in it: twice the 1e-7 of a block's load that
-/// forces at rest may leave unbalanced. With less, a structure that springs hold within that band could be ruled out.
+/// The gain of the multipliers must exceed this fraction of the contribution of the loads to it.
+///
+/// It is twice the residual that forces at rest may leave, 1e-7 of a block's load. With less, a structure that springs
+/// hold within that tolerance could be ruled out.
 const BALANCE_BAND: f64 = 2e-7;
 
 /// Multipliers below this count as zero; the largest are at most 1. They come from a solver with a tolerance of 1e-9.
@@ -23,9 +28,9 @@ const ZERO_MULTIPLIER: f64 = 1e-6;
 /// Multipliers of inequalities below this fraction of the largest are dropped before the first correction.
 const NEGLIGIBLE_MULTIPLIER: f64 = 1e-7;
 
-/// Whether the rows of a program are infeasible, as the given multipliers show or those of largest gain do.
+/// Whether the rows of a program are proved infeasible, by the given multipliers or by those of largest gain.
 ///
-/// `z` are the multipliers that come with a solver's status, one for each row.
+/// `z` are the multipliers that the solver returned with the status `Infeasible`, one for each row.
 pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     proves_when_corrected(conic, z, program)
         || largest_gain(conic)
@@ -34,8 +39,8 @@ pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &P
 
 /// The multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1.
 ///
-/// The multipliers that come with a solver's status may be so near to 0 that corrections make them vanish; these are as far
-/// from it as possible.
+/// The multipliers that a solver returns may be so small that the corrections exceed them. The multipliers of largest
+/// gain are as large as possible.
 fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     let rows = conic.bound.len();
     let size = conic.bound.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -62,15 +67,16 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
         bound,
         equalities: conic.unknowns,
     };
+    // Solve, and set multipliers that are only the solver's rounding to 0.
     let answer = solve(&problem, TOLERANCE, Conditioning::Full);
     let clean = |v: &f64| if v.abs() < ZERO_MULTIPLIER { 0.0 } else { *v };
     (answer.status == Status::Solved).then(|| answer.x.iter().map(clean).collect())
 }
 
-/// Whether multipliers prove infeasibility, once they have been corrected.
+/// Whether multipliers prove infeasibility, after corrections by iterative refinement.
 fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let most = z.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    // Rows that hardly count are left out; the correction makes up for what they would add.
+    // Drop rows with negligible multipliers. The correction compensates for them.
     let mut z: Vec<f64> = z.to_vec();
     for (row, z) in z.iter_mut().enumerate() {
         if row >= conic.equalities && *z <= NEGLIGIBLE_MULTIPLIER * most {
@@ -89,8 +95,10 @@ fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program)
     proves(conic, &z, program)
 }
 
-/// The multipliers with the least change after which Aᵀz = 0. Those of inequalities that would become negative become 0.
+/// The multipliers after the least change that gives Aᵀz = 0. Multipliers of inequalities that would become negative
+/// are set to 0.
 fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
+    // Scale the error of Aᵀz to size 1.
     let off = transpose_product(conic, z);
     let size = off.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {
@@ -103,6 +111,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
         .enumerate()
         .for_each(|(k, row)| number[*row] = k);
     let entries = conic.matrix.iter();
+    // The least change of these multipliers with Aᵀ·change = −error.
     let correction = QuadraticProgram {
         unknowns: rows.len(),
         quadratic: (0..rows.len()).map(|k| (k, k, 1.0)).collect(),
@@ -128,7 +137,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
     Some(corrected)
 }
 
-/// Aᵀz.
+/// The product Aᵀz, one number for each unknown.
 fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; conic.unknowns];
     for (row, column, value) in &conic.matrix {
@@ -137,7 +146,8 @@ fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     product
 }
 
-/// The test: the gain −bᵀz exceeds both the band of a verdict and what Aᵀz ≠ 0 could give within [`MAX_DISPLACEMENT`].
+/// The test: the gain −bᵀz exceeds the tolerance of a verdict, and also the largest |xᵀAᵀz| for x within
+/// [`MAX_DISPLACEMENT`].
 fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z
         .iter()
@@ -154,8 +164,8 @@ fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let error: f64 = transpose_product(conic, &z).iter().map(|v| v.abs()).sum();
     let loads = &program.loads;
     let total: f64 = loads.iter().map(|v| v.abs()).sum();
-    // A verdict of "stable" leaves a small part of each block's load unbalanced, so the gain must exceed that. The first rows
-    // are the balance. A block without load counts with a millionth of all loads.
+    // The verdict "stable" allows a small residual for each block, so the gain must exceed its contribution. The first
+    // rows are the balance. For a block without a load, a millionth of all loads is used.
     let band: f64 = loads
         .chunks(3)
         .zip(z.chunks(3))

@@ -1,26 +1,27 @@
-//! The rest of springs by fixed-point iteration on the friction: convex programs with Tresca's friction.
+//! Finds springs at rest by fixed-point iteration on the friction limits, with convex programs (Tresca's friction).
 //!
-//! If the friction at which faces yield is held fixed (Tresca's law), springs take the least energy. That is a convex program,
-//! which has an answer as long as springs to the ground help. Its normal forces give the next friction limits, μ(N1 + N2),
-//! and so on (Panagiotopoulos 1975). Newton's method between patterns is quicker if it ends; next to a stone a thousand
-//! times as heavy it cycles.
+//! If the friction limit of each face is fixed (Tresca's law), springs at rest have the least energy. This is a convex
+//! program, which has a solution as long as additional springs hold the blocks to the ground. Its normal forces give
+//! the next friction limits μ(N1 + N2), and so on (Panagiotopoulos 1975). Newton's method ([`super::newton`]) is faster
+//! if it converges, but next to a stone a thousand times as heavy it cycles.
 
 use super::rest::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
 use crate::program::QuadraticProgram;
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Fixed-point iterations. Each halves the stiffness of the ground.
+/// The largest number of fixed-point iterations. Each halves the stiffness of the springs to the ground.
 const MAX_ITERATIONS: usize = 60;
 
-/// The stiffness of the ground does not fall below this, relative to a point's: the solver's tolerance.
+/// The smallest stiffness of the springs to the ground, relative to that of an application point: the solver's
+/// tolerance.
 const MIN_GROUND: f64 = 1e-9;
 
-/// Below this stiffness of the ground the pattern is near enough to that of the rest for Newton's method to be tried.
+/// Below this stiffness of the ground, Newton's method is tried too, because the pattern is close to that of the rest.
 const NEWTON_GROUND: f64 = 1e-4;
 
 impl Springs<'_> {
-    /// The rest that the iteration leads to, if any. Not for programs with robots.
+    /// Returns the rest that the iteration converges to; `None` if there is none, or if the program has robots.
     pub(super) fn find_rest_by_fixed_friction(&self) -> Option<Rest> {
         if !self.grips.is_empty() {
             return None;
@@ -36,11 +37,13 @@ impl Springs<'_> {
             if answer.status != Status::Solved {
                 return None;
             }
+            // Convergence test: the pattern of these displacements is a rest.
             let mut u = answer.x[..self.program.loads.len()].to_vec();
             let mut pattern = self.pattern_of(&u);
             if let Some(rest) = self.rest(&pattern, &u) {
                 return Some(rest);
             }
+            // Fixed-point step: the normal forces give the next friction limits.
             let normal: Vec<f64> = self.points.iter().map(|p| -p.column.dot(&u)).collect();
             let sums = normal_sums(self, normal.iter().map(|n| n.max(0.0)));
             for ((limit, sum), contact) in
@@ -59,7 +62,7 @@ impl Springs<'_> {
         None
     }
 
-    /// The pattern of displacements, without a former one.
+    /// The pattern of given displacements, without a former pattern.
     fn pattern_of(&self, u: &[f64]) -> Pattern {
         let nothing = Pattern {
             pressed: vec![false; self.points.len()],
@@ -73,8 +76,8 @@ impl Springs<'_> {
     ///
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///
-    /// where u are the displacements, p ≥ 0, p ≥ −g how far points are pressed, e how far springs along faces are
-    /// stretched, and q ≥ |s − e| how far faces slide beyond that.
+    /// where u are the displacements, p ≥ max(0, −g) the compression of each point, e the stretch of the spring along
+    /// each face, ρ its stiffness, s the slip, and q ≥ |s − e| the sliding of the face.
     fn least_energy(&self, friction_limits: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());
         let faces = self.tangents.len();
@@ -89,9 +92,11 @@ impl Springs<'_> {
             bound: Vec::new(),
             equalities: 0,
         };
+        // The energy of the springs to the ground, and the work of the loads.
         conic.quadratic.extend((0..rows).map(|k| (k, k, ground)));
         conic.linear[..rows].copy_from_slice(&self.program.loads);
         for (k, point) in self.points.iter().enumerate() {
+            // p ≥ 0 and p ≥ −g.
             let own = pressed + k;
             conic.quadratic.push((own, own, 1.0));
             let row = conic.bound.len();
@@ -102,6 +107,7 @@ impl Springs<'_> {
             conic.bound.extend([0.0; 2]);
         }
         for (k, tangent) in self.tangents.iter().enumerate() {
+            // q ≥ ±(s − e).
             let (spring, slide) = (stretched + k, slid + k);
             conic.quadratic.push((spring, spring, self.along));
             conic.linear[slide] = friction_limits[k];

@@ -1,9 +1,9 @@
-//! Whether a balance builds up from rest, or only with a self-stress that the loads do not make.
+//! Checks whether a balance builds up from rest, or only with a self-stress that the loads do not produce (wedging).
 //!
-//! Every application point gets a unilateral spring and every interface a spring along itself. All are unstressed before the
-//! loads act; friction is Coulomb's. Robots may give whatever their limits allow. If such springs come to rest, their forces
-//! are the certificate ([`spring`]). If none do, a search rules out every pattern in which points press and faces slide
-//! ([`branch_and_bound`]).
+//! Every application point gets a unilateral spring along the normal, and every interface a spring along its face. All
+//! springs are unstressed before the loads act; friction is Coulomb's. Robots may exert any force within their limits.
+//! If such springs come to rest, their forces are the certificate ([`spring`]). If no rest is found, a search tries to
+//! rule out every pattern of pressing points and sliding faces ([`branch_and_bound`]).
 
 mod band;
 mod branch_and_bound;
@@ -26,33 +26,34 @@ pub use spring::Slide;
 /// Whether a balance needs a self-stress.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SelfStressCheck {
-    /// No: the loads build it up from rest.
+    /// No self-stress is needed: the loads build up the balance from rest.
     FromRest,
-    /// Yes: no springs come to rest.
+    /// A self-stress is needed: no springs come to rest.
     OnlyWedged(SelfStress),
-    /// Neither was proved.
+    /// Neither of the two was proved.
     Undecided(WedgingUndecided),
 }
 
-/// A self-stress without which a program does not stand.
+/// A self-stress that a program needs in order to stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfStress {
-    /// How the springs give way: three velocities for each block, the largest 1.
+    /// The motion in which the springs give way: three velocities for each block, the largest of which is 1.
     pub motion: Vec<f64>,
     /// The contacts that open or slide in this motion.
     pub contacts: Vec<usize>,
     /// Whether the motion closes no contact at all.
     pub presses_nothing: bool,
-    /// The least sum of normal forces at those contacts in any balance, pure number.
+    /// The least sum of normal forces at these contacts in any balance, a pure number.
     pub least: Option<f64>,
-    /// The motion that proves this bound: along it no other contact takes work, and these at most 1 for each unit of normal force.
+    /// The motion that proves this bound. Along it, these contacts take at most a work of 1 for each unit of normal
+    /// force, and all others take none.
     pub bound: Vec<f64>,
-    /// The patterns that the proof ruled out. Together they cover everything that springs may do.
+    /// The patterns that the proof ruled out. Together they cover all patterns of pressing and sliding.
     pub cases: Vec<RuledOut>,
 }
 
 impl SelfStress {
-    /// The blocks that move along the motion.
+    /// The blocks with a velocity above a thousandth of the largest.
     pub fn moving(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
         blocks.filter_map(|(block, v)| v.iter().any(|v| v.abs() > 1e-3).then_some(block))
@@ -72,19 +73,20 @@ impl std::fmt::Display for WedgingUndecided {
     }
 }
 
-/// Why an answer was not found.
+/// The reason why neither answer was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WedgingUndecided {
     /// Neither a rest nor a proof that there is none was found.
     NotFound,
-    /// It depends on how stiff faces are along themselves.
+    /// The answer depends on the stiffness of the springs along the faces.
     Stiffness,
 }
 
-/// Stiffnesses along a face, relative to a point's, that are tried if springs of stiffness 1 find no rest.
+/// Stiffnesses along a face, relative to that of an application point. They are tried if no rest is found with a
+/// stiffness of 1.
 const OTHER_STIFFNESSES: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
-/// The iteration with fixed friction takes long for more blocks than this.
+/// The largest number of blocks for which the iteration with fixed friction is tried. It takes long for more.
 const MAX_BLOCKS_FIXED_FRICTION: usize = 400;
 
 /// A velocity below this counts as 0; the largest is 1.
@@ -92,10 +94,10 @@ const VELOCITY_TOL: f64 = 1e-6;
 
 /// Checks whether the forces that balance a standing program build up from rest.
 ///
-/// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. Within their limits robots may
-/// give anything else.
+/// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. The robots may exert
+/// other forces within their limits.
 ///
-/// Without friction the answer is known: among the forces that balance, springs come to those of least Σ N².
+/// Without friction the answer is always yes: springs then come to rest at the balance of least Σ N².
 pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
     if program.contacts.iter().all(|c| c.friction == 0.0) {
         return SelfStressCheck::FromRest;
@@ -111,7 +113,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
-    // Quick attempts at a rest, with robots' springs around their given forces, then around 0, then by fixed friction.
+    // Fast attempts to find a rest: with robots' springs around their given forces, around 0, and with fixed friction.
     let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -125,7 +127,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     {
         return SelfStressCheck::FromRest;
     }
-    // The search for a proof that there is none.
+    // Search for a proof that there is no rest.
     let found = search(program);
     if found == Search::Rests {
         return SelfStressCheck::FromRest;
@@ -140,9 +142,11 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
 }
 
-/// The self-stress that a program without rest needs, shown on the motion of its springs.
+/// The self-stress that a program without a rest needs, measured at the contacts that open or slide in the given
+/// motion.
 fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
+    // The contacts that open or slide, and whether any point closes.
     let mut moved = vec![false; program.contacts.len()];
     let mut presses_nothing = true;
     for point in &springs.points {

@@ -1,21 +1,31 @@
-//! The rest of springs by Newton's method between patterns of pressing and sliding, with continuation in the ground's stiffness.
+//! Finds springs at rest by a semismooth Newton method, with continuation in the stiffness of springs to the ground.
+//!
+//! A pattern (which points press, which faces slide) makes the springs' law linear. A Newton step solves this linear
+//! system; the displacements give the next pattern. If the pattern does not change, the springs are in equilibrium.
+//! Additional springs to the ground make the first systems regular and are then softened. Reference: Alart and Curnier,
+//! A mixed formulation for frictional contact problems prone to Newton like solution methods, 1991.
 
 use super::band::Band;
 use super::spring::{Pattern, Rest, Springs};
 
-/// Newton steps at one stiffness of the ground, and how many of them are full steps.
+/// The largest number of Newton steps at one stiffness of the ground.
 const MAX_STEPS: usize = 60;
+
+/// The number of these steps that are full steps; later steps use a line search.
 const FULL_STEPS: usize = 15;
 
-/// The shares of a step that the line search tries.
+/// The step lengths that the line search tries.
 const STEP_SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
 
-/// How often the springs to the ground soften, and the factor each time: down to 0.3²¹ ≈ 1e-11 of a point's stiffness.
+/// The number of stiffnesses of the ground that are tried, from 1 down to 0.3²¹ ≈ 1e-11 of an application point's
+/// stiffness.
 const MAX_SOFTENINGS: usize = 22;
+
+/// The factor by which the stiffness of the ground falls each time.
 const SOFTENING_FACTOR: f64 = 0.3;
 
 impl Springs<'_> {
-    /// The displacements at which springs of this stiffness give the `forces` that the blocks need.
+    /// The displacements at which springs with this stiffness matrix exert the given forces on the blocks.
     pub(super) fn displacements(&self, stiffness: &Band, forces: &[f64]) -> Vec<f64> {
         let mut right = vec![0.0; forces.len()];
         for (row, value) in forces.iter().enumerate() {
@@ -25,8 +35,8 @@ impl Springs<'_> {
         (0..forces.len()).map(|row| found[self.row(row)]).collect()
     }
 
-    /// The forces that springs must give: what the blocks need, less the given forces of robots' springs and the limits of
-    /// robots at theirs.
+    /// The forces that the springs must exert: the loads minus the constant forces of robots, which are their given
+    /// force or, at a limit, the limit.
     fn spring_loads(&self, pattern: &Pattern) -> Vec<f64> {
         let mut loads = self.program.loads.clone();
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {
@@ -40,7 +50,7 @@ impl Springs<'_> {
         loads
     }
 
-    /// The norm of what springs, and springs of stiffness `ground` to the ground, leave unbalanced at given displacements.
+    /// The norm of the residual at given displacements, with springs of stiffness `ground` to the ground.
     fn residual_norm(&self, u: &[f64], ground: f64) -> f64 {
         let mut residual = self.program.loads.clone();
         for grip in &self.grips {
@@ -66,11 +76,10 @@ impl Springs<'_> {
         sum.sqrt()
     }
 
-    /// Equilibrium with springs of stiffness `ground` to the ground, from given displacements and their pattern. Updates both
-    /// and returns true if it was found.
+    /// Finds equilibrium with springs of stiffness `ground` to the ground, starting from given displacements and their
+    /// pattern. Updates both, and returns true if equilibrium was found.
     ///
-    /// Newton's method: a pattern makes the law linear, the displacements that solve it make the next pattern. If the same
-    /// pattern comes out, that is equilibrium. After [`FULL_STEPS`] a line search shortens the steps, since full ones may cycle.
+    /// After [`FULL_STEPS`] steps a line search shortens the steps, because full steps may cycle.
     pub(super) fn balance_with_ground(
         &self,
         ground: f64,
@@ -78,11 +87,13 @@ impl Springs<'_> {
         pattern: &mut Pattern,
     ) -> bool {
         for step in 0..MAX_STEPS {
+            // Newton step: solve the linear system of this pattern.
             let stiffness = self.stiffness(pattern, ground);
             let target = self.displacements(&stiffness, &self.spring_loads(pattern));
             if target.iter().any(|v| !v.is_finite()) {
                 return false;
             }
+            // Convergence test: the pattern reproduces itself.
             let next = self.pattern(&target, pattern);
             if next == *pattern {
                 *u = target;
@@ -98,8 +109,8 @@ impl Springs<'_> {
         false
     }
 
-    /// The displacements on the way from `u` to `target` that leave least unbalanced, among the shares tried. Stops at the first
-    /// one of sufficient decrease (Armijo).
+    /// Line search: the displacements between `u` and `target` with the smallest residual, among [`STEP_SHARES`]. It
+    /// stops at the first step length with a sufficient decrease (Armijo).
     fn line_search(&self, u: &[f64], target: &[f64], ground: f64) -> Vec<f64> {
         let now = self.residual_norm(u, ground);
         let mut best = (f64::INFINITY, u.to_vec());
@@ -117,9 +128,9 @@ impl Springs<'_> {
         best.1
     }
 
-    /// Continuation: springs to the ground soften step by step until the forces without them are a rest.
+    /// Continuation: softens the springs to the ground step by step until the forces without them are a rest.
     ///
-    /// Returns the rest, or the displacements at the end, scaled to a largest of 1.
+    /// Returns the rest. If none is found, the error holds the last displacements, scaled so that the largest is 1.
     pub(super) fn find_rest(&self) -> Result<Rest, Vec<f64>> {
         let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.all_pressed();

@@ -1,33 +1,34 @@
-//! [`Node`]: a node of the search tree, which decides of some points whether they press and of some faces how they slide.
+//! [`Node`]: a node of the search tree. It fixes whether some points press and how some faces slide.
 
 use super::spring::{Pattern, Slide, Springs};
 
-/// A pattern of pressing and sliding that springs at rest cannot have, whatever the points and faces do that it leaves open.
+/// A partial pattern of pressing and sliding that springs at rest cannot have. Points and faces that it does not list
+/// are open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuledOut {
-    /// (contact, application point 0 or 1, whether it presses).
+    /// The fixed points: (contact, application point 0 or 1, whether it presses).
     pub points: Vec<(usize, usize, bool)>,
-    /// (contact with friction, how its face slides).
+    /// The fixed faces: (contact with friction, how its face slides).
     pub faces: Vec<(usize, Slide)>,
 }
 
-/// What is decided of each point and each face; `None` is open.
+/// The decisions for each point and each face; `None` means that it is open.
 #[derive(Clone)]
 pub(super) struct Node {
     pub pressed: Vec<Option<bool>>,
     pub slides: Vec<Option<Slide>>,
 }
 
-/// What a node branches on.
+/// The point or face on which the search branches.
 pub(super) enum Branch {
-    /// An application point: pressed or not.
+    /// An application point with two children: it presses or not.
     Point(usize),
-    /// A face: slides forth, slides back or sticks.
+    /// A face with three children: it slides forth, slides back or sticks.
     Face(usize),
 }
 
 impl Node {
-    /// The root: only faces without friction are decided, for which it does not matter.
+    /// The root of the tree: only faces without friction are fixed, because for these the decision has no effect.
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
         let slides = contacts.map(|c| (!(c.friction > 0.0)).then_some(Slide::Forth));
@@ -54,7 +55,7 @@ impl Node {
         }
     }
 
-    /// Whether a face may carry force. If none of its points presses it does not, however it slides.
+    /// Whether a face may transmit a friction force: false if all its points are fixed as not pressing.
     pub fn may_carry(&self, springs: &Springs, contact: usize) -> bool {
         let points = springs.points.iter().zip(&self.pressed);
         points
@@ -62,9 +63,9 @@ impl Node {
             .any(|(_, pressed)| *pressed != Some(false))
     }
 
-    /// What the node decides, in terms of contacts.
+    /// The decisions of the node as numbers of contacts and application points.
     pub fn described(&self, springs: &Springs) -> RuledOut {
-        // Which of its contact's points a point is.
+        // The number of a point within its contact, 0 or 1.
         let end = |k: usize| {
             let former = springs.points[..k].iter();
             let contact = springs.points[k].contact;
@@ -83,7 +84,7 @@ impl Node {
         }
     }
 
-    /// The first open point, else the first open face that may carry force.
+    /// The first open point. If there is none, the first open face that may transmit force.
     pub fn first_open(&self, springs: &Springs) -> Option<Branch> {
         let point = self.pressed.iter().position(Option::is_none);
         let face = |k: &usize| self.slides[*k].is_none() && self.may_carry(springs, *k);
@@ -92,7 +93,7 @@ impl Node {
             .or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
     }
 
-    /// A pattern with the node's decisions put in.
+    /// A pattern in which the node's decisions replace the given ones.
     pub fn impose_on(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
         for (to, decided) in imposed.pressed.iter_mut().zip(&self.pressed) {

@@ -1,18 +1,20 @@
 //! [`VariableLayout::relaxation`]: the linear relaxation of a node of the search, as a quadratic program.
 //!
-//! Unknowns are the displacements of the blocks, the normal force at each application point, the friction force of each
-//! contact and the components that robots give. What the node decides about a point or face is an equality; what it leaves
-//! open is relaxed to N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point.
+//! The unknowns are the displacements of the blocks, the normal force at each application point, the friction force of
+//! each contact and the force components of the robots. The decisions of the node are equalities. For open points and
+//! faces, the springs' law is relaxed to N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point.
 
 use super::node::{Branch, Node};
 use super::spring::{Slide, Springs};
 use crate::program::{Column, QuadraticProgram};
 
-/// The weight of ½|unknowns|² in the objective, per unit of load: it makes the optimum unique and keeps it finite. The
-/// guiding terms of the objective are of size 1, so ten times more would compete with them.
+/// The weight of ½|unknowns|² in the objective, per unit of load. It makes the optimum unique and finite.
+///
+/// The linear terms of the objective have coefficients of about 1; ten times this weight would compete with them.
 const REGULARIZATION: f64 = 1e-3;
 
-/// Where the unknowns of the relaxation begin: displacements at 0, then normal forces, friction forces, robots' components.
+/// The indices at which the kinds of unknown begin: displacements at 0, then normal forces, friction forces and robots'
+/// components.
 pub(super) struct VariableLayout {
     pub points: usize,
     pub faces: usize,
@@ -65,7 +67,7 @@ impl VariableLayout {
         &x[self.grips..self.end]
     }
 
-    /// The relaxation of a node. Its objective guides to complementarity: the least Σ N + (N + g) over the open points.
+    /// The relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
         let mut builder = Builder {
             equal: Rows::default(),
@@ -81,6 +83,7 @@ impl VariableLayout {
             at_most,
             linear,
         } = builder;
+        // The equalities come first, as the solver requires.
         let equalities = equal.bound.len();
         let rows = at_most.entries.into_iter();
         let rows = rows.map(|(r, k, v)| (r + equalities, k, v));
@@ -95,7 +98,7 @@ impl VariableLayout {
         }
     }
 
-    /// All forces balance the loads. Three rows for each block: the first rows of the program.
+    /// Adds the balance of all blocks, three rows for each. They are the first rows of the program.
     fn add_balance(&self, springs: &Springs, builder: &mut Builder) {
         let loads = &springs.program.loads;
         let mut balance = vec![Vec::new(); loads.len()];
@@ -117,22 +120,26 @@ impl VariableLayout {
         }
     }
 
-    /// The law of the points: N = max(0, −g), relaxed where it is open. Returns, for each contact, the unknowns of its normal
-    /// forces that may be above 0.
+    /// Adds the law of the points, N = max(0, −g), which is relaxed for open points.
+    ///
+    /// Returns, for each contact, the unknowns of those normal forces that may be above 0.
     fn add_points(&self, springs: &Springs, node: &Node, builder: &mut Builder) -> Vec<Vec<usize>> {
         let mut pressing = vec![Vec::new(); springs.tangents.len()];
         for (k, point) in springs.points.iter().enumerate() {
             let normal = self.points + k;
             let gap = |sign: f64| point.column.entries().map(move |(row, v)| (row, sign * v));
             match node.pressed[k] {
+                // The point does not press: N = 0 and g ≥ 0.
                 Some(false) => {
                     builder.equal.add([(normal, 1.0)], 0.0);
                     builder.at_most.add(gap(-1.0), 0.0);
                 }
+                // The point presses: N = −g and N ≥ 0.
                 Some(true) => {
                     builder.equal.add(gap(1.0).chain([(normal, 1.0)]), 0.0);
                     builder.at_most.add([(normal, -1.0)], 0.0);
                 }
+                // The point is open (not decided): N ≥ 0 and N ≥ −g.
                 None => {
                     builder.at_most.add([(normal, -1.0)], 0.0);
                     (builder.at_most).add(gap(-1.0).chain([(normal, -1.0)]), 0.0);
@@ -147,7 +154,7 @@ impl VariableLayout {
         pressing
     }
 
-    /// The law of the faces: T = −slip, cut at ±μ(N1 + N2), relaxed where it is open.
+    /// Adds the law of the faces, T = −slip limited to ±μ(N1 + N2), which is relaxed for open faces.
     fn add_faces(
         &self,
         springs: &Springs,
@@ -167,23 +174,26 @@ impl VariableLayout {
             let slides = node.slides[k];
             if let Some(Slide::Forth | Slide::Back) = slides {
                 let sign = slides.map_or(0.0, Slide::friction_sign);
+                // The face slides: T = ±μ(N1 + N2).
                 let full = normals(-sign * mu).chain([(friction, 1.0)]);
                 builder.equal.add(full, 0.0);
-                // The slip, against friction, is at least what the friction force would stretch its spring by.
+                // The slip is at least the stretch that the friction force would cause in the spring.
                 builder.at_most.add(slip(sign).chain(normals(mu)), 0.0);
                 continue;
             }
             if slides.is_some() {
+                // The face sticks: T = −slip.
                 builder.equal.add(slip(1.0).chain([(friction, 1.0)]), 0.0);
             }
             for sign in [1.0, -1.0] {
+                // The friction limit: |T| ≤ μ(N1 + N2).
                 let cone = normals(-mu).chain([(friction, sign)]);
                 builder.at_most.add(cone, 0.0);
             }
         }
     }
 
-    /// The robots' limits; without robots, the sign of the loads' work.
+    /// Adds the robots' limits; without robots, the row that the loads do no negative work.
     fn add_robots(&self, springs: &Springs, builder: &mut Builder) {
         let grips = springs.grips.iter().enumerate();
         for (k, grip) in grips.filter(|g| g.1.limit.is_finite()) {
@@ -192,13 +202,13 @@ impl VariableLayout {
             }
         }
         if springs.grips.is_empty() {
-            // The loads' work, −loads·u, is Σ N² + Σ |T s| and so not negative.
+            // At rest, the work −loads·u of the loads equals Σ N² + Σ |T s|, which is not negative.
             let loads = springs.program.loads.iter().copied().enumerate();
             builder.at_most.add(loads.filter(|e| e.1 != 0.0), 0.0);
         }
     }
 
-    /// The branching rule: the open point or face at which a solution misses the springs' law most.
+    /// The branching rule: the open point or face at which a solution violates the springs' law most.
     pub fn most_violated(&self, springs: &Springs, node: &Node, x: &[f64]) -> Option<Branch> {
         let u = &x[..self.points];
         let mut worst: Option<(f64, Branch)> = None;
@@ -212,7 +222,7 @@ impl VariableLayout {
             let force = x[self.points + k].max(0.0);
             normal[point.contact] += force;
             if node.pressed[k].is_none() {
-                // Complementarity: the force or the opening has to be 0.
+                // Complementarity: N or N + g must be 0.
                 consider(force.min(force + point.column.dot(u)), Branch::Point(k));
             }
         }

@@ -1,22 +1,27 @@
-//! Checks that forces are a [`Rest`]: they balance every block and obey the springs' law. With iterative refinement.
+//! Checks whether the forces of a pattern are a [`Rest`]: they must balance every block and obey the springs' law.
+//!
+//! The forces are computed with iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
+//! chapter 12).
 
 use super::spring::{Pattern, Rest, Slide, Springs};
 use crate::program::Column;
 
-/// The fraction of a block's own load that may stay unbalanced: what a verdict allows (τ in `doc::numerics`).
+/// The largest residual of a block as a fraction of its own load: the tolerance of a verdict (τ in `doc::numerics`).
 const BALANCE_TOL: f64 = 1e-7;
 
-/// The fraction of the forces on a block that may stay unbalanced in any case: rounding of their sum.
+/// The residual that is always allowed, as a fraction of the sum of forces on a block: the rounding of that sum.
 const ROUNDING: f64 = 1e-13;
 
-/// The fraction of the lighter block's load by which the law may be missed; a tenth of [`BALANCE_TOL`], so that the balance decides.
-/// Of the contact's own forces a thousandth of that is allowed.
+/// The largest violation of the springs' law, as a fraction of the lighter block's load.
+///
+/// It is a tenth of [`BALANCE_TOL`], so that the balance decides. A thousandth of this fraction of the contact's forces
+/// is allowed in addition.
 const LAW_TOL: f64 = 1e-8;
 
-/// Steps of iterative refinement. Each gains the digits of the LU factors.
+/// The largest number of steps of iterative refinement. Each gains the digits of the LU factors.
 const MAX_REFINEMENTS: usize = 12;
 
-/// Sums a number for each point over the points of each contact.
+/// For each contact, the sum of the numbers given for its application points.
 pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sums = vec![0.0; springs.tangents.len()];
     for (point, normal) in springs.points.iter().zip(normal) {
@@ -26,10 +31,11 @@ pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) 
 }
 
 impl Springs<'_> {
-    /// The rest that a pattern leads to, if its forces obey the law.
+    /// Computes the forces of a pattern, and returns them if they are a rest.
     ///
-    /// Iterative refinement of openings, slips and forces rather than of displacements: forces on a light block get the digits
-    /// that its own load needs, however far the heavy ones move. A motion that the pattern leaves free stays as it is in `u`.
+    /// Openings, slips and yields are refined instead of displacements. The forces on a light block are then accurate
+    /// relative to its own load, even if heavy blocks move far. A motion that the pattern does not resist stays as it
+    /// is in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
@@ -41,7 +47,7 @@ impl Springs<'_> {
             if self.balances(&rest, &residual) {
                 return self.obeys(&rest, &gap, &slip).then_some(rest);
             }
-            // Refine by the displacements that the residual causes.
+            // Refinement: add the displacements that the residual causes.
             let change = self.displacements(&stiffness, &residual);
             if change.iter().any(|v| !v.is_finite()) {
                 return None;
@@ -59,8 +65,10 @@ impl Springs<'_> {
         None
     }
 
-    /// The forces of the springs in a pattern.
+    /// The forces of the springs in a pattern, from the opening of each point, the slip of each face and the yield of
+    /// each robot.
     fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
+        // Normal forces at the pressed points, summed for each contact.
         let mut sum = vec![0.0; self.tangents.len()];
         let mut normal = vec![0.0; self.points.len()];
         for (k, point) in self.points.iter().enumerate() {
@@ -69,6 +77,7 @@ impl Springs<'_> {
                 sum[point.contact] += normal[k];
             }
         }
+        // Friction: the force of the spring if the face sticks, otherwise ±μ(N1 + N2).
         let friction = pattern
             .slides
             .iter()
@@ -90,7 +99,7 @@ impl Springs<'_> {
         }
     }
 
-    /// loads − Σ force, for each row of the balance.
+    /// The residual loads − Σ force, for each row of the balance.
     fn unbalanced(&self, rest: &Rest) -> Vec<f64> {
         let mut residual = self.program.loads.clone();
         for (grip, force) in self.grips.iter().zip(&rest.grips) {
@@ -105,7 +114,7 @@ impl Springs<'_> {
         residual
     }
 
-    /// For each block, the largest entry of its own load and Σ |force| on it.
+    /// For each block: the largest entry of its own load, and Σ |force| on it.
     fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
         let own = self
             .program
@@ -153,7 +162,7 @@ impl Springs<'_> {
             .iter()
             .enumerate()
             .map(|(k, c)| {
-                // Relative to the lighter of the two bodies.
+                // The tolerance is relative to the load of the lighter of the two bodies.
                 let lighter = c
                     .from
                     .as_ref()
@@ -161,6 +170,7 @@ impl Springs<'_> {
                 LAW_TOL * lighter + 1e-3 * LAW_TOL * (normal[k].abs() + rest.friction[k].abs())
             })
             .collect();
+        // Points: N ≥ 0 and N + g ≥ 0, up to the tolerance.
         let points = self
             .points
             .iter()
@@ -170,6 +180,7 @@ impl Springs<'_> {
                 let allowed = allowed[p.contact];
                 *normal >= -allowed && (normal + gap) >= -allowed
             });
+        // Robots: every component within its limit.
         let limits = self
             .grips
             .iter()
@@ -178,6 +189,7 @@ impl Springs<'_> {
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {
+                // Faces: T is the force of the spring, limited to the friction cone.
                 let limit = c.friction * normal[k].max(0.0);
                 let law = (-self.along * slip[k]).clamp(-limit, limit);
                 (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)

@@ -1,30 +1,31 @@
-//! [`Springs`]: the contacts of a program as springs, unstressed before the loads act.
+//! [`Springs`]: the contacts of a program as springs that are unstressed before the loads act.
 //!
-//! The law: at every application point N = max(0, −g) with g the opening; along every face T = −ρ s with s the slip, cut at
-//! ±μ(N1 + N2). Loads that grow in proportion move everything in proportion. So the law of the final state is also the law of
-//! each step of loading. All sizes divide out but ρ, the stiffness along a face relative to that of a point.
+//! The springs' law: at every application point N = max(0, −g), where g is the opening; along every face T = −ρ s,
+//! where s is the slip, limited to ±μ(N1 + N2). If the loads grow in proportion, so do all displacements. The law of
+//! the final state is therefore also the law of each step of loading. The only parameter is ρ, the stiffness along a
+//! face relative to that of an application point.
 //!
-//! Invariant: a [`Rest`] obeys the law, and balances every block relative to that block's own load, whoever found it.
+//! Invariant: every [`Rest`] obeys the law and balances every block relative to that block's own load.
 
 use super::band::{Band, order};
-use crate::program::{Column, Force, Program, columns, sticking_columns};
+use crate::program::{Column, Force, Program, adhesion_columns, columns};
 
 /// Openings and slips below this fraction of their terms are rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// How one face slides.
+/// Whether and in which direction one face slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slide {
     /// It does not slide: friction is the force of the spring along the face.
     Sticks,
-    /// Along the face's direction: friction is at its limit, against it.
+    /// It slides along the face's direction; friction is at its limit, against that direction.
     Forth,
-    /// Against the face's direction.
+    /// It slides against the face's direction; friction is at its limit, along that direction.
     Back,
 }
 
 impl Slide {
-    /// The sign of friction, 0 if the spring decides.
+    /// The sign of friction at its limit; 0 if the face sticks and the spring determines friction.
     pub(super) fn friction_sign(self) -> f64 {
         match self {
             Slide::Sticks => 0.0,
@@ -37,15 +38,15 @@ impl Slide {
 /// Which points press and which faces slide.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pattern {
-    /// Per application point.
+    /// For each application point, whether it presses.
     pub(super) pressed: Vec<bool>,
-    /// Per contact.
+    /// For each contact, how its face slides.
     pub(super) slides: Vec<Slide>,
-    /// Per robot's component: −1 or 1 at a limit, else 0.
+    /// For each component of a robot: −1 or 1 if it is at its limit, otherwise 0.
     pub(super) limits: Vec<f64>,
 }
 
-/// Forces that springs from rest come to.
+/// The forces of springs that came to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Rest {
     /// Normal force per application point.
@@ -56,13 +57,14 @@ pub(super) struct Rest {
     pub(super) grips: Vec<f64>,
 }
 
-/// One component of a robot's force. Its spring yields around a given force, within its limits. So forces that are known to
-/// some digits need no more digits to balance.
+/// One component of a robot's force. Its spring yields around a given force, within the robot's limits.
+///
+/// Given forces need not be exact: the spring corrects them until the blocks balance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpringGrip {
-    /// The component.
+    /// The column of the component.
     pub(super) column: Column,
-    /// Its limit.
+    /// The robot's limit of this component.
     pub(super) limit: f64,
     /// The force of the spring at displacement 0.
     pub(super) given: f64,
@@ -71,9 +73,9 @@ pub(super) struct SpringGrip {
 /// One application point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Its contact.
+    /// The index of the contact that it belongs to.
     pub(super) contact: usize,
-    /// Its normal force. The product with displacements is its opening g.
+    /// The column of its normal force. Its product with the displacements is the opening g.
     pub(super) column: Column,
 }
 
@@ -81,10 +83,10 @@ pub(super) struct Point {
 pub(super) struct Springs<'a> {
     pub(super) program: &'a Program,
     pub(super) points: Vec<Point>,
-    /// Per contact, friction along (−n_y, n_x).
+    /// For each contact, the column of friction along (−n_y, n_x).
     pub(super) tangents: Vec<Column>,
     pub(super) grips: Vec<SpringGrip>,
-    /// Stiffness along a face in parts of a point's.
+    /// ρ: the stiffness along a face, relative to that of an application point.
     pub(super) along: f64,
     /// The position of each block in the banded matrix, and its bandwidth.
     position: Vec<usize>,
@@ -103,6 +105,7 @@ impl<'a> Springs<'a> {
 
     /// The springs of a program, with given forces of 0 for robots.
     pub(super) fn new(program: &'a Program, along: f64) -> Springs<'a> {
+        // Without friction and grips, the columns of a program are the normal forces at its application points.
         let normals = columns(&Program {
             contacts: program
                 .contacts
@@ -122,9 +125,10 @@ impl<'a> Springs<'a> {
                 _ => None,
             })
             .collect();
-        let tangents = sticking_columns(program)
+        // Friction along the tangent, without a limit: one column for each contact.
+        let tangents = adhesion_columns(program)
             .into_iter()
-            .filter(|c| matches!(c.force, Force::StickFriction { sign, .. } if sign > 0.0))
+            .filter(|c| matches!(c.force, Force::AdhesionFriction { sign, .. } if sign > 0.0))
             .collect();
         let grips = columns(program)
             .into_iter()
@@ -156,13 +160,15 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// The pattern of given displacements. What they decide only by rounding is as in `former`.
+    /// The pattern of given displacements. Points and faces that only rounding would decide keep their state in
+    /// `former`.
     pub(super) fn pattern(&self, u: &[f64], former: &Pattern) -> Pattern {
         let size = |column: &Column| {
             column
                 .entries()
                 .fold(0.0, |m: f64, (r, v)| m.max((u[r] * v).abs()))
         };
+        // Points: pressed if the opening is negative.
         let mut found = former.clone();
         let mut normal = vec![0.0; self.tangents.len()];
         for (point, pressed) in self.points.iter().zip(&mut found.pressed) {
@@ -201,6 +207,7 @@ impl<'a> Springs<'a> {
 
     /// The LU factors of the tangent stiffness of a pattern, with springs of stiffness `ground` to the ground.
     pub(super) fn stiffness(&self, pattern: &Pattern, ground: f64) -> Band {
+        // Assemble the tangent stiffness: a sum of products column·columnᵀ, one for each active spring.
         let mut band = Band::new(3 * self.program.blocks, self.bandwidth);
         let mut enter = |left: &Column, right: &Column, by: f64| {
             for (i, a) in left.entries() {
@@ -225,6 +232,7 @@ impl<'a> Springs<'a> {
                 );
             }
         }
+        // Springs along faces that stick.
         for (tangent, slides) in self.tangents.iter().zip(&pattern.slides) {
             if *slides == Slide::Sticks {
                 enter(tangent, tangent, self.along);

@@ -15,7 +15,7 @@ impl Assembly {
             }
         }
         let mut parts: Vec<Assembly> = Vec::new();
-        // The component of each root; then, for each body, its component and its index there.
+        // `part_of_root` gives the component of each root; `place` gives each body's component and its index there.
         let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
         let mut place = Vec::with_capacity(self.bodies.len());
         for (number, body) in self.bodies.iter().enumerate() {
@@ -47,7 +47,7 @@ impl Assembly {
         parts
     }
 
-    /// Whether no body touches the ground and no robot holds one.
+    /// Whether no body touches the ground and no robot holds a body.
     pub fn is_unsupported(&self) -> bool {
         self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
     }
@@ -61,7 +61,7 @@ pub(crate) struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// The numbers 0 … `count` − 1, each in a set of its own.
+    /// The numbers 0 … `count` − 1, each in a separate set.
     pub fn new(count: usize) -> DisjointSets {
         DisjointSets {
             parent: (0..count).collect(),

@@ -4,10 +4,10 @@ use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, l
 use crate::geometry::{Point, Vector};
 
 impl Assembly {
-    /// The assembly with the bodies of each group merged into one body.
+    /// The assembly after the bodies of each group are merged into one rigid body.
     ///
-    /// `group` holds the group of each body; a body without a group becomes part of the ground. The centroid of a merged
-    /// body is the mean of its members' centroids. Contacts within a group and grips on the ground are left out.
+    /// `group` gives the group of each body; a body without a group becomes part of the ground. The centroid of a
+    /// merged body is the mean of its members' centroids. Contacts within a group and grips on the ground are omitted.
     pub fn merged(&self, group: &[Option<usize>]) -> Assembly {
         let count = group.iter().flatten().max().map_or(0, |last| last + 1);
         let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];
@@ -38,12 +38,12 @@ impl Assembly {
     }
 }
 
-/// One rigid body in place of several; `None` if there are none.
+/// Merges several bodies into one rigid body; `None` for an empty list.
 fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
     let first = members.first()?;
     let sum: Vector = members.iter().map(|body| body.centroid.coords).sum();
     let centroid = Point::from(sum / members.len() as f64);
-    // Each member's load keeps its line of action: it gains a moment about the common centroid.
+    // The load of each member keeps its line of action, so it has an additional moment about the common centroid.
     let summed = |load: fn(&AssemblyBody) -> LoadVector| {
         members.iter().fold(LoadVector::NONE, |sum, body| {
             let own = load(body);
@@ -62,9 +62,10 @@ fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
 }
 
 impl AssemblyContact {
-    /// The contact between bodies with other numbers, `None` for the ground; no contact if both are the same.
+    /// The contact with other numbers for its bodies (`None` for the ground). Returns `None` if both bodies are the
+    /// same.
     ///
-    /// A contact whose first body becomes ground is turned round, because the first body is never the ground.
+    /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.
     pub(super) fn with_bodies(
         &self,
         on: Option<usize>,

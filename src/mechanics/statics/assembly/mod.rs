@@ -1,8 +1,9 @@
 //! [`Assembly`]: one frame of a scene as free bodies, contacts and grips, in metres and newtons.
 //!
-//! An assembly has bodies with load vectors, contacts with application points, and grips with limits; it knows nothing of
-//! files, steps or materials. The effects of [`crate::effect`] build it. [`Assembly::components`] splits it into components
-//! that cannot influence each other. The `with_…` functions return varied assemblies, from which margins are computed.
+//! An assembly has bodies with load vectors, contacts with application points, and grips with limits. It does not
+//! contain files, steps or materials. The effects of [`crate::effect`] build it. [`Assembly::components`] splits it
+//! into components that cannot influence each other. The `with_…` functions return changed assemblies, from which
+//! margins are computed.
 //!
 //! Invariant: body, contact and grip numbers are indices into the assembly's own lists. The first body of a contact is
 //! never the ground. Each load vector is the sum of weight and listed loads ([`Assembly::with_summed_loads`]).
@@ -34,7 +35,8 @@ pub struct Assembly {
     pub pull: Vector,
     /// The factor on the listed loads: 1, unless a margin varies it.
     pub load_factor: f64,
-    /// The characteristic length L in metres: a torque M counts as the force M/L. The median length of the interfaces.
+    /// The characteristic length L in metres, the median length of the interfaces. A torque M is treated as a force
+    /// M/L.
     pub length: f64,
 }
 
@@ -85,7 +87,7 @@ pub struct AssemblyBody {
     pub centroid: Point,
     /// Corners of the outline, metres.
     pub corners: Arc<[Point]>,
-    /// Weight, N; 0 where no gravity acts on it.
+    /// Weight, N; 0 if weight is not simulated.
     pub weight: f64,
     /// The sum of the loads that the scene lists for the block, without the load factor.
     pub listed: LoadVector,
@@ -114,23 +116,23 @@ pub struct AssemblyContact {
     pub from: Option<usize>,
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the stretch, metres, from the first to the second along (−n_y, n_x).
+    /// Ends of the stretch, metres; (−n_y, n_x) points from the first to the second.
     pub ends: [Point; 2],
     /// The application points of the normal forces, metres: the ends, moved inward by the safety kernel.
     pub points: [Point; 2],
     /// Unit normal into `on`.
     pub normal: Vector,
-    /// Friction coefficient; 0 where friction is not simulated.
+    /// Friction coefficient; 0 if friction is not simulated.
     pub friction: f64,
 }
 
 impl AssemblyContact {
-    /// The unit tangent (−n_y, n_x) along which friction is counted positive.
+    /// The unit tangent (−n_y, n_x): friction on the first body is positive in this direction.
     pub fn tangent(&self) -> Vector {
         quarter_turn(self.normal)
     }
 
-    /// The number of application points that carry force: 2 for an edge, 1 for a corner.
+    /// The number of application points at which forces act: 2 for an edge, 1 for a corner.
     pub fn points_in_use(&self) -> usize {
         match self.kind {
             ContactKind::Edge => 2,
@@ -180,7 +182,8 @@ impl Assembly {
         }
     }
 
-    /// For each of the scene's `blocks` blocks the index of its body, `None` if it is not placed.
+    /// For each block of the scene, the index of its body, or `None` if it is not placed; `blocks` is the number of
+    /// blocks.
     pub fn body_of_block(&self, blocks: usize) -> Vec<Option<usize>> {
         let mut body_of_block = vec![None; blocks];
         for (number, body) in self.bodies.iter().enumerate() {
@@ -189,7 +192,7 @@ impl Assembly {
         body_of_block
     }
 
-    /// The assembly with the load vector of each body computed again from weight, gravity and listed loads.
+    /// The assembly after the load vector of each body is recomputed from weight, gravity and listed loads.
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector {
@@ -201,7 +204,7 @@ impl Assembly {
         self
     }
 
-    /// The largest load of all bodies in newtons: force, moment over L, or weight under the present gravity.
+    /// The largest load of all bodies in newtons: the largest force, moment over L, or weight with the current gravity.
     pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
         self.bodies
@@ -221,8 +224,8 @@ pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> Loa
 
 /// The characteristic length L of a frame in metres: the median length of its edge interfaces.
 ///
-/// Without edge interfaces it is the median square root of the placed blocks' areas. It depends only on what is placed, so
-/// that an answer for a step does not change with later steps.
+/// Without edge interfaces it is the median square root of the placed blocks' areas. It depends only on the placed
+/// blocks, so the result of a step does not change with later steps.
 fn characteristic_length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> f64 {
     let edges = interfaces.iter().filter(|i| i.kind == ContactKind::Edge);
     let area = |b: &BlockId| scene.blocks[b.0].body.polygon.area();

@@ -5,16 +5,16 @@ use super::{Assembly, AssemblyGrip};
 /// Some bodies of an assembly, with all other bodies fixed as if they were ground.
 #[derive(Clone, Debug)]
 pub struct Substructure {
-    /// The bodies as an assembly of their own. Its L is the median length of its own contacts.
+    /// The selected bodies as an assembly. Its length L is the median length of its contacts.
     pub assembly: Assembly,
-    /// For each of its bodies the index in the whole assembly.
+    /// For each body of the substructure: its index in the whole assembly.
     pub bodies: Vec<usize>,
-    /// For each of its contacts the index in the whole assembly.
+    /// For each contact of the substructure: its index in the whole assembly.
     ///
-    /// The forces N1, N2 and T are the same numbers in both, even if the contact is turned round here: normal and tangent
-    /// turn round with it.
+    /// The forces N1, N2 and T have the same values in both assemblies. If the two bodies of a contact are exchanged
+    /// here, its normal and tangent are reversed too.
     pub contacts: Vec<usize>,
-    /// For each of its grips the index in the whole assembly.
+    /// For each grip of the substructure: its index in the whole assembly.
     pub grips: Vec<usize>,
 }
 
@@ -46,6 +46,7 @@ impl Assembly {
                 grips.push(number);
             }
         }
+        // The length L of the part: the median of its contacts, or else of its bodies' radii.
         let lengths = part.contacts.iter().map(|c| (c.ends[1] - c.ends[0]).norm());
         let lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
         let radii = part.bodies.iter().map(|body| body.radius());
@@ -60,7 +61,7 @@ impl Assembly {
         }
     }
 
-    /// The connected sets of those bodies for which `member` is true, each in ascending order.
+    /// The connected sets of the bodies for which `member` is true; the bodies of each set are in ascending order.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
         for contact in &self.contacts {
@@ -75,6 +76,7 @@ impl Assembly {
             if seen[first] {
                 continue;
             }
+            // Breadth-first search from the first body of the set.
             seen[first] = true;
             let mut set = vec![first];
             let mut next = 0;

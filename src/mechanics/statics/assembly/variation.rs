@@ -1,4 +1,5 @@
-//! Varied assemblies: the same bodies in the same places, with one quantity changed. Margins are computed from them.
+//! Changed assemblies: the same bodies in the same positions, with one quantity changed. Margins are computed from
+//! them.
 
 use super::Assembly;
 use crate::geometry::Vector;

@@ -1,6 +1,6 @@
-//! Corner contacts: a corner that touches an edge or another corner carries force, too.
+//! Corner contacts: contact forces where a corner touches an edge or another corner.
 //!
-//! The source leaves them out as unreliable ([Vallat23](crate::doc::references) §3).
+//! [Vallat23](crate::doc::references) §3 omits them as unreliable.
 
 use super::{Applicability, Effect, EffectName, FrameContext, contact};
 use crate::assembly::Assembly;

@@ -1,15 +1,14 @@
-//! Effects: each thing that may be simulated in a frame, such as friction or robots, and whether the frame needs it.
+//! Effects: the phenomena that can be simulated in a frame, such as friction or robots, and whether a frame needs them.
 //!
-//! An effect that acts on the assembly is one file with a type that implements `Effect`: its
-//! `applicability` says whether the frame needs it, with a reason in words, and
-//! `contribute` adds its loads, contacts, friction or grips to the [`Assembly`]. An effect that is
-//! skipped contributes nothing, so that the linear program has no row or column for it. The number of unknowns of each
-//! effect is counted later, from the columns of the programs that were solved.
+//! An effect that acts on the assembly is one file with a type that implements `Effect`: `applicability` returns
+//! whether the frame needs it, with a reason in words, and `contribute` adds its loads, contacts, friction or grips to
+//! the [`Assembly`]. A skipped effect contributes nothing, so the linear program has no row or column for it. The
+//! number of unknowns of each effect is counted later, from the columns of the programs that were solved.
 //!
 //! Sticking, mechanism, margins and wedging depend on the verdict or on the user's options. They contribute to no
 //! assembly; the `report` functions of their files are called after the frame is solved.
 //!
-//! To add an effect, write its file, and add it to [`EffectName`] and to `EFFECTS` here and to `wording/effect.rs`.
+//! To add an effect, write its file, and add it to [`EffectName`] and to `EFFECTS` here.
 
 mod contact;
 mod corner_contact;
@@ -30,7 +29,7 @@ use crate::assembly::Assembly;
 use crate::interface::Interface;
 use crate::scene::{Frame, Scene};
 
-/// The name of an effect. The order is that of reporting; `Display` writes [`EffectName::word`].
+/// The name of an effect. Effects are reported in this order; `Display` writes [`EffectName::word`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum EffectName {
@@ -40,7 +39,7 @@ pub enum EffectName {
     Contact,
     /// Contacts that are pressed resist sliding.
     Friction,
-    /// Forces keep a distance from the ends of interfaces.
+    /// Contact forces act at a distance from the ends of interfaces.
     Kernel,
     /// Robots hold blocks with a force.
     Robots,
@@ -48,20 +47,20 @@ pub enum EffectName {
     RobotTorque,
     /// Forces and torques that the scene lists.
     Loads,
-    /// Corners that touch an edge or another corner carry force too.
+    /// Contact forces also act where a corner touches an edge or another corner.
     CornerContacts,
     /// The least adhesion that a falling frame would need to stand.
     Sticking,
     /// The motion with which a frame collapses.
     Mechanism,
-    /// How far loads, friction and tilt may change before the verdict does.
+    /// How far loads, friction and tilt may change before the verdict changes.
     Margins,
     /// Whether a frame stands only by a self-stress that its loads do not build up.
     Wedging,
 }
 
 impl EffectName {
-    /// Its word in results.
+    /// The word for the effect in results.
     pub fn word(self) -> &'static str {
         match self {
             EffectName::Weight => "weight",
@@ -78,6 +77,30 @@ impl EffectName {
             EffectName::Wedging => "wedging",
         }
     }
+
+    /// A short explanation, for people.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            EffectName::Weight => "each block is pulled along gravity at its centroid",
+            EffectName::Contact => {
+                "blocks press on each other and on the ground where edges touch, and never pull"
+            }
+            EffectName::Friction => "contacts resist sliding, up to μ times the normal force",
+            EffectName::Kernel => "forces keep away from the ends of interfaces",
+            EffectName::Robots => "robots hold blocks by a force, up to their limits",
+            EffectName::RobotTorque => "robots also hold blocks by a torque, up to their limits",
+            EffectName::Loads => "forces and torques from outside, as the scene lists them",
+            EffectName::CornerContacts => "corners that touch carry force too",
+            EffectName::Sticking => {
+                "the least adhesion, or robot force beyond the limits, with which it would stand"
+            }
+            EffectName::Mechanism => "the motion by which it falls",
+            EffectName::Margins => "how far it is from the edge of standing",
+            EffectName::Wedging => {
+                "whether it stands only by a self-stress that its loads do not build up"
+            }
+        }
+    }
 }
 
 impl fmt::Display for EffectName {
@@ -86,7 +109,7 @@ impl fmt::Display for EffectName {
     }
 }
 
-/// What became of one effect in one frame.
+/// Whether one effect was simulated in one frame, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct EffectReport {
@@ -120,7 +143,7 @@ impl EffectReport {
     }
 }
 
-/// A frame, as the effects see it.
+/// The data of a frame that effects use.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameContext<'a> {
     /// The scene.
@@ -162,13 +185,14 @@ impl Applicability {
 
 /// An effect that contributes to the assembly of a frame.
 trait Effect {
-    /// Its name in results.
+    /// The name in results.
     fn name(&self) -> EffectName;
 
     /// Whether the frame needs the effect, and why.
     fn applicability(&self, context: &FrameContext) -> Applicability;
 
-    /// Adds to the assembly what the effect brings. Called only if the effect applies.
+    /// Adds the loads, contacts, friction or grips of the effect to the assembly. It is called only if the effect
+    /// applies.
     fn contribute(&self, context: &FrameContext, assembly: &mut Assembly);
 }
 
@@ -207,7 +231,7 @@ pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
     (assembly.with_summed_loads(), reports)
 }
 
-/// `1 thing`, `2 things`.
+/// A number with a noun, as `1 block` or `2 blocks`.
 fn counted(n: usize, noun: &str) -> String {
     if n == 1 {
         format!("1 {noun}")

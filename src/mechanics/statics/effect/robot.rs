@@ -6,8 +6,8 @@ use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::{Assembly, AssemblyGrip};
 use crate::scene::Limits;
 
-/// Forces of robots. Applies if a robot holds a placed block; contributes one grip per hold, with limits on the force and
-/// none of the torque.
+/// Forces of robots. Applies if a robot holds a placed block; contributes one grip per hold, with the robot's limits of
+/// force and a torque limit of 0.
 pub(super) struct Robots;
 
 impl Effect for Robots {
@@ -19,7 +19,7 @@ impl Effect for Robots {
         let (holds, robots) = (context.frame.holds.len(), context.scene.robots.len());
         match holds {
             _ if robots == 0 => Applicability::skipped("the scene has no robots"),
-            // Two components, each either way.
+            // Two components, each in two directions.
             0 => Applicability::skipped_saving("no robot holds a block", 4 * robots),
             1 => Applicability::Applies("1 robot holds a block".to_owned()),
             n => Applicability::Applies(format!("{} hold blocks", counted(n, "robot"))),

@@ -1,7 +1,7 @@
 //! Robot torque: a torque about the grip point, within the robot's limit.
 //!
-//! Source: [Vallat23](crate::doc::references) §2.0.6. Its §3 sets every limit to 0, because real robots control torque
-//! badly.
+//! Source: [Vallat23](crate::doc::references) §2.0.6. In §3 of that paper every limit is 0, because real robots control
+//! torque poorly.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;

@@ -1,4 +1,4 @@
-//! Sticking: the forces that mortar, or stronger robots, would have to give; they show where a structure fails.
+//! Sticking: the forces that mortar, or stronger robots, would have to exert. They show where a structure fails.
 //!
 //! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum of
 //! all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
@@ -8,10 +8,10 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Sticking;
 
-/// Whether the least sticking was computed, and the reason.
+/// Whether the least sticking was computed, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sought {
-    /// Computed: admissible forces alone balance no load.
+    /// Computed: admissible forces cannot balance the loads.
     Found,
     /// Not computed: the frame stands.
     NotNeeded,

@@ -1,12 +1,12 @@
 //! Wedging: whether a frame stands only by a self-stress that its loads do not build up.
 //!
-//! Pure statics accepts any self-stress: a block between two walls "stands" at any μ > 0, squeezed by a force that nothing
-//! produces. Wedging adds no unknown to the frame's program and does not change the verdict.
+//! Pure statics accepts any self-stress: a block between two walls "stands" at any μ > 0, squeezed by a force that
+//! nothing produces. The check for wedging adds no unknown to the frame's program and does not change the verdict.
 //!
-//! The model has one spring that only presses at every application point and one along every interface. All have the same
-//! stiffness and no stress before the loads act; friction follows Coulomb's law. "Only by wedging" means that these
-//! springs have no state of rest. Source: Kao et al. 2022, Coupled Rigid-Block Analysis, for the question and its H and A
-//! models.
+//! The model has a spring that can only press at every application point, and a spring along every interface. All have
+//! the same stiffness and no stress before the loads act; friction follows Coulomb's law. "Only by wedging" means that
+//! these springs have no state of rest. Source of the question and of its models H and A: Kao et al. 2022, Coupled
+//! Rigid-Block Analysis.
 
 use super::{EffectName, EffectReport};
 
@@ -18,9 +18,9 @@ const NAME: EffectName = EffectName::Wedging;
 pub enum Wedging {
     /// Not requested.
     NotAsked,
-    /// The frame does not stand, so the question does not arise.
+    /// Not checked, because the frame does not stand.
     Falls,
-    /// Undecided, for this reason: a state of rest was neither found nor ruled out.
+    /// Undecided: a state of rest was neither found nor ruled out. The text gives the reason.
     Open(String),
     /// The springs have a state of rest: the frame does not need wedging.
     FromRest,

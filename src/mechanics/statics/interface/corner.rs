@@ -1,21 +1,24 @@
-//! Corner contacts: a corner that touches an edge or another corner, where no edge interface of the two bodies lies.
+//! Finds corner contacts: a corner touches an edge or another corner, and the two bodies have no edge interface there.
 //!
-//! The source leaves them out as unreliable; a scene requests them with `"corner_contacts": true`. The normal of a corner
-//! on an edge is the edge's normal. The normal of two corners is the bisector of the two corners' own bisectors.
+//! Vallat (2023) omits them as unreliable; a scene requests them with `"corner_contacts": true`. If a corner touches an
+//! edge, the normal is that of the edge. If two corners touch, the normal has the direction of the difference of their
+//! inward unit bisectors.
 
 use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
 use crate::scene::{BodyId, Scene};
 
-/// Two corners whose bisectors differ by less than this have no direction in which they press on each other.
+/// Two corners whose unit bisectors differ by at most this have no defined normal, because both point in the same
+/// direction.
 const PARALLEL_BISECTORS: f64 = 1e-9;
 
-/// A corner contact within this many tolerances of another contact of the two bodies is part of it.
+/// A corner contact is part of another contact of the two bodies if it lies within this many tolerances of it.
 ///
-/// The ends of an interface are off by up to a tolerance each, and so is the corner.
+/// The ends of an interface and the corner are each displaced by up to one tolerance.
 const SAME_CONTACT_REACH: f64 = 4.0;
 
-/// On a lattice, points are equal or at least half a side apart: any small fraction of the side serves as tolerance.
+/// The tolerance on a lattice, as a fraction of its side. Any small fraction serves: points are equal or at least half
+/// a side apart.
 const LATTICE_TOLERANCE_PER_SIDE: f64 = 1e-6;
 
 /// A corner with the two sides that meet in it.
@@ -49,14 +52,14 @@ struct CornerSide {
     tip: Tip,
 }
 
-/// All corner contacts in addition to the edge interfaces that are `known`.
+/// Finds all corner contacts that are not part of the edge interfaces in `known`.
 pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     let tolerance_between = |a: BodyId, b: BodyId| match (&scene.lattice, scene.exact) {
         (Some(lattice), true) => LATTICE_TOLERANCE_PER_SIDE * lattice.side,
         _ => scene.tolerance_between(a, b).gap,
     };
     let index = BoxIndex::new(corner_sides(scene), |place| place.side.bounds());
-    // In the order of the scene: of several corners in one place the first one becomes the contact.
+    // In the order of the scene: of several corners at the same point, the first one becomes the contact.
     let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
     places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();

@@ -1,19 +1,23 @@
-//! Interfaces of scenes off the lattice: edges of two bodies that face each other within the scene's tolerance.
+//! Finds the interfaces of scenes that are not on a lattice: edges of two bodies that face each other within the
+//! tolerance.
 //!
 //! 1. A bounding-volume hierarchy over position and direction returns the pairs of edges that may face each other.
 //! 2. [`compare`] decides for each pair: common stretch, too short, or apart.
 //! 3. Stretches of the same two bodies that continue each other are joined ([`join`](super::join)).
 //! 4. Gaps that a stone keeps open are found ([`pinned`](super::pinned)).
+//!
+//! Reference: Ericson, Real-Time Collision Detection, 2005, chapter 6 (bounding-volume hierarchies).
 
+use super::common_stretch::{CommonStretch, min_contact_length};
 use super::join::{JOIN_REACH, join_stretches};
 use super::notice::Notices;
 use super::open_stretch::{OpenStretch, without_outline};
 use super::pinned::{MAX_PINNED_SIZE_PER_GAP, pinned_gaps};
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, normal_across, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross};
-use crate::scene::{BodyId, Scene, ToleranceSource, size};
+use crate::scene::{BodyId, Scene, size};
 
-/// Edges that are farther apart than this many gaps are not mentioned in a notice.
+/// Edges whose distance exceeds this many gaps are not mentioned in a notice.
 const MAX_REPORTED_GAPS: f64 = 30.0;
 
 /// Edges whose directions differ by less than this, in radians, count as parallel however small the gap is.
@@ -32,21 +36,12 @@ const MAX_GAP_PER_SIZE: f64 = 0.01;
 /// They are the rounding of a corner that touches the end of an edge.
 const CORNER_ROUNDING: f64 = 1e-3;
 
-/// An edge longer than this fraction of a block's size (four times its area over its boundary) is a side on which it may
-/// have been meant to lie; a shorter one is part of a rounded outline.
+/// An edge longer than this fraction of a block's size (four times its area over its perimeter) is a side on which the
+/// block may have been meant to lie; a shorter edge is part of a rounded outline.
 ///
-/// The shortest side of a slender column is just over half its size, an edge of a round stone of 20 corners a sixth.
+/// The shortest side of a slender column is just over half its size; an edge of a round stone with 20 corners is a
+/// sixth.
 const LONG_SIDE_PER_SIZE: f64 = 0.5;
-
-/// If a tolerance is given, a stretch that covers this fraction of the shorter edge is a contact, however short the edge.
-///
-/// Ten times this is more than an edge has. A tenth would count two bricks that touch at their chamfers by a hair.
-const CONTACT_PER_EDGE: f64 = 0.5;
-
-/// Edges shorter than this fraction of a given tolerance are what healing leaves of two corners in one place, not edges.
-///
-/// Ten times this would drop the edges of a circle of 100 000 corners; a tenth comes near the rounding of numbers.
-const MIN_EDGE_PER_TOLERANCE: f64 = 1e-6;
 
 /// An edge of a body.
 struct Side {
@@ -54,7 +49,7 @@ struct Side {
     /// Its index among the body's edges.
     number: usize,
     edge: Edge,
-    /// Edges of other bodies at a larger distance are ignored, metres.
+    /// The largest distance of edges of other bodies that are considered, metres.
     search_distance: f64,
 }
 
@@ -62,8 +57,8 @@ impl Side {
     /// Bounds of the edge in x, y and direction.
     ///
     /// The range of directions contains each edge that may face this one within the smaller of both angle tolerances.
-    /// Without the direction, the boxes of an arch's thin inclined stones overlap by the hundred; with it they do not,
-    /// because each joint has a direction of its own.
+    /// Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With it, it
+    /// overlaps only a few, because each joint has a different direction.
     fn bounds(&self) -> Aabb<3> {
         let along = self.edge.vector();
         let angle =
@@ -111,7 +106,7 @@ fn direction(v: Vector) -> f64 {
     }
 }
 
-/// How two edges that face each other lie.
+/// The relation of two edges that face each other.
 enum Relation {
     /// They touch along a stretch; the number is their largest distance along it, metres.
     Touching(Interface, f64),
@@ -121,10 +116,10 @@ enum Relation {
     Apart(OpenStretch),
 }
 
-/// Two bodies, the numbers of two of their edges, and how these lie.
+/// Two bodies, the numbers of one edge of each, and the relation of the two edges.
 type Pair = ([BodyId; 2], [usize; 2], Relation);
 
-/// All edge interfaces of a scene, and everything that nearly is one.
+/// Finds all edge interfaces of a scene, and the edges that are nearly interfaces.
 pub(super) fn find(scene: &Scene) -> Interfaces {
     let (sides, smallest) = sides(scene);
     let index = BoxIndex::new(sides, Side::bounds);
@@ -176,6 +171,17 @@ fn sides(scene: &Scene) -> (Vec<Side>, f64) {
     (sides, smallest)
 }
 
+/// What was found along all pairs of edges.
+#[derive(Default)]
+struct Collection {
+    interfaces: Vec<Interface>,
+    near_misses: Vec<NearMiss>,
+    slivers: Vec<Interface>,
+    /// Interfaces with a gap that a stone may keep open.
+    open_joints: Vec<NearMiss>,
+    notices: Notices,
+}
+
 /// Sorts the pairs of edges, grouped by their bodies, into interfaces, near misses and slivers.
 fn collect(
     scene: &Scene,
@@ -183,63 +189,85 @@ fn collect(
     sides: &BoxIndex<Side, 3>,
     smallest: f64,
 ) -> Interfaces {
-    let mut notices = Notices::default();
-    let (mut all, mut near_misses) = (Vec::with_capacity(pairs.len()), Vec::new());
-    let (mut slivers, mut open_joints) = (Vec::new(), Vec::new());
+    let mut found = Collection::default();
+    found.interfaces.reserve(pairs.len());
     let mut pairs = pairs.into_iter().peekable();
     while let Some(bodies) = pairs.peek().map(|pair| pair.0) {
         let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
-        let first = all.len();
+        let first = found.interfaces.len();
         let mut open = Vec::new();
         while let Some((_, _, relation)) = pairs.next_if(|pair| pair.0 == bodies) {
             match relation {
                 Relation::Touching(interface, distance) => {
-                    // Only a gap that some stone of the scene can fill may be kept open by a stone.
-                    if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
-                        open_joints.push(NearMiss {
-                            bodies,
-                            at: interface.middle(),
-                            distance,
-                        });
-                    }
-                    all.push(interface);
+                    found.add_touching(interface, distance, smallest);
                 }
-                Relation::TooShort(interface) => {
-                    notices.add_short(interface.length(), tolerance);
-                    if interface.length() > tolerance.rounding {
-                        slivers.push(interface);
-                    }
-                }
+                Relation::TooShort(interface) => found.add_short(interface, tolerance),
                 Relation::Apart(stretch) => open.push(stretch),
             }
         }
-        if all.len() > first + 1 {
-            let stretches = all.split_off(first);
-            all.extend(join_stretches(stretches, tolerance));
+        if found.interfaces.len() > first + 1 {
+            let stretches = found.interfaces.split_off(first);
+            found
+                .interfaces
+                .extend(join_stretches(stretches, tolerance));
         }
-        if open.is_empty() {
-            continue;
+        if !open.is_empty() {
+            let touching = touching_points(scene, bodies, &found.interfaces[first..], sides);
+            found.add_gaps(scene, bodies, open, touching);
         }
-        let touching = touching_points(scene, bodies, &all[first..], sides);
+    }
+    let pinned_gaps = pinned_gaps(scene, &found.interfaces, &found.open_joints);
+    Interfaces {
+        all: found.interfaces,
+        near_misses: found.near_misses,
+        slivers: found.slivers,
+        pinned_gaps,
+        notices: found.notices.into_sentences(scene.tolerance),
+    }
+}
+
+impl Collection {
+    /// Adds an interface. `smallest` is the size of the smallest stone, metres.
+    fn add_touching(&mut self, interface: Interface, distance: f64, smallest: f64) {
+        // Only a gap that some stone of the scene can fill may be kept open by a stone.
+        if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
+            self.open_joints.push(NearMiss {
+                bodies: interface.bodies,
+                at: interface.middle(),
+                distance,
+            });
+        }
+        self.interfaces.push(interface);
+    }
+
+    /// Adds a contact that is too short to count; one within rounding is not even a sliver.
+    fn add_short(&mut self, interface: Interface, tolerance: Tolerance) {
+        self.notices.add_short(interface.length(), tolerance);
+        if interface.length() > tolerance.rounding {
+            self.slivers.push(interface);
+        }
+    }
+
+    /// Adds the gaps between two bodies, without those along rounded outlines that touch.
+    fn add_gaps(
+        &mut self,
+        scene: &Scene,
+        bodies: [BodyId; 2],
+        open: Vec<OpenStretch>,
+        touching: Vec<Point>,
+    ) {
+        let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
         let longest = longest_outline_edge(scene, bodies);
         for gap in without_outline(open, touching, tolerance, scene.misfit, longest) {
             if gap.distance() <= MAX_REPORTED_GAPS * tolerance.gap {
-                notices.add_apart(scene, bodies, gap.distance());
+                self.notices.add_apart(scene, bodies, gap.distance());
             }
-            near_misses.push(NearMiss {
+            self.near_misses.push(NearMiss {
                 bodies,
                 at: gap.at,
                 distance: gap.distance(),
             });
         }
-    }
-    let pinned_gaps = pinned_gaps(scene, &all, &open_joints);
-    Interfaces {
-        all,
-        near_misses,
-        slivers,
-        pinned_gaps,
-        notices: notices.into_sentences(scene.tolerance),
     }
 }
 
@@ -252,7 +280,8 @@ fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     bodies.iter().map(of_body).fold(f64::INFINITY, f64::min)
 }
 
-/// Where two bodies touch: the ends of their interfaces, or the only corner of the first body that touches the second.
+/// The points at which two bodies touch: the ends of their interfaces, or the only corner of the first body that
+/// touches the second.
 fn touching_points(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -267,7 +296,7 @@ fn touching_points(
         .collect()
 }
 
-/// The only corner of the first body that touches the second; `None` if there is none, or several in different places.
+/// The only corner of the first body that touches the second; `None` if there is none, or several at different points.
 fn only_touching_corner(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -275,7 +304,7 @@ fn only_touching_corner(
 ) -> Option<Point> {
     let gap = scene.tolerance_between(bodies[0], bodies[1]).gap;
     let touches = |at: &Point| {
-        // Any direction: the range exceeds a full turn.
+        // The range of directions covers a full turn, so edges of any direction are found.
         let query = Aabb {
             min: [at.x - gap, at.y - gap, -FULL_TURN],
             max: [at.x + gap, at.y + gap, 2.0 * FULL_TURN],
@@ -297,7 +326,7 @@ fn only_touching_corner(
         .then_some(first)
 }
 
-/// How edge `a` of the first body and edge `b` of the second lie; `None` if they do not face each other.
+/// The relation of edge `a` of the first body to edge `b` of the second; `None` if they do not face each other.
 fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Relation> {
     let search_distance = a.search_distance.min(b.search_distance);
     let (a, b) = (a.edge, b.edge);
@@ -305,7 +334,7 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if va.dot(&vb) >= 0.0 {
         return None;
     }
-    // Are they parallel? Rounding by one gap at either end turns a short edge more than a long one.
+    // Test for parallel edges. Moving the ends by one gap turns a short edge more than a long one.
     let (la, lb) = (va.norm(), vb.norm());
     let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     let is_parallel_within = |gap: f64| {
@@ -315,35 +344,16 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if !is_parallel_within(search_distance) {
         return None;
     }
-    // The stretch from s0 to s1 that both cover, measured along their mean direction from the start of `a`.
-    let along = (va - vb).normalize();
-    let place = |p: Point| along.dot(&(p - a.from));
-    let (a0, a1, b0, b1) = (0.0, place(a.to), place(b.to), place(b.from));
-    let (s0, s1) = (f64::max(a0, b0), f64::min(a1, b1));
-    let length = s1 - s0;
+    let stretch = CommonStretch::new(a, b);
+    let length = stretch.length();
     if length < -tolerance.min_length {
         return None;
     }
-    // The distance from `a` to `b` at the two ends of the stretch.
-    let outward = Vector::new(along.y, -along.x);
-    let height = |e: Edge, s: f64| {
-        let (h0, h1) = (
-            outward.dot(&(e.from - a.from)),
-            outward.dot(&(e.to - a.from)),
-        );
-        let (t0, t1) = (place(e.from), place(e.to));
-        h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
-    };
-    let (gap0, gap1) = (height(b, s0) - height(a, s0), height(b, s1) - height(a, s1));
-    // The line halfway between the two edges.
-    let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
-    let distance = gap0.abs().max(gap1.abs());
+    let distance = stretch.distance();
     if distance > tolerance.gap {
         let is_near_miss =
-            gap0.min(gap1) >= -tolerance.gap && distance <= search_distance && length > distance;
-        let at = a.from + along * ((s0 + s1) / 2.0);
-        let ends = [(s0, gap0), (s1, gap1)].map(|(s, gap)| (middle(s), gap.abs()));
-        return is_near_miss.then_some(Relation::Apart(OpenStretch::new(ends, at)));
+            stretch.depth() >= -tolerance.gap && distance <= search_distance && length > distance;
+        return is_near_miss.then(|| Relation::Apart(stretch.open()));
     }
     if !is_parallel_within(tolerance.gap) {
         return None;
@@ -353,7 +363,7 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
         return None;
     }
     // The first body lies to the left of `along`, so that (−n_y, n_x) points in the opposite direction.
-    let ends = [middle(s1), middle(s0)];
+    let ends = [stretch.middle(stretch.end), stretch.middle(stretch.start)];
     let interface = Interface {
         bodies,
         kind: ContactKind::Edge,
@@ -365,15 +375,4 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
         true => Relation::TooShort(interface),
         false => Relation::Touching(interface, distance),
     })
-}
-
-/// The length in metres that two edges must have in common to form an interface; `edge` is the shorter edge's length.
-fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
-    let min_length = tolerance.min_contact_length(edge);
-    let is_given = scene.healed.source == ToleranceSource::Given;
-    if is_given && edge > MIN_EDGE_PER_TOLERANCE * tolerance.gap {
-        // A given tolerance may be larger than the edges of a round stone. What covers most of an edge is a contact.
-        return min_length.min(CONTACT_PER_EDGE * edge);
-    }
-    min_length
 }

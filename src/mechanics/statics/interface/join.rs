@@ -1,7 +1,8 @@
 //! [`join_stretches`]: joins the common stretches of two bodies that continue each other along one line.
 //!
-//! A corner inside a straight joint divides an edge in two, but must not change the interfaces. A joint may consist of a
-//! hundred thousand stretches, so that their ends are searched in a grid whose cells are as wide as the tolerance.
+//! A corner inside a straight joint divides an edge in two, but must not change the interfaces. A joint may consist of
+//! a hundred thousand stretches. Their ends are therefore searched in a grid (spatial hashing) whose cells are as wide
+//! as the largest distance of two ends that are joined.
 
 use std::collections::BTreeMap;
 
@@ -10,18 +11,18 @@ use crate::geometry::{Point, Tolerance, cross};
 
 /// Two stretches on one line continue each other if their ends lie within this many gaps of each other.
 ///
-/// Both ends of a stretch come from corners that are off by up to a gap each. A tenth of this would leave the stretches of
-/// one rounded joint apart; ten times this would join the two feet of a body across the hollow between them, which changes
-/// no verdict but the interfaces that are drawn.
+/// Each end of a stretch comes from corners that are displaced by up to a gap each. At a tenth, the stretches of one
+/// rounded joint would not be joined. At ten times, the two feet of a body would be joined across the hollow between
+/// them, which changes no verdict but the interfaces that are drawn.
 pub(super) const JOIN_REACH: f64 = 4.0;
 
 /// Stretches whose normals differ by more than this, in radians, are not on one line.
 ///
-/// Rounding of coordinates turns normals by 10⁻⁷ or less in scenes of usual size. A tenth would split joints of drawings
-/// with seven digits; ten times as much would join neighbouring facets of a finely drawn curve.
+/// Rounding of coordinates turns normals by 10⁻⁷ or less in scenes of usual size. A tenth would split joints of
+/// drawings with seven digits; ten times this angle would join neighbouring sides of a finely drawn curve.
 const SAME_LINE_TOL: f64 = 1e-6;
 
-/// The stretches of one pair of bodies, with those that continue each other joined.
+/// Joins those stretches of one pair of bodies that continue each other, and returns all stretches.
 pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
     let mut remaining = StretchGrid::new(stretches, JOIN_REACH * tolerance.gap);
     let mut joined = Vec::new();
@@ -37,8 +38,8 @@ pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) ->
 
 /// The two outermost ends of two stretches, measured along the first one.
 ///
-/// Which end of one stretch lies next to which end of the other does not decide this: where the stretches are shorter
-/// than the distance within which ends count as equal, all four ends lie next to each other.
+/// All four ends are compared: if the stretches are shorter than the distance within which ends count as equal, it is
+/// not known which ends meet.
 fn outermost_ends(one: &Interface, other: &Interface) -> [Point; 2] {
     let along = one.tangent();
     let place = |p: &Point| along.dot(&(p - one.ends[0]));
@@ -59,7 +60,7 @@ type GridCell = (i64, i64);
 
 /// Stretches that are not yet joined, with a grid over their ends.
 struct StretchGrid {
-    /// `None` once taken.
+    /// The stretches; `None` for those that were removed.
     stretches: Vec<Option<Interface>>,
     /// For each cell the indices of the stretches that begin in it.
     begins: BTreeMap<GridCell, Vec<usize>>,
@@ -92,7 +93,7 @@ impl StretchGrid {
         (number(p.x), number(p.y))
     }
 
-    /// Removes and returns the last stretch that is left.
+    /// Removes and returns the last remaining stretch.
     fn take_last(&mut self) -> Option<Interface> {
         while let Some(last) = self.stretches.pop() {
             if last.is_some() {

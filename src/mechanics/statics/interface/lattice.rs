@@ -1,7 +1,7 @@
-//! Interfaces of lattice scenes, decided in whole numbers.
+//! Finds the interfaces of lattice scenes with integer arithmetic, so the result is exact.
 //!
-//! Two cells share an edge when one has it forwards and the other backwards; runs of such edges between the same two
-//! bodies along one line are one interface.
+//! Two cells share an edge if one has it in one direction and the other in the opposite direction. Consecutive edges
+//! between the same two bodies along one line are one interface.
 
 use std::collections::BTreeMap;
 
@@ -11,21 +11,22 @@ use crate::scene::{BodyId, Scene};
 
 type Node = (i64, i64);
 
-/// Who has which unit edges of a lattice: what a growing structure touches is looked up here, and not searched anew.
+/// The bodies that own each unit edge of a lattice. When a block is added to a structure, its contacts are looked up
+/// here.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LatticeEdges {
     owners: BTreeMap<(Node, Node), Vec<BodyId>>,
 }
 
 impl LatticeEdges {
-    /// Enters a body of cells.
+    /// Adds the edges of a body that consists of cells.
     pub(crate) fn add(&mut self, id: BodyId, cells: &[Cell]) {
         for step in boundary(cells) {
             self.owners.entry(step).or_default().push(id);
         }
     }
 
-    /// Takes a body out.
+    /// Removes the edges of a body.
     pub(crate) fn remove(&mut self, id: BodyId, cells: &[Cell]) {
         for step in boundary(cells) {
             if let Some(owners) = self.owners.get_mut(&step) {
@@ -34,7 +35,8 @@ impl LatticeEdges {
         }
     }
 
-    /// The interfaces in which a body is the first of the two, as the last block of a scene is in all of its own.
+    /// The interfaces in which the body `id` is the first of the two bodies. For the last block of a scene, these are
+    /// all its interfaces.
     pub(crate) fn interfaces_of(
         &self,
         scene: &Scene,
@@ -46,14 +48,16 @@ impl LatticeEdges {
         self.interfaces(scene, lattice, own.map(|step| (step, id)))
     }
 
-    /// The interfaces of some edges, each given with its owner.
+    /// The interfaces along some edges. Each edge is given with its owner, which must be the first body of the
+    /// interface.
     fn interfaces(
         &self,
         scene: &Scene,
         lattice: &Lattice,
         edges: impl Iterator<Item = ((Node, Node), BodyId)>,
     ) -> Vec<Interface> {
-        // Unit edges of the first body, by pair and direction, as a map from begin to end.
+        // For each pair of bodies and each direction: the shared unit edges of the first body, as a map from begin to
+        // end.
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
             for other in self.owners.get(&(b, a)).into_iter().flatten() {
@@ -69,7 +73,7 @@ impl LatticeEdges {
     }
 }
 
-/// All edge interfaces of a scene made of cells.
+/// Finds all edge interfaces of a scene that consists of cells.
 pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
     let mut edges = LatticeEdges::default();
     for id in bodies(scene) {
@@ -82,7 +86,7 @@ pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
     edges.interfaces(scene, lattice, all)
 }
 
-/// Runs of unit edges between the same two bodies along one line, each as one interface.
+/// Joins consecutive unit edges between the same two bodies along one line into one interface each.
 fn joined(
     scene: &Scene,
     lattice: &Lattice,
@@ -104,7 +108,10 @@ fn joined(
     found
 }
 
-/// The first body lies to the left of begin → end, so that its inward normal is that direction's quarter turn.
+/// The interface from the node `begin` to the node `end`.
+///
+/// The first body lies to the left of this direction, so the normal into it is the direction rotated anticlockwise by
+/// 90°.
 fn interface(
     scene: &Scene,
     lattice: &Lattice,
@@ -116,7 +123,7 @@ fn interface(
     Interface {
         bodies: pair,
         kind: ContactKind::Edge,
-        // (−n_y, n_x) of the left normal is the edge turned by a half: it runs from the end back to the begin.
+        // The tangent (−n_y, n_x) of this normal points from the end back to the begin.
         ends: [to, from],
         normal: quarter_turn((to - from).normalize()),
         friction: scene.friction_between(pair[0], pair[1]),

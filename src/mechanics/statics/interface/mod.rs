@@ -4,6 +4,7 @@
 //! far apart for an interface are reported in [`Interfaces::notices`], so that none is dropped silently.
 
 mod corner;
+mod common_stretch;
 mod edge;
 mod join;
 mod pinned;
@@ -25,7 +26,7 @@ use crate::scene::{BlockId, BodyId, Frame, Scene};
 pub enum ContactKind {
     /// Two edges share a stretch.
     Edge,
-    /// A corner touches an edge or another corner: one point carries force.
+    /// A corner touches an edge or another corner; the contact force acts at one point.
     Corner,
 }
 
@@ -99,14 +100,14 @@ pub struct NearMiss {
 /// A gap within the tolerance that a stone of the same height keeps open: the two bodies do not touch there.
 #[derive(Clone, Debug)]
 pub(crate) struct PinnedGap {
-    /// The two bodies, the place and the width of the gap.
+    /// The two bodies, the position and the width of the gap.
     gap: NearMiss,
     /// The stone.
     stone: BlockId,
 }
 
 impl PinnedGap {
-    /// Whether an interface lies in the gap, so that it does not exist while the stone is present.
+    /// Whether an interface lies in the gap: it then does not exist while the stone is present.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -115,7 +116,7 @@ impl PinnedGap {
     }
 }
 
-/// All contacts of a scene, and everything that nearly is one.
+/// All contacts of a scene, and the edges that are nearly contacts.
 #[derive(Clone, Debug)]
 pub struct Interfaces {
     /// The contacts, in the order of the bodies' numbers and then of their ends.
@@ -154,6 +155,7 @@ impl Interfaces {
         found
     }
 
+    /// Sorts the contacts by their bodies, then by the coordinates of their ends.
     fn sort(&mut self) {
         self.all.sort_by(|a, b| {
             let place = |i: &Interface| [i.ends[0].x, i.ends[0].y, i.ends[1].x, i.ends[1].y];
@@ -173,7 +175,7 @@ impl Interfaces {
         all
     }
 
-    /// The interfaces of a frame: both bodies are present, and no present stone keeps them apart.
+    /// The interfaces of a frame: those whose two bodies are present and are not kept apart by a present stone.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
@@ -214,8 +216,8 @@ fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
 
 /// The unit normal that is exactly perpendicular to a stretch whose ends lie along (−n_y, n_x).
 ///
-/// Friction is one force per interface, and a program or proof may let it act at any point of the interface. They agree
-/// only if the line through the two ends is the line of friction.
+/// Friction is one force per interface, which acts along the line through the two ends. Its moment is the same at both
+/// ends only if the normal is exactly perpendicular to this line.
 fn normal_across(ends: [Point; 2]) -> Vector {
     quarter_turn((ends[0] - ends[1]).normalize())
 }

@@ -1,18 +1,18 @@
-//! [`Notices`]: sentences about edges that nearly are interfaces, each written once for the whole scene.
+//! [`Notices`]: sentences about edges that are nearly interfaces, each written once for the whole scene.
 
 use crate::geometry::Tolerance;
 use crate::scene::{BodyId, Scene};
 
-/// Counts what does not count as an interface.
+/// Collects the stretches that are too short and the edges that are too far apart for an interface.
 #[derive(Default)]
 pub(super) struct Notices {
     /// Number of stretches that are too short.
     short_count: usize,
-    /// The longest of them, metres.
+    /// The length of the longest of these stretches, metres.
     longest_short: f64,
     /// The largest length that was required, metres.
     required_length: f64,
-    /// Two bodies that nearly touch, in words, and their distance in metres.
+    /// Pairs of bodies that nearly touch: their names as text, and their distance in metres.
     apart: Vec<(String, f64)>,
 }
 

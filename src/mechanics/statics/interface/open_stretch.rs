@@ -1,16 +1,16 @@
 //! [`OpenStretch`]: a stretch along which two bodies face each other without touching.
 //!
-//! [`without_outline`] keeps only those that may have been meant to touch, and drops those that are the shape of an outline.
+//! [`without_outline`] drops the stretches that belong to the shape of an outline. It keeps those that may have been
+//! meant to touch.
 
 use crate::geometry::{Point, Tolerance};
 
 use super::join::JOIN_REACH;
 
-/// An outline that leaves a contact and comes to lie along the other body again does so within this many times the distance
-/// it has gained.
+/// A stretch belongs to the outline if it begins near a contact: within this multiple of its widest gap.
 ///
-/// Edges that rise by less than one in a hundred face the other body themselves. A tenth would miss shallow steps of round
-/// stones; ten times this would pass over the hollow between two supports of one body.
+/// Edges that rise by less than one in a hundred face the other body themselves. A tenth would miss shallow steps of
+/// round stones; ten times this value would include the hollow between two supports of one body.
 const OUTLINE_REACH_PER_GAP: f64 = 50.0;
 
 /// A stretch along which two edges face each other and do not touch.
@@ -41,18 +41,19 @@ impl OpenStretch {
     }
 }
 
-/// The stretches along which two bodies are apart, without those that are the shape of an outline.
+/// Drops the open stretches of two bodies that belong to the shape of an outline.
 ///
-/// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both sides,
-/// because its outline turns there: no tolerance closes that without bending the outline. These steps follow the outline:
+/// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both
+/// sides, because its outline turns there: no tolerance closes that without bending the outline. These steps follow the
+/// outline:
 ///
-/// 1. Begin where the bodies touch: at the ends of their contacts, or at the one corner on which a body stands. A body on
-///    two corners with a hollow between them may have been meant to lie flat.
-/// 2. Leave out every stretch that is narrowest there, and continue from its wide end.
+/// 1. Begin at the points where the bodies touch: at the ends of their contacts, or at the one corner on which a body
+///    stands. A body on two corners with a hollow between them may have been meant to lie flat.
+/// 2. Drop every stretch that is narrowest there, and continue from its wide end.
 ///
-/// Three kinds of stretches are kept. The first is at most as wide as the rounding of coordinates (`misfit`, metres), since
-/// a straight edge may look bent by that. The second is longer than `longest` metres, since a body that is drawn askew on
-/// its whole side may have been meant to lie flat. The third lies away from where the bodies touch.
+/// Three kinds of stretches are kept. The first is at most as wide as the rounding of coordinates (`misfit`, metres),
+/// which can make a straight edge look bent. The second is longer than `longest` metres: a body that is drawn askew
+/// along its whole side may have been meant to lie flat. The third lies away from the points where the bodies touch.
 pub(super) fn without_outline(
     mut stretches: Vec<OpenStretch>,
     touching: Vec<Point>,

@@ -1,4 +1,5 @@
-//! Gaps that a pinning stone keeps open: they are meant to be open, however narrow they are.
+//! Finds gaps that a pinning stone keeps open. Such gaps are open on purpose, even if they are narrower than the
+//! tolerance.
 
 use std::collections::BTreeMap;
 
@@ -27,8 +28,9 @@ impl<'a> ContactsByBody<'a> {
 
 /// The stone that stands between the two bodies of a gap and keeps it open; `None` if there is none.
 ///
-/// Such a stone touches both bodies on opposite sides, and is as high between them as the gap is wide: at least half, at
-/// most 1.1 times and `tolerance` metres more. Only bodies for which `is_present` is true are considered.
+/// Such a stone touches the two bodies on opposite sides, and its height between them is about the width of the gap:
+/// more than half of it, and at most 1.1 times the width plus `tolerance` metres. Only bodies for which `is_present` is
+/// true are considered.
 pub(crate) fn pinning_stone(
     gap: &NearMiss,
     contacts: &ContactsByBody,
@@ -44,7 +46,7 @@ pub(crate) fn pinning_stone(
         let pins = is_present(&stone)
             && contacts.of_body(stone).iter().any(|above| {
                 let height = (above.middle() - below.middle()).dot(&below.normal).abs();
-                // Within 8° of parallel.
+                // The two contacts are parallel within 8°.
                 let is_opposite = below.normal.dot(&above.normal).abs() > 0.99;
                 above.bodies.contains(&other)
                     && is_opposite
@@ -55,13 +57,14 @@ pub(crate) fn pinning_stone(
     })
 }
 
-/// A stone that keeps a gap open within the tolerance is at most this many times as large as the gap is wide.
+/// The largest size of a stone that can keep a gap open, as a multiple of the width of the gap.
 ///
-/// The size of a stone is four times its area over its circumference, which is less than twice its height. A larger stone
-/// touches the two bodies at a step instead. A tenth would recognise no stone; ten times as much would only cost time.
+/// The size of a stone is four times its area over its perimeter, which is less than twice its height. A larger stone
+/// touches the two bodies at a step instead. A tenth would recognise no stone; ten times this value would only take
+/// more time.
 pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
-/// Those joints within the tolerance that a stone keeps open.
+/// The joints among `open_joints` that a stone keeps open. Their gaps are within the tolerance.
 pub(super) fn pinned_gaps(
     scene: &Scene,
     all: &[Interface],

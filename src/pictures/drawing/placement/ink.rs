@@ -165,7 +165,8 @@ impl Ink {
     /// Whether an upright rectangle overlaps no ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // The rectangle's own sides separate nothing here, as the boxes overlap: the sides of the piece decide.
+        // The boxes overlap, so the sides of the rectangle separate nothing. Only the sides of the piece remain to be
+        // tested.
         let meets = |piece: &Piece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))
@@ -250,7 +251,7 @@ impl Side {
 
     /// Whether the line of the side separates its piece from an upright box.
     fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
-        // The direction of the side tells at which corners the offset is least and greatest.
+        // The signs of the side's direction decide at which corners the offset is least and greatest.
         let (below, above) = if self.along.0 >= 0.0 {
             (min.y, max.y)
         } else {
@@ -312,7 +313,7 @@ struct Cells {
 
 impl Grid {
     fn new(pieces: &[Piece]) -> Grid {
-        // A page has some thousand pixels; what lies far beyond it shares the outermost cells.
+        // A page is a few thousand pixels wide. Everything far outside shares the outermost cells.
         let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
         let ends =
             |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));

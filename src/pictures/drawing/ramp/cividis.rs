@@ -1,5 +1,5 @@
-//! The colour map cividis of matplotlib, by Jamie R. Nuñez, Christopher R. Anderton and Ryan S. Renslow
-//! ([Nunez18](crate::doc::references)), made to look nearly alike with and without a deficiency of colour vision.
+//! The colour ramp cividis of matplotlib, by Jamie R. Nuñez, Christopher R. Anderton and Ryan S. Renslow
+//! ([Nunez18](crate::doc::references)). It looks nearly the same with and without colour blindness.
 
 /// 256 colours from dark blue over grey to yellow, as 0xrrggbb.
 #[rustfmt::skip]

@@ -1,4 +1,4 @@
-//! The colour map plasma of matplotlib (by Nathaniel J. Smith and Stéfan van der Walt, in the public domain, CC0).
+//! The colour ramp plasma of matplotlib, by Nathaniel J. Smith and Stéfan van der Walt (public domain, CC0).
 
 /// 256 colours from dark blue over purple and orange to yellow, as 0xrrggbb.
 #[rustfmt::skip]

@@ -1,8 +1,9 @@
-//! Style files: a theme, or what is to differ from one, as a person writes it down in JSON or TOML.
+//! Reads style files: JSON or TOML files that describe a theme, or its differences from another theme.
 //!
 //! The keys are the names of the fields of [`Theme`], with `theme` for the one that is started from. Everything may be left
 //! out. All that is wrong is reported at once.
 
+mod reading;
 mod value;
 
 use core::fmt;
@@ -10,7 +11,7 @@ use core::fmt;
 use super::super::colour::Colour;
 use super::super::ramp;
 use super::{Sizes, Theme, Widths};
-use crate::text::nearest;
+use reading::Reading;
 use value::Value;
 
 /// How a style file is written.
@@ -41,8 +42,8 @@ pub struct StyleProblem {
 pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
-    /// The theme that a style file describes: `base` where it is given, else the theme that the file names, else the
-    /// default, with everything changed that the file tells.
+    /// Reads the theme that a style file describes. The file changes the theme `base`. If `base` is `None`, it changes the
+    /// theme that the file names, or else the default theme.
     ///
     /// # Errors
     /// All that is wrong with the file.
@@ -89,7 +90,7 @@ impl Theme {
         }
     }
 
-    /// The whole theme as a style file in JSON, which reads back to the same theme.
+    /// The whole theme as a style file in JSON. Reading it gives the same theme.
     ///
     /// ```
     /// use drystone::drawing::{Theme, style::format::Notation};
@@ -196,9 +197,9 @@ const SIZES: [SizeField; 7] = [
 /// Smaller letters cannot be read, larger ones leave no room for the figure.
 const LETTERS: [f64; 2] = [8.0, 100.0];
 
-/// The fewest stops in even steps from which a ramp can be made again, all of its colours at worst.
+/// The smallest number of evenly spaced stops that reproduce a ramp; in the worst case all 256 colours.
 fn stops(ramp: &[Colour]) -> Vec<Colour> {
-    // Steps that meet whole entries of 256.
+    // Only steps that divide 255 meet whole entries.
     for step in [255, 85, 51, 17, 15, 5, 3] {
         let stops: Vec<Colour> = ramp.iter().step_by(step).copied().collect();
         if ramp::between(&stops) == ramp {
@@ -206,191 +207,6 @@ fn stops(ramp: &[Colour]) -> Vec<Colour> {
         }
     }
     ramp.to_vec()
-}
-
-/// Goes through a file and notes all that is wrong.
-#[derive(Default)]
-struct Reading {
-    problems: Vec<StyleProblem>,
-}
-
-impl Reading {
-    fn note(&mut self, path: &str, message: String, help: String) {
-        self.problems.push(StyleProblem {
-            path: path.to_owned(),
-            message,
-            help,
-        });
-    }
-
-    /// The theme that a file names; what is wrong with the name is noted when its key comes.
-    fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
-        let named = |(key, value): &(String, Value)| match value {
-            Value::Text(name) if key == "theme" => Theme::named(name),
-            _ => None,
-        };
-        entries.iter().find_map(named)
-    }
-
-    fn theme(&mut self, entries: &[(String, Value)], theme: &mut Theme) {
-        for (number, (key, value)) in entries.iter().enumerate() {
-            self.once(entries, number, key);
-            if let Some((_, field)) = COLOURS.iter().find(|c| c.0 == key) {
-                if let Some(colour) = self.colour(key, value) {
-                    *field(theme) = colour;
-                }
-            } else if let Some((_, field)) = LISTS.iter().find(|l| l.0 == key) {
-                if let Some(colours) = self.colours(key, value, 1) {
-                    *field(theme) = colours;
-                }
-            } else if key == AMPLITUDES {
-                if let Some(colours) = self.amplitudes(value) {
-                    theme.amplitudes = colours;
-                }
-            } else if key == "widths" {
-                let known = WIDTHS.map(|(key, _, range, unit)| (key, range, unit));
-                for (place, number) in self.numbers(key, value, &known) {
-                    *WIDTHS[place].1(&mut theme.widths) = number;
-                }
-            } else if key == "sizes" {
-                let known = SIZES.map(|(key, _)| (key, LETTERS, PIXELS));
-                for (place, number) in self.numbers(key, value, &known) {
-                    *SIZES[place].1(&mut theme.sizes) = number;
-                }
-            } else if key == "theme" {
-                self.name(key, value, &Theme::NAMES, "theme");
-            } else {
-                let lists = LISTS.iter().map(|l| l.0);
-                let others = ["theme", AMPLITUDES, "widths", "sizes"];
-                let known = COLOURS.iter().map(|c| c.0).chain(lists).chain(others);
-                self.unknown(key, key, &known.collect::<Vec<_>>());
-            }
-        }
-    }
-
-    /// Notes a key that was there before.
-    fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
-        let key = &entries[number].0;
-        if entries[..number].iter().any(|e| e.0 == *key) {
-            self.note(
-                path,
-                "this key is given twice".into(),
-                "keep one of them".into(),
-            );
-        }
-    }
-
-    fn unknown(&mut self, path: &str, key: &str, known: &[&str]) {
-        let help = match nearest(key, known.iter().copied()) {
-            Some(near) => format!("the nearest known key is `{near}`"),
-            None => format!("known keys are {}", known.join(", ")),
-        };
-        self.note(path, "unknown key".into(), help);
-    }
-
-    /// A name that is one of those known.
-    fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
-        let Value::Text(name) = value else {
-            return self.note(
-                path,
-                format!("{} is no {sort}", value.stated()),
-                known.join(", "),
-            );
-        };
-        if known.contains(&name.as_str()) {
-            return;
-        }
-        let near =
-            nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
-        let help = format!("known are {}{}", known.join(", "), near.unwrap_or_default());
-        self.note(path, format!("{} is no {sort}", value.stated()), help);
-    }
-
-    fn colour(&mut self, path: &str, value: &Value) -> Option<Colour> {
-        let colour = match value {
-            Value::Text(text) => Colour::from_css(text),
-            _ => None,
-        };
-        if colour.is_none() {
-            let help = "give #rrggbb or #rgb in quotes, such as \"#d55e00\" or \"#d50\"";
-            self.note(
-                path,
-                format!("{} is no colour", value.stated()),
-                help.into(),
-            );
-        }
-        colour
-    }
-
-    /// A list of at least so many colours.
-    fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
-        let Value::List(list) = value else {
-            let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
-            self.note(
-                path,
-                format!("{} is no list of colours", value.stated()),
-                help.into(),
-            );
-            return None;
-        };
-        if list.len() < least {
-            let help = format!("give at least {least}");
-            self.note(path, format!("{} colours are too few", list.len()), help);
-        }
-        let colours: Vec<Option<Colour>> = (0..)
-            .zip(list)
-            .map(|(i, value): (usize, _)| self.colour(&format!("{path}[{i}]"), value))
-            .collect();
-        colours.into_iter().collect()
-    }
-
-    fn amplitudes(&mut self, value: &Value) -> Option<Vec<Colour>> {
-        if let Value::Text(name) = value {
-            self.name(AMPLITUDES, value, &ramp::NAMES, "row of colours");
-            return ramp::named(name);
-        }
-        let stops = self.colours(AMPLITUDES, value, 2)?;
-        Some(ramp::between(&stops))
-    }
-
-    /// Numbers by their keys, of which each has its range and unit: each number with the place of its key among those known.
-    fn numbers(
-        &mut self,
-        path: &str,
-        value: &Value,
-        known: &[(&str, [f64; 2], &str)],
-    ) -> Vec<(usize, f64)> {
-        let keys: Vec<&str> = known.iter().map(|k| k.0).collect();
-        let mut numbers = Vec::new();
-        let Value::Table(entries) = value else {
-            let help = format!("give a table with some of {}", keys.join(", "));
-            self.note(
-                path,
-                format!("{} is no table of {path}", value.stated()),
-                help,
-            );
-            return numbers;
-        };
-        for (number, (key, value)) in entries.iter().enumerate() {
-            let path = format!("{path}.{key}");
-            self.once(entries, number, &path);
-            let Some(place) = keys.iter().position(|k| k == key) else {
-                self.unknown(&path, key, &keys);
-                continue;
-            };
-            let (_, [least, most], unit) = known[place];
-            match value {
-                Value::Number(number) if (least..=most).contains(number) => {
-                    numbers.push((place, *number))
-                }
-                _ => {
-                    let help = format!("give a number of {unit} from {least} to {most}");
-                    self.note(&path, format!("{} cannot be drawn", value.stated()), help);
-                }
-            }
-        }
-        numbers
-    }
 }
 
 impl fmt::Display for StyleProblem {

@@ -1,4 +1,4 @@
-//! The themes that have a name.
+//! The built-in themes.
 
 use super::super::colour::Colour;
 use super::super::ramp;
@@ -8,7 +8,7 @@ impl Theme {
     /// The names of the themes, the default first: [`Theme::named`] knows each of them.
     pub const NAMES: [&str; 4] = ["thesis", "paper", "colourblind", "dark"];
 
-    /// A theme by its name; `None` for a name that is not in [`Theme::NAMES`].
+    /// A built-in theme by its name; `None` for a name that is not in [`Theme::NAMES`].
     ///
     /// ```
     /// use drystone::drawing::Theme;
@@ -25,7 +25,7 @@ impl Theme {
         }
     }
 
-    /// The source's colours on white.
+    /// The colours of the source on a white page.
     pub fn thesis() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -53,8 +53,8 @@ impl Theme {
         }
     }
 
-    /// For print, in colour or in grey: what can meet differs in lightness. Dark arrows on light blocks, robots lighter
-    /// than what fails, and that lighter than any force.
+    /// A theme for print in colour or grey: things that may touch differ in lightness. Arrows are dark and blocks light;
+    /// robots are lighter than failures, and failures are lighter than forces.
     pub fn paper() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -80,8 +80,8 @@ impl Theme {
         }
     }
 
-    /// Colours of [Okabe08](crate::doc::references) on white, amplitudes from yellow to blue: for eyes with any sort of
-    /// colour vision.
+    /// The colours of [Okabe08](crate::doc::references) on a white page, with amplitudes from yellow to blue. Suitable for
+    /// all kinds of colour blindness.
     pub fn colourblind() -> Theme {
         Theme {
             page: Colour::WHITE,

@@ -1,4 +1,4 @@
-//! [`encode`]: pixels as PNG, in the fewest bytes each that lose nothing.
+//! [`encode`]: writes pixels as a lossless PNG with the smallest number of bytes per pixel.
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -8,7 +8,7 @@ use super::{Compression, PngError};
 /// photographs, cost time here and make files larger.
 const NO_FILTER: u8 = 0;
 
-/// A picture as a PNG, and how many of its pixels a metre of print has.
+/// A picture as PNG, with its resolution in pixels per metre.
 pub(super) fn encode(
     pixels: Pixmap,
     per_metre: Option<u32>,
@@ -25,7 +25,7 @@ pub(super) fn encode(
     let rows = fewest(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    // All rows at once: handed over one by one, each costs as much again in buffers that are cleared for it.
+    // Compress all rows at once: row by row, zeroing the buffers doubles the cost.
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
     writer
         .write_chunk(png::chunk::IDAT, &packed)
@@ -34,12 +34,12 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// The rows of pixels, each behind the number of its filter: one byte a pixel for at most 256 colours, three where nothing
-/// shows through, else four.
+/// The rows of pixels, each after the number of its filter: one byte per pixel for at most 256 colours, three bytes for
+/// opaque pictures, otherwise four.
 fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
     let mut table = Table::default();
     if let Some(runs) = runs(&pixels, &mut table) {
-        // In order, so that the same picture is the same bytes.
+        // Sort the colours, so that equal pictures give equal bytes.
         let colours: Vec<[u8; 4]> = table.found.iter().map(|p| straight(*p)).collect();
         let mut sorted = colours.clone();
         sorted.sort_unstable();
@@ -61,18 +61,18 @@ fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u
         }
         return rows;
     }
-    // Without a look at each alone, several are looked at at once.
+    // Tests several pixels at once, without looking at each.
     let all = pixels.data().as_chunks::<4>().0;
     if all.iter().fold(u8::MAX, |least, pixel| least & pixel[3]) == u8::MAX {
         encoder.set_color(png::ColorType::Rgb);
-        // Where nothing shows through, the premultiplied colours are the colours.
+        // In an opaque picture premultiplied colours equal the plain colours.
         return rows(&pixels, |p| [p.red(), p.green(), p.blue()]);
     }
     encoder.set_color(png::ColorType::Rgba);
     rows(&pixels, straight)
 }
 
-/// Numbers of colours and how many pixels of a row have each, row by row; `None` for too many colours.
+/// The picture row by row as runs: the index of a colour and the number of pixels. `None` if there are too many colours.
 fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     let mut runs = Vec::new();
     for row in pixels.pixels().chunks_exact(pixels.width() as usize) {
@@ -86,7 +86,8 @@ fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     Some(runs)
 }
 
-/// How many pixels at the beginning are as the first. Figures are flat: mostly many, so several are looked at at once.
+/// The number of pixels at the beginning of a row that equal the first. Figures have large areas of one colour, so several
+/// pixels are compared at once.
 fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     let (eights, _) = row.as_chunks::<8>();
     let same = |eight: &&[PremultipliedColorU8; 8]| {
@@ -118,11 +119,11 @@ impl Default for Table {
 }
 
 impl Table {
-    /// The number of a colour, a new one too; `None` where all numbers are given away.
+    /// The index of a colour; a new colour gets the next index. `None` if all indices are used.
     fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
         let bits =
             u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
-        // Multiplied by 2³² over the golden ratio, bits of all channels come to lie on top.
+        // Multiplicative hashing with 2³² divided by the golden ratio: the high bits depend on all channels.
         let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
         while let Some(number) = self.places[place] {
             if self.found[usize::from(number)] == colour {
@@ -153,7 +154,7 @@ fn rows<const N: usize>(
     rows
 }
 
-/// Red, green, blue and how opaque; the colours not weakened by it.
+/// Red, green, blue and opacity, not premultiplied.
 pub(super) fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
     let c = pixel.demultiply();
     [c.red(), c.green(), c.blue(), c.alpha()]

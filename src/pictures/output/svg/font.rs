@@ -1,4 +1,4 @@
-//! [`embedded`]: our fonts cut down to what a drawing uses, for browsers, as data within the SVG.
+//! [`embedded`]: subsets of the built-in fonts with the letters of a drawing, as data inside the SVG.
 //!
 //! The cut drops the tables by which a font sets words (which glyph a character has, how pairs are kerned), since the
 //! writers of PDF do that themselves. A browser needs them, so they are made anew from the places at which the words of
@@ -16,7 +16,7 @@ use write_fonts::types::{GlyphId, Tag};
 use crate::drawing::Face;
 use crate::output::tree::Run;
 
-/// A style sheet with the fonts of some words, each family's name beginning with `mark`.
+/// A style sheet with the fonts of some text. The name of each family begins with `mark`.
 ///
 /// # Errors
 /// What stands against cutting a font.
@@ -44,7 +44,7 @@ pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     Ok(sheet)
 }
 
-/// The name of a face's family in a drawing of its own: other drawings on the page have other letters.
+/// The family name of a face in one drawing. Other drawings on the same page contain other subsets.
 pub(super) fn family(face: Face, mark: &str) -> String {
     match face {
         Face::Serif | Face::SerifItalic | Face::SerifBold => format!("{mark}-serif"),
@@ -52,7 +52,7 @@ pub(super) fn family(face: Face, mark: &str) -> String {
     }
 }
 
-/// A face with the glyphs of some words alone.
+/// A face with the glyphs of some text only.
 fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
     let mut characters = BTreeMap::new();
@@ -86,7 +86,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
         }
     }
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
-        // Version 3: the table without the names of glyphs, which have other numbers now.
+        // Version 3: a table without glyph names, because the glyph indices have changed.
         let mut head = post
             .as_bytes()
             .get(..32)
@@ -107,7 +107,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     Ok(font.build())
 }
 
-/// By how much the second of two glyphs stands nearer (below 0) or farther than it would alone, in font units.
+/// The kerning of glyph pairs in font units: negative if the second glyph is closer than without kerning.
 fn kerning(
     font: &FontRef<'_>,
     face: Face,
@@ -119,7 +119,7 @@ fn kerning(
     for run in runs {
         for pair in run.glyphs.windows(2) {
             let [a, b] = pair else { continue };
-            // A ligature's glyph is not among those that were kept, and says nothing about its letters.
+            // The glyph of a ligature is not in the subset and has no kerning for its letters.
             let own = |placed: &crate::output::tree::Placed| {
                 let mut characters = placed.characters.chars();
                 let only = characters.next().filter(|_| characters.next().is_none());
@@ -129,7 +129,7 @@ fn kerning(
                 continue;
             };
             let by = (b.at.0 - a.at.0) / run.size * units - f64::from(alone);
-            // Half a unit is rounding; the letters are as the font has them.
+            // Less than half a unit is rounding.
             if own(a) && own(b) && by.abs() > 0.5 {
                 pairs.entry((a.glyph, b.glyph)).or_insert(by.round() as i16);
             }
@@ -138,7 +138,7 @@ fn kerning(
     Ok(pairs)
 }
 
-/// A `kern` table, version 0, of one horizontal subtable of pairs (format 0); `None` where there is nothing to say.
+/// A `kern` table, version 0, with one horizontal subtable of pairs (format 0); `None` if there are no pairs.
 fn kern(pairs: &BTreeMap<(u16, u16), i16>) -> Option<Vec<u8>> {
     let count = u16::try_from(pairs.len())
         .ok()

@@ -1,4 +1,4 @@
-//! [`numbered`]: words as outlines, where they stand in the picture.
+//! [`numbered`]: the outlines of a line of text at their position in the picture.
 
 use resvg::tiny_skia::{PathSegment, Point};
 use resvg::usvg::{Node, Text};
@@ -6,7 +6,7 @@ use resvg::usvg::{Node, Text};
 use super::outline::Steps;
 use crate::drawing::PagePoint;
 
-/// The number that words bear as their name, `t1`, `t2` …, and the path data of their letters.
+/// The number in the id of a line of text (`t1`, `t2` …), and the path data of its letters.
 pub(super) fn numbered(text: &Text) -> Option<(usize, String)> {
     let number = text.id().strip_prefix('t')?.parse().ok()?;
     let mut pen = Steps::default();

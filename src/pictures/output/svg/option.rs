@@ -1,4 +1,4 @@
-//! [`Options`]: what there is to choose about an SVG beside its drawing.
+//! [`Options`]: the options of an SVG file.
 
 use crate::output::fonts::Fonts;
 

@@ -1,8 +1,9 @@
-//! Numbers, and the steps of outlines: as few characters as tell a hundredth of a pixel.
+//! Writes numbers and path data with as few characters as possible, at a precision of 1/100 pixel.
 
 use crate::drawing::{Outline, PagePoint, Segment};
 
-/// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
+/// Writes a number with at most two decimals (1/100 pixel), without trailing zeros and without −0. All numbers of an SVG
+/// are written here.
 ///
 /// # Panics
 /// For a number that is not finite.
@@ -46,19 +47,19 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Begins a new part.
+    /// Begins a new subpath.
     pub fn begin(&mut self, to: PagePoint) {
         self.at = hundredths(to);
         self.begin = self.at;
         self.put('M', &[self.at.0, self.at.1]);
     }
 
-    /// A straight line.
+    /// Adds a straight line.
     pub fn line(&mut self, to: PagePoint) {
         let to = hundredths(to);
         let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
         match (x, y) {
-            // A line of no length is a dot where its ends are round; it stays.
+            // Keep a line without length: it is drawn as a dot if its ends are round.
             (_, 0) => self.put('h', &[x]),
             (0, _) => self.put('v', &[y]),
             _ => self.put('l', &[x, y]),
@@ -66,7 +67,7 @@ impl Steps {
         self.at = to;
     }
 
-    /// A curve through its control points to its end: `q` has one of them, `c` two.
+    /// Adds a curve through its control points to its end: `q` has one control point, `c` two.
     pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
         let from = self.at;
         for (number, point) in points.iter().enumerate() {
@@ -79,14 +80,14 @@ impl Steps {
         }
     }
 
-    /// Straight back to where the part began.
+    /// Closes the subpath with a straight line.
     pub fn close(&mut self) {
         self.put('z', &[]);
         self.at = self.begin;
     }
 
     fn put(&mut self, letter: char, numbers: &[i64]) {
-        // A letter need not be said twice; after a move, though, it would mean a line.
+        // Do not repeat a letter. After `M` the same letter would mean a line.
         let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
         if !stated {
             self.data.push(letter);
@@ -102,7 +103,7 @@ impl Steps {
         self.more(more);
     }
 
-    /// Numbers behind another one.
+    /// Adds numbers after another number.
     fn more(&mut self, numbers: &[i64]) {
         for number in numbers {
             if *number >= 0 {
@@ -113,20 +114,21 @@ impl Steps {
     }
 }
 
-/// A place in whole hundredths of a pixel.
+/// A point in whole hundredths of a pixel.
 fn hundredths(point: PagePoint) -> (i64, i64) {
     let whole = |value: f64| {
         assert!(
             value.is_finite(),
             "a drawing holds the number {value}; every number of a drawing is finite"
         );
-        // `as` holds on at the ends, nine orders of magnitude beyond any page.
+        // `as` saturates, far beyond any page.
         (value * 100.0).round() as i64
     };
     (whole(point.x), whole(point.y))
 }
 
-/// Hundredths as a decimal number without a needless zero. A drawing has thousands of them, so no formatter is asked.
+/// Writes hundredths as a decimal number without trailing zeros. A drawing has thousands of numbers, so this avoids the
+/// formatter.
 fn put(data: &mut String, hundredths: i64) {
     let (whole, part) = (
         hundredths.unsigned_abs() / 100,

@@ -1,7 +1,8 @@
 //! Numbers that are none, hostile words, and names of several figures on a page.
 
 use super::*;
-use crate::drawing::{Colour, Outline, PagePoint, PageRect};
+
+use crate::drawing::{Colour, Outline, PagePoint, PageRect, Text};
 
 fn page(items: Vec<Item>) -> Drawing {
     Drawing {

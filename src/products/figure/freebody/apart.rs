@@ -1,4 +1,4 @@
-//! [`apart`]: arrows of a free body that lie on one line, set side by side.
+//! [`apart`]: moves arrows of a free-body diagram that lie on one line next to each other.
 //!
 //! A stone in the middle of a pile is pushed up on the line along which its weight pulls it down: drawn there, the two
 //! heads would run into each other. Only where an arrow is drawn changes; the list keeps the line along which it acts.
@@ -14,7 +14,7 @@ const END_TO_END: f64 = 2.0;
 /// Distance of two axes, pixels: the heads and a small gap.
 const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
 
-/// Moves each arrow that runs along an earlier one beside it.
+/// Moves each arrow that lies on an earlier one to its side.
 pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     for i in 1..arrows.len() {
         let (before, rest) = arrows.split_at_mut(i);
@@ -47,7 +47,7 @@ pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     }
 }
 
-/// Whether two arrows lie on each other, the second beginning so far from the first.
+/// Whether two arrows overlap. `offset` is the vector from the beginning of the first to the beginning of the second.
 fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
     let (long, other) = (
         libm::hypot(first.0, first.1),

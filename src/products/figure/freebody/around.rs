@@ -1,4 +1,5 @@
-//! What lies around a block: the bodies it touches, the points at which forces act, and how much of it all is shown.
+//! The surroundings of a block: the bodies that touch it, the points at which forces act, and the part of the scene that is
+//! shown.
 
 use super::arrow::{Arrow, MAX_LENGTH};
 use crate::analysis::{Analysis, Contact};
@@ -22,7 +23,7 @@ pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     bodies
 }
 
-/// The application points that differ: two, or one where they fall together.
+/// The different application points of a contact: two, or one if they coincide.
 pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     let [a, b] = contact.application_points;
     if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) {
@@ -32,7 +33,7 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     }
 }
 
-/// The block whole, and of its neighbours what lies near.
+/// The box to show: the whole block, and the nearby parts of its neighbours.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
@@ -59,13 +60,14 @@ pub(super) struct Corner {
     pub friction: f64,
 }
 
-/// Both ends of an interface, the one to the left of ŝ first, as in the source's figures 1 and 2.
+/// The forces at both ends of an interface. The end to the left of ŝ comes first, as in figures 1 and 2 of the source.
 ///
 /// Of friction only the sum is known, and both ends' acts along one line: each gets a share like that of the pressure,
 /// so that the two together act where the interface's resultant does. An end that is alone bears all.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
-    // Friction is reported along (−n_y, n_x) on the first body; for the second both that direction and the force turn over.
+    // Friction is positive along (−n_y, n_x) on the first body. On the second body both the direction and the force change
+    // their sign.
     let friction = contact.friction_force;
     let pressed: f64 = contact.normal_forces.iter().sum();
     let share = |k: usize| {
@@ -108,7 +110,7 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// The body on the other side of a block's contact.
+/// The other body of a contact of the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
     if first == BodyId::Block(block) {
@@ -118,8 +120,8 @@ pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     }
 }
 
-/// Where ŝ stands: on its own interface in the middle; of a block's `single` one `clear` metres beside it, where the
-/// neighbour's edge goes on and nothing else is in the way.
+/// The point at which ŝ is drawn: the middle of its interface. For the only interface of a block it is `clear` metres next
+/// to the block, on the edge of the neighbour, if nothing else is there.
 pub(super) fn aside(
     scene: &Scene,
     contact: &Contact,
@@ -153,7 +155,7 @@ pub(super) fn aside(
         .unwrap_or(interface.middle())
 }
 
-/// How far arrows and their names reach beyond what is shown: to the left, up, to the right, down; pixels.
+/// The space in pixels that arrows and their names need outside the shown part: left, top, right, bottom.
 pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
     let mut pads: [f64; 4] = [12.0; 4];
     for arrow in arrows {
@@ -181,7 +183,7 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     pads
 }
 
-/// Whether a point lies outside of the view, on a side to which a body runs on.
+/// Whether a point lies outside the view on a side where the body continues.
 pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
     at.x < view.min.x && body.min.x <= view.min.x
         || at.x > view.max.x && body.max.x >= view.max.x
@@ -189,7 +191,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// Coordinates are reported where they stay readable: of a block on one edge, held by nobody.
+/// Whether coordinates are shown: only for a block with one interface that no robot holds, because the picture stays
+/// readable then.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

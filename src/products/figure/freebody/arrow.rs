@@ -31,7 +31,8 @@ pub(super) struct Arrow {
 }
 
 impl Arrow {
-    /// Middles of a name of this size beside the arrow's tip and shaft; `from` is where it begins on the page.
+    /// Possible centres for the name of the arrow, next to its tail and its shaft. `from` is the beginning of the arrow on
+    /// the page.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);
@@ -46,7 +47,7 @@ impl Arrow {
         }
         let mut middles = Vec::new();
         for share in [0.8, 1.0, 0.55, 0.3] {
-            // Above the shaft first: that is where a reader looks.
+            // Try the position above the shaft first: readers look there first.
             let up = if -ux > 0.0 { 1.0 } else { -1.0 };
             for side in [up, -up] {
                 let (nx, ny) = (-uy * side, ux * side);

@@ -22,7 +22,7 @@ impl Sheet<'_> {
         Table::new(&self.forces, body.centroid, size)
     }
 
-    /// The verdict, the scale, what is left out, and what everything amounts to, from `top` down; and where it ends.
+    /// Draws the verdict, the scale, the notes and the resultant below `top`. Returns the lower end.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let (scene, found) = (&self.analysis.scene, &self.analysis.frames[self.frame]);
@@ -88,7 +88,7 @@ impl Sheet<'_> {
         (group, y)
     }
 
-    /// An arrow of a round amount that shows the scale; `None` where no arrow has a length.
+    /// An arrow with a round amount as scale; `None` if the lengths of the arrows show no amounts.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below(largest);

@@ -1,4 +1,4 @@
-//! What stands above a free-body diagram: the scene's title, and which block of which step.
+//! The heading of a free-body diagram: the title of the scene, the block and the step.
 
 use super::{HEADING, MARGIN, SUBHEADING};
 use crate::analysis::Analysis;
@@ -7,7 +7,7 @@ use crate::figure::option::Options;
 use crate::figure::words::letter;
 use crate::scene::BlockId;
 
-/// The lines above the drawing, with face and size.
+/// The lines of the heading, each with its face and size.
 pub(super) fn heading(
     analysis: &Analysis,
     frame: usize,

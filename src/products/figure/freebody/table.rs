@@ -1,4 +1,4 @@
-//! [`Table`]: the forces on a block as a list that balances: each by name with its amount, components and moment.
+//! [`Table`]: the list of the forces on a block, with amounts, components and moments, and their sum.
 //!
 //! All forces have one unit and as many decimals, all moments too, so that the columns can be added up: the last row is
 //! their sum, and in a balance it is zero but for what rounding leaves.
@@ -46,7 +46,7 @@ struct Unit {
 }
 
 impl Unit {
-    /// The unit in which the largest of a column has one to three digits before the point.
+    /// The unit in which the largest number of a column has one to three digits before the decimal point.
     fn new(largest: f64, names: [&'static str; 5]) -> Unit {
         let digits = if largest > 0.0 && largest.is_finite() {
             libm::floor(libm::log10(largest)) as i32
@@ -77,7 +77,7 @@ impl Unit {
 }
 
 impl Table {
-    /// The list of these forces; moments are about `centroid`, of a block of this size in metres.
+    /// The list of these forces. Moments are about `centroid`; `size` is the size of the block in metres.
     pub(super) fn new(forces: &[Force], centroid: Point, size: f64) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
@@ -128,7 +128,7 @@ impl Table {
         }
     }
 
-    /// Every row in words.
+    /// Each row as a sentence.
     pub(super) fn stated(&self) -> Vec<String> {
         let (force, moment) = (self.heads[0].1, self.heads[3].1);
         let row = |row: &Row| {
@@ -146,7 +146,8 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// The table with its upper edge at `top`, centred about `middle`, at most `room` pixels wide; and how high it is, pixels.
+    /// Draws the table with its upper edge at `top`, centred at `middle`, at most `room` pixels wide. Also returns its
+    /// height in pixels.
     pub(super) fn draw(
         &self,
         middle: f64,
@@ -185,7 +186,7 @@ impl Table {
                 .draw(PageRect { at, width, height }, size, theme.ink)
                 .into()
         };
-        // The right edge of each column of numbers, then the left one of who gives the force.
+        // The right edges of the columns of numbers, followed by the left edge of the last column.
         let mut edge = left + first;
         let edges: Vec<f64> = columns
             .iter()
@@ -231,12 +232,12 @@ impl Table {
             }
             y += ROW * size;
         }
-        // From there on half a row of room.
+        // Leave half a row of space below.
         (group, y - top - 0.9 * size)
     }
 }
 
-/// A name in lines of its column: broken between words, between code points, and where even these are too long, cut.
+/// Breaks a name into lines for its column: between words, between code points, and otherwise by shortening it.
 fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
     if text::width(name, Face::Serif, size) <= room {
         return vec![name.to_owned()];

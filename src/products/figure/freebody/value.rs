@@ -1,4 +1,4 @@
-//! [`places`]: where forces act, and the direction into the block, in coordinates.
+//! [`places`]: the coordinates of the points at which forces act, and the unit normals.
 
 use super::around::{corners, distinct, inward};
 use crate::analysis::{Analysis, Contact};
@@ -27,7 +27,7 @@ impl Piece {
         }
     }
 
-    /// The piece with the left end of its base line at `at`; and how wide it is.
+    /// Draws the piece with the left end of its baseline at `at`. Also returns its width.
     pub(super) fn draw(&self, at: PagePoint, size: f64, theme: &Theme) -> (Vec<Item>, f64) {
         let items = match self {
             Piece::Symbol(symbol) => {
@@ -56,12 +56,12 @@ impl Piece {
     }
 }
 
-/// How wide a row is, pixels.
+/// The width of a row in pixels.
 pub(super) fn width(row: &[Piece], size: f64) -> f64 {
     row.iter().map(|p| p.width(size)).sum()
 }
 
-/// Values in rows of at most `room` pixels.
+/// Breaks values into rows of at most `room` pixels.
 pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece>> {
     let mut rows: Vec<Vec<Piece>> = Vec::new();
     for value in values {
@@ -76,7 +76,7 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
     rows
 }
 
-/// The centroid, the application points and the normals into the block.
+/// The centroid, the application points and the inward normals.
 pub(super) fn places(
     analysis: &Analysis,
     block: BlockId,
@@ -104,7 +104,7 @@ pub(super) fn places(
     places
 }
 
-/// A coordinate with three decimals at most.
+/// A coordinate with at most three decimals.
 fn coordinate(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -9,7 +9,7 @@ fn scene(text: &str) -> Scene {
 
 fn of(scene: &Scene) -> Vec<ThrustSegment> {
     let analysis = Analysis::new(scene);
-    segments(scene, &scene.frames[0], &analysis.frames[0], 1.0)
+    segments(scene, &scene.frames[0], &analysis.frames[0])
 }
 
 #[test]
@@ -19,16 +19,15 @@ fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_cent
     let mut bends = 0;
     for pair in segments.chunk_by(|a, b| a.on == b.on) {
         let [a, b] = pair else {
-            panic!("two pieces to a voussoir: {pair:?}")
+            // Low down the thrust is so steep that it meets the weight outside the voussoir: there it is schematic.
+            assert!(pair.len() == 1 && !pair[0].through, "{pair:?}");
+            continue;
         };
-        // Low down the thrust is so steep that it meets the weight outside the voussoir: there it stops.
-        assert_eq!(a.through, b.through);
-        if a.through {
-            assert_eq!(a.to, b.from);
-            let centroid = scene.blocks[a.on.0].centroid;
-            assert!((a.to.x - centroid.x).abs() < 1e-6, "the weight meets them");
-            bends += 1;
-        }
+        assert!(a.through && b.through);
+        assert_eq!(a.to, b.from);
+        let centroid = scene.blocks[a.on.0].centroid;
+        assert!((a.to.x - centroid.x).abs() < 1e-6, "the weight meets them");
+        bends += 1;
     }
     assert!(bends >= 9, "{bends}");
     assert!(segments.iter().any(|s| !s.through));
@@ -56,21 +55,46 @@ fn beam(loads: &str) -> Scene {
 }
 
 #[test]
-fn a_loaded_beam_shows_its_reactions_and_its_load_and_no_line_between_them() {
+fn in_a_loaded_beam_its_reactions_and_its_load_meet_in_one_point() {
     let segments = of(&beam(
         r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
     ));
     assert_eq!(segments.len(), 3, "{segments:?}");
-    for s in &segments {
-        assert!(!s.through && (s.to.x - s.from.x).abs() < 1e-9, "{s:?}");
-        assert!((s.to - s.from).norm() <= 0.5 + 1e-9);
-    }
+    let meeting = segments[0].to;
+    assert!(segments.iter().all(|s| !s.through && s.to == meeting));
     let load = segments.iter().find(|s| s.origin == ForceOrigin::Load(0));
     let load = load.expect("the load belongs to the line");
     assert_eq!(
         (load.from, load.force),
         (Point::new(4.0, 1.0), Vector::new(0.0, -12.0))
     );
+}
+
+#[test]
+fn the_line_has_no_gap_at_any_joint_that_presses() {
+    for text in [
+        include_str!("../../../../assets/study/arch-27.json"),
+        include_str!("../../../../tests/scenes/archload.json"),
+        include_str!("../../../../tests/scenes/buttress.json"),
+    ] {
+        let scene = scene(text);
+        let analysis = Analysis::new(&scene);
+        let found = &analysis.frames[0];
+        let segments = segments(&scene, &scene.frames[0], found);
+        for (contact, bearing) in found.contacts.iter().zip(bearings(&scene, found)) {
+            if bearing.is_none() {
+                continue;
+            }
+            for body in contact.interface.bodies {
+                let BodyId::Block(block) = body else { continue };
+                let at = contact.resultant.at;
+                let meets = |s: &ThrustSegment| {
+                    s.on == block && [s.from, s.to].iter().any(|end| (end - at).norm() < 1e-6)
+                };
+                assert!(segments.iter().any(meets), "{at} in block {block:?}");
+            }
+        }
+    }
 }
 
 #[test]

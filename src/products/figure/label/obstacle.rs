@@ -1,4 +1,4 @@
-//! [`ink`]: what a frame draws that no label may lie on.
+//! [`ink`]: the parts of a frame's picture on which no label may lie.
 
 use crate::drawing::PagePoint;
 use crate::drawing::placement::Ink;
@@ -40,13 +40,13 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     ink
 }
 
-/// A turning arrow's outline, cut across into pieces from its inner to its outer edge.
+/// Adds the outline of a torque arrow, cut across into convex pieces.
 fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
     let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
     let centre = pen.camera.place(turn.at);
     for pair in points.windows(2) {
         let width = 3.0 * pen.camera.length(turn.width);
-        // Points of the head and of both edges, each joined to the next, as wide as the head: no gap between them.
+        // Points of the head and of both edges, joined without gaps.
         if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
             ink.line(pair[0], pair[1], width);
         }

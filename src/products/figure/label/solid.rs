@@ -1,4 +1,4 @@
-//! [`Solids`]: blocks and ground, in which a name would seem to be theirs.
+//! [`Solids`]: blocks and ground. A name inside one of them would seem to be its name.
 
 use super::middle;
 use crate::drawing::PageRect;
@@ -34,7 +34,7 @@ impl Solids {
         }
     }
 
-    /// Whether a label reaches into another block than its own, or into ground.
+    /// Whether a label lies partly in the ground or in a block other than its own.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
         let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {
@@ -43,7 +43,7 @@ impl Solids {
                 && rect.at.y < other.at.y + other.height
                 && other.at.y < rect.at.y + rect.height
         };
-        // Labels lie on no outline: one that reaches into a body has its middle and its corners in it.
+        // Labels lie on no outline, so a label that overlaps a body has its centre and its corners in it.
         let at = pen.camera.back(middle(rect));
         let inside = |id: BlockId| {
             let at = pen.displacement(id).map_or(at, |d| d.back(at));

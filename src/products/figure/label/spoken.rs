@@ -1,9 +1,9 @@
-//! [`names`]: whether a sentence names a block, where blocks may be called by numbers.
+//! [`names`]: whether a sentence contains the name of a block, even if the name is a number.
 
 use crate::drawing::text::NO_BREAK;
 
-/// Whether a text has a name as a word of its own. A number before a unit or a noun is an amount or a count, and names
-/// nothing; so is one that goes on behind its point.
+/// Whether a text contains a name as a separate word. A number before a unit or a noun is an amount or a count, not a name.
+/// The same holds for a number with decimals.
 pub(super) fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
@@ -29,7 +29,7 @@ pub(super) fn names(text: &str, name: &str) -> bool {
 }
 
 /// What follows a number in the words below a frame where it is no name.
-const COUNTED: [&str; 26] = [
+const COUNTED: [&str; 28] = [
     "N",
     "nN",
     "µN",
@@ -56,6 +56,8 @@ const COUNTED: [&str; 26] = [
     "forces",
     "frames",
     "rigid",
+    "amount",
+    "amounts",
 ];
 
 #[cfg(test)]

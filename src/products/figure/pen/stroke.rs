@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, Pen};
+use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, MISSING_RADIUS, Pen};
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind, from_arrow};
@@ -37,7 +37,12 @@ impl Pen<'_> {
     }
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
-        let outline = Outline::circle(self.camera.place(arrow.at), DOT_RADIUS);
+        let radius = if arrow.kind == ArrowKind::Load {
+            DOT_RADIUS
+        } else {
+            MISSING_RADIUS
+        };
+        let outline = Outline::circle(self.camera.place(arrow.at), radius);
         let theme = &self.context.options.theme;
         let dot = if arrow.kind == ArrowKind::Load {
             Path::filled(outline, theme.page).with_stroke(Stroke::new(arrow.colour, 1.2))

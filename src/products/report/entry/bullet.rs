@@ -45,20 +45,9 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     stated(scene, found).iter().map(MarginBar::new).collect()
 }
 
-/// The headline of several frames: of the bars of loads the one with the least reserve, else of all bars.
-pub fn headline(bars: &[MarginBar]) -> Option<&MarginBar> {
-    let least = |bars: &mut dyn Iterator<Item = &MarginBar>| -> Option<usize> {
-        let reserves = bars.map(|bar| bar.reserve).enumerate();
-        reserves
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(first, _)| first)
-    };
-    let loads = || bars.iter().filter(|bar| bar.is_load_factor);
-    match least(&mut loads()) {
-        Some(first) => loads().nth(first),
-        None => least(&mut bars.iter()).and_then(|first| bars.get(first)),
-    }
-}
+/// What the shapes of bars mean.
+pub(super) const SHAPES: &str = "A bar covers the values at which it stands: it falls beyond a stroke (dashed: not confirmed) \
+                                 and stands beyond an arrow. Present value: disc inside, cross outside, ring undecided.";
 
 /// The scale reaches this much farther than the farthest value on it.
 const BEYOND: f64 = 1.25;
@@ -94,6 +83,26 @@ impl MarginBar {
             is_load_factor: margin.parameter == Parameter::LoadFactor,
             reserve: margin.reserve(),
         }
+    }
+
+    /// The place of a value on the scale, 0 … 1.
+    pub(crate) fn share(&self, value: f64) -> f64 {
+        let (low, high) = self.scale;
+        let share = if high > low {
+            (value - low) / (high - low)
+        } else {
+            0.0
+        };
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether it stands at the present value.
+    pub(crate) fn is_inside(&self) -> bool {
+        self.position == Position::Inside
     }
 
     /// The margin as a sentence of its own. That of the loads names them already.

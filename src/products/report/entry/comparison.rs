@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 
 use super::bullet;
 use super::row::file_name;
-use super::step::{self, Step};
+use super::sheet;
 use super::touch::onto_scene;
-use super::{Entry, Figure, File, Grid, ReportOptions, Row};
+use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::figure::{self, Kind};
@@ -43,25 +43,27 @@ pub struct Side<'s> {
 /// The content of a report on two scenes.
 pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     let [was, is] = sides;
-    let options = step::options(wanted);
+    let options = sheet::options(wanted);
     let mut figures = sides.map(|side| {
         let panels = figure::panels(side.analysis, Kind::Forces, &options);
         panels.into_iter().map(Some).collect::<Vec<_>>()
     });
     let counts = sides.map(|side| side.analysis.frames.len());
-    let mut remarks = Vec::new();
+    let mut sections = Vec::new();
     if counts[0] != counts[1] {
         let [a, b] = counts.map(|n| counted(n, "step"));
-        remarks.push(format!(
-            "The first has {a}, the second {b}; steps are compared in their order."
-        ));
+        let words =
+            format!("The first has {a}, the second {b}; steps are compared in their order.");
+        let mut section = sheet::empty(&is.analysis.scene, 0, is.analysis.verdict());
+        (section.letter, section.title) = (String::new(), String::new());
+        section.parts.push(SheetPart::Note(words));
+        sections.push(section);
     }
-    let mut steps = Vec::new();
     let mut stated = Vec::new();
     let several = counts[0].max(counts[1]) > 1;
     for number in 0..counts[0].max(counts[1]) {
         let drawn = [0, 1].map(|side: usize| figures[side].get_mut(number).and_then(Option::take));
-        let mut step = match drawn {
+        let (sentence, mut section) = match drawn {
             [Some(a), Some(b)] => both([was, is], number, [a, b], wanted),
             [a, b] => {
                 let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
@@ -69,13 +71,13 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
             }
         };
         // The letter counts the steps of both scenes.
-        step.letter = if several {
+        section.letter = if several {
             letter(number)
         } else {
             String::new()
         };
-        stated.push(step.sentence.clone());
-        steps.push(step);
+        stated.push(sentence);
+        sections.push(section);
     }
     let mut row = Row::new(is.file.name, is.analysis);
     row.before = Some(was.analysis.verdict());
@@ -91,23 +93,23 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     };
     row.name = format!("{} → {}", names[0], names[1]);
     row.fails = stated.first().cloned().unwrap_or_default();
-    let entries = sides.map(|side| Entry {
-        row: row.clone(),
-        remarks: Vec::new(),
-        steps: Vec::new(),
-        charts: Vec::new(),
-        study: None,
-        commands: super::commands(side.file.name, side.analysis, wanted),
-        source: String::new(),
-        results: vec![super::result(side.file.name, side.analysis, wanted.timing)],
-    });
-    let [first, second] = entries;
+    let commands = sides.map(|side| super::commands(side.file.name, side.analysis, wanted));
+    let origins = sides.map(|side| super::hash(side.file.text));
     Entry {
-        remarks,
-        steps,
-        commands: first.commands.into_iter().chain(second.commands).collect(),
-        results: first.results.into_iter().chain(second.results).collect(),
-        ..second
+        row,
+        details: Vec::new(),
+        sections,
+        origin: format!(
+            "drystone {}, scenes {}",
+            env!("CARGO_PKG_VERSION"),
+            origins.join(" and ")
+        ),
+        commands: commands.concat(),
+        source: String::new(),
+        results: sides
+            .map(|side| super::result(side.file.name, side.analysis, wanted.timing))
+            .to_vec(),
+        changes: stated,
     }
 }
 
@@ -120,28 +122,13 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
 }
 
 /// A step that only one of the scenes has.
-fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> Step {
+fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
     let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
-    Step {
-        plates: drawing.map(|d| plate(side, found, d)).into_iter().collect(),
-        ..bare(scene, number, found.verdict, why.to_owned())
-    }
-}
-
-fn bare(scene: &Scene, number: usize, verdict: Verdict, sentence: String) -> Step {
-    Step {
-        letter: String::new(),
-        title: line(&scene.frames[number].title),
-        verdict,
-        sentence,
-        remarks: Vec::new(),
-        plates: Vec::new(),
-        touches: Vec::new(),
-        bullets: Vec::new(),
-        charts: Vec::new(),
-        grids: Vec::new(),
-        proof: String::new(),
-    }
+    let mut section = sheet::empty(scene, number, found.verdict);
+    section.parts.push(SheetPart::Text(why.to_owned()));
+    let figures = drawing.map(|d| plate(side, found, d)).into_iter();
+    section.parts.push(SheetPart::Figures(figures.collect()));
+    (why.to_owned(), section)
 }
 
 fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
@@ -150,6 +137,8 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
     Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
         drawing,
+        dark: None,
+        touches: Vec::new(),
     }
 }
 
@@ -159,36 +148,32 @@ fn both(
     number: usize,
     drawings: [Drawing; 2],
     wanted: &ReportOptions,
-) -> Step {
+) -> (String, Section) {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::new(sides, number);
     let forces = forces(sides, number);
     let settings = Settings::new(sides, number);
     let sentence = changes_sentence([then, now], &shape, &settings, &forces);
-    let mut step = bare(
-        &is.analysis.scene,
-        number,
-        now.verdict,
-        format!("{}.", capital(&line(&sentence))),
-    );
+    let sentence = format!("{}.", capital(&line(&sentence)));
+    let mut section = sheet::empty(&is.analysis.scene, number, now.verdict);
+    section.parts.push(SheetPart::Text(sentence.clone()));
     for (side, found, scene) in [
         ("First", then, &was.analysis.scene),
         ("Second", now, &is.analysis.scene),
     ] {
         let described = line(&verdict::sentence(scene, found));
-        step.remarks.push(format!("{side}: {described}"));
+        section
+            .parts
+            .push(SheetPart::Note(format!("{side}: {described}")));
     }
-    step.grids = [
+    let grids = [
         totals(then, now),
         margins(sides, number),
         shape.grid(),
         settings.grid(),
         grid(&is.analysis.scene, &forces),
-    ]
-    .into_iter()
-    .filter(|g| !g.lines.is_empty())
-    .collect();
+    ];
     let colour = wanted.theme.motion;
     let [loaded, now_loaded] = settings.blocks;
     let outlines = [
@@ -199,19 +184,21 @@ fn both(
         let changed = forces.iter().filter(|f| f.changed());
         changed.map(|f| f.at[side]).collect::<Vec<Point>>()
     });
+    let mut plates = Vec::new();
     for (side, (found, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
         let scene = &sides[side].analysis.scene;
         mark(&mut drawing, scene, &outlines[side], &rings[side], colour);
-        step.plates.push(plate(sides[side], found, drawing));
+        plates.push(plate(sides[side], found, drawing));
     }
-    let last = step.plates.last_mut();
-    if let Some(last) = last {
+    if let Some(last) = plates.last_mut() {
         last.caption.push_str(
             " Outlined in both: blocks that only one has, or whose outline, place, weight, friction, load or robot \
              differs; ringed: forces that changed by over 5 %.",
         );
     }
-    step
+    section.parts.push(SheetPart::Figures(plates));
+    section.parts.extend(grids.map(SheetPart::Table));
+    (sentence, section)
 }
 
 /// A sentence about the verdicts and all changes of a step.

@@ -7,7 +7,6 @@ use super::Grid;
 use crate::analysis::{EffectName, FrameAnalysis};
 use crate::result::Timing;
 use crate::text::line;
-use crate::wording::effect;
 use crate::wording::number::{counted, duration};
 
 /// The table of a step.
@@ -35,7 +34,7 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
             EffectName::Wedging => duration(stages.wedging),
             _ => "shared".to_owned(),
         };
-        let meaning = effect::meaning(described.effect);
+        let meaning = described.effect.meaning();
         let name = format!("{}: {meaning}", described.effect);
         let simulated = match described.simulated {
             true => "yes",

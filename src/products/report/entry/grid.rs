@@ -1,14 +1,18 @@
-//! [`Grid`]: a table of text cells.
+//! [`Grid`]: a table of cells.
+
+use super::{MarginBar, Thumbnail};
 
 /// A table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// The caption.
+    /// The caption; empty where a heading above it suffices.
     pub caption: String,
     /// The column heads, and whether the column contains numbers.
     pub heads: Vec<(String, bool)>,
     /// The rows.
     pub lines: Vec<Line>,
+    /// Whether the last row is the sum of the others.
+    pub has_sum: bool,
 }
 
 /// A row of a table.
@@ -17,28 +21,84 @@ pub struct Line {
     /// The id of the mark in the figure that belongs to this row: `i3`, `r0`, `f2`; empty for none.
     pub mark: String,
     /// The cells.
-    pub cells: Vec<String>,
+    pub cells: Vec<TableCell>,
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TableCell {
+    /// Its text.
+    pub words: String,
+    /// A margin that is drawn as a bar; its text is then the description of the bar.
+    pub bar: Option<MarginBar>,
+    /// A small picture.
+    pub picture: Option<Thumbnail>,
+    /// The scene that the text leads to, counted from 1.
+    pub scene: Option<usize>,
+    /// Whether it is emphasised.
+    pub strong: bool,
+}
+
+impl<S: Into<String>> From<S> for TableCell {
+    fn from(words: S) -> TableCell {
+        TableCell {
+            words: words.into(),
+            ..TableCell::default()
+        }
+    }
+}
+
+impl TableCell {
+    /// A small picture without text.
+    pub fn picture(picture: Thumbnail) -> TableCell {
+        TableCell {
+            picture: Some(picture),
+            ..TableCell::default()
+        }
+    }
+
+    /// A margin drawn as a bar.
+    pub fn bar(bar: MarginBar) -> TableCell {
+        TableCell {
+            words: bar.words.clone(),
+            bar: Some(bar),
+            ..TableCell::default()
+        }
+    }
+
+    /// Text that is emphasised if a condition holds.
+    pub fn strong_if(strong: bool, words: impl Into<String>) -> TableCell {
+        TableCell {
+            strong,
+            ..words.into().into()
+        }
+    }
 }
 
 impl Grid {
     /// An empty table. A `#` at the beginning of a head marks a column of numbers.
-    pub fn new(caption: impl Into<String>, heads: &[&str]) -> Grid {
-        let head = |head: &&str| match head.strip_prefix('#') {
+    pub fn new<H: AsRef<str>>(caption: impl Into<String>, heads: &[H]) -> Grid {
+        let head = |head: &H| match head.as_ref().strip_prefix('#') {
             Some(rest) => (rest.to_owned(), true),
-            None => ((*head).to_owned(), false),
+            None => (head.as_ref().to_owned(), false),
         };
         Grid {
             caption: caption.into(),
             heads: heads.iter().map(head).collect(),
             lines: Vec::new(),
+            has_sum: false,
         }
     }
 
     /// Adds a row. `mark` is the id of a mark in the figure, or empty.
-    pub fn add(&mut self, mark: impl Into<String>, cells: impl IntoIterator<Item = String>) {
+    pub fn add<C: Into<TableCell>>(
+        &mut self,
+        mark: impl Into<String>,
+        cells: impl IntoIterator<Item = C>,
+    ) {
         self.lines.push(Line {
             mark: mark.into(),
-            cells: cells.into_iter().collect(),
+            cells: cells.into_iter().map(Into::into).collect(),
         });
     }
 }

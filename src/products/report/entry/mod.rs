@@ -1,54 +1,64 @@
 //! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
-//! An entry is made once from an analysis. The writers for HTML, Markdown and PDF read the entry only, so their contents
-//! agree. Text from scene files is reduced to one safe line here ([`text::line`]), and each writer escapes it for its
-//! format.
+//! An entry is made once from an analysis: [`Section`]s of [`SheetPart`]s. The writers for HTML, Markdown and PDF read the entry
+//! only, so their contents agree. Text from scene files is reduced to one safe line here ([`text::line`]), and each writer
+//! escapes it for its format.
 
+mod balance;
 mod bullet;
-mod chosen;
 mod comparison;
 mod cost;
+mod full;
+mod governing;
 mod grid;
+mod inputs;
+mod joints;
+mod part;
 mod row;
-mod step;
+mod sheet;
+mod steps;
+mod story;
 mod touch;
+mod unit;
 
 pub use bullet::{BarEnd, MarginBar};
 pub use comparison::{Side, compared};
-pub use grid::{Grid, Line};
+pub use grid::{Grid, Line, TableCell};
+pub use part::{Badge, Chart, Figure, Section, SheetPart};
 pub use row::{Row, Thumbnail};
-pub use step::Step;
 pub use touch::{HoverTarget, touched};
 
-use std::borrow::Cow;
-
-use crate::analysis::Analysis;
-use crate::chart::{self, Course};
-use crate::drawing::{Drawing, Theme};
+use crate::analysis::{Analysis, Verdict};
+use crate::drawing::Theme;
 use crate::output::svg::OutlineError;
 use crate::report::accuracy;
 use crate::result::{Layout, Timing, accuracy_json, to_json_of};
 use crate::study::{Study, summary};
 use crate::text;
-use crate::wording::number::{letter, prefixed};
 
 /// The options of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportOptions {
     /// The theme of the figures.
     pub theme: Theme,
+    /// The theme of a second drawing of each figure, for readers whose system is dark.
+    pub dark: Option<Theme>,
     /// The name of the theme if the user chose one; the commands in the report repeat it.
     pub theme_name: Option<String>,
     /// Whether it reports solving times.
     pub timing: Timing,
+    /// Whether everything that is known is printed in an appendix.
+    pub full: bool,
 }
 
 impl Default for ReportOptions {
     fn default() -> ReportOptions {
         ReportOptions {
             theme: Theme::default(),
+            dark: None,
             theme_name: None,
             timing: Timing::LeftOut,
+            full: false,
         }
     }
 }
@@ -67,70 +77,66 @@ pub struct File<'f> {
 pub struct Entry {
     /// Its row in the table of all scenes.
     pub row: Row,
-    /// Sentences about the whole scene.
-    pub remarks: Vec<String>,
-    /// Its steps, one per frame.
-    pub steps: Vec<Step>,
-    /// Charts over its steps; empty for a single step.
-    pub charts: Vec<Chart>,
-    /// The accuracy study of the scene, if requested.
-    pub study: Option<Chart>,
+    /// Project, author and date, as far as the scene gives them.
+    pub details: Vec<String>,
+    /// Its content.
+    pub sections: Vec<Section>,
+    /// The program and the scene that the result comes from, in one line.
+    pub origin: String,
     /// Commands that draw its figures again: the purpose and the command.
     pub commands: Vec<(String, String)>,
     /// The scene file for copying: the same values, with escaped characters.
     pub source: String,
     /// The objects of `check --json`, one line each.
     pub results: Vec<String>,
-}
-
-/// A figure with its caption.
-#[derive(Clone, Debug)]
-pub struct Figure {
-    /// The caption.
-    pub caption: String,
-    /// The figure.
-    pub drawing: Drawing,
-}
-
-/// A chart as an SVG document, with its caption.
-#[derive(Clone, Debug)]
-pub struct Chart {
-    /// The caption.
-    pub caption: String,
-    /// The SVG.
-    pub svg: String,
-}
-
-impl Chart {
-    /// The SVG with the namespace that a file needs.
-    pub(crate) fn document(&self) -> Cow<'_, str> {
-        if self.svg.contains("xmlns=") {
-            return Cow::Borrowed(&self.svg);
-        }
-        let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
-        Cow::Owned(self.svg.replacen("<svg", head, 1))
-    }
+    /// The changes of a comparison, one sentence for each step.
+    pub changes: Vec<String>,
 }
 
 impl Entry {
     /// The content of a report on an analysis.
     pub fn new(file: File<'_>, analysis: &Analysis, options: &ReportOptions) -> Entry {
-        let steps = step::all(analysis, options);
+        let scene = &analysis.scene;
+        let named = [
+            ("Project", &scene.project),
+            ("Author", &scene.author),
+            ("Date", &scene.date),
+        ];
+        let details = named
+            .into_iter()
+            .filter(|(_, words)| !words.trim().is_empty());
         Entry {
             row: Row::new(file.name, analysis),
-            remarks: analysis
-                .scene
-                .tolerance_words()
-                .iter()
-                .map(|words| text::line(words))
-                .chain(chosen::left_out(analysis))
+            details: details
+                .map(|(what, words)| text::line(&format!("{what}: {words}")))
                 .collect(),
-            charts: step_charts(analysis),
-            study: None,
+            sections: steps::sections(analysis, options),
+            origin: format!(
+                "drystone {}, scene {}",
+                env!("CARGO_PKG_VERSION"),
+                hash(file.text)
+            ),
             commands: commands(file.name, analysis, options),
             source: text::json(file.text),
             results: vec![result(file.name, analysis, options.timing)],
-            steps,
+            changes: Vec::new(),
+        }
+    }
+
+    /// Takes the figures of the same entry in another spelling.
+    pub(crate) fn take_figures(&mut self, other: Entry) {
+        let others = other.sections.into_iter().flat_map(|section| section.parts);
+        let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
+        for part in self
+            .sections
+            .iter_mut()
+            .flat_map(|section| &mut section.parts)
+        {
+            if matches!(part, SheetPart::Figures(_))
+                && let Some(drawn) = others.next()
+            {
+                *part = drawn;
+            }
         }
     }
 
@@ -139,12 +145,17 @@ impl Entry {
     /// # Errors
     /// If the text of the picture cannot be laid out.
     pub fn add_study(&mut self, study: &Study) -> Result<(), OutlineError> {
-        self.study = Some(Chart {
-            caption: format!(
-                "What accuracy costs on this scene. {}",
-                accuracy::heading(study)
-            ),
+        let heading = accuracy::heading(study);
+        let chart = Chart {
+            caption: format!("What accuracy costs on this scene. {heading}"),
             svg: accuracy::picture(&summary(study), study.cases.len())?,
+            wide: true,
+        };
+        self.sections.push(Section {
+            letter: String::new(),
+            title: String::new(),
+            verdict: self.row.verdict,
+            parts: vec![SheetPart::Charts(vec![chart])],
         });
         let measured = accuracy_json(study);
         let compact = measured.lines().map(str::trim).collect::<String>();
@@ -154,6 +165,11 @@ impl Entry {
         }
         Ok(())
     }
+}
+
+/// The hash by which a scene file is recognised: 16 hexadecimal digits of FNV-1a.
+fn hash(file: &str) -> String {
+    format!("{:016x}", text::hash(file.as_bytes()))
 }
 
 /// The result of the scene as JSON in one line, like `check --json`.
@@ -171,14 +187,17 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
     let file = text::shell(name);
     let command = |kind: &str| format!("drystone render {file} -o figure.svg{kind}{theme}");
     let mut commands = vec![("the figure of forces".to_owned(), command(""))];
-    if analysis.frames.iter().any(step::has_mechanism) {
-        let how = "how it falls".to_owned();
-        commands.push((how, command(" --kind mechanism")));
+    let falls = analysis
+        .frames
+        .iter()
+        .any(|f| f.verdict == Verdict::Unstable && !f.mechanism.is_empty());
+    if falls {
+        commands.push(("how it falls".to_owned(), command(" --kind mechanism")));
     }
-    if chosen::left_out(analysis).is_some() {
-        let each = "a figure of each step".to_owned();
-        commands.push((each, command(" --panels")));
-    }
+    commands.push((
+        "all joints, effects and solver details".to_owned(),
+        format!("drystone report --full {file} -o report.pdf"),
+    ));
     commands.push((
         "the numbers".to_owned(),
         format!("drystone check --json {file}"),
@@ -186,74 +205,34 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
     commands
 }
 
-/// Charts over the steps of a scene: forces, tilt, friction.
-fn step_charts(analysis: &Analysis) -> Vec<Chart> {
-    let frames = &analysis.frames;
-    if frames.len() < 2 {
-        return Vec::new();
-    }
-    let steps: Vec<String> = (0..frames.len()).map(letter).collect();
-    let blue = [68, 121, 180];
-    let red = [168, 0, 0];
-    let totals = frames.iter().map(|f| f.total_force.max(f.total_sticking));
-    let (newtons, factor) = prefixed(totals.fold(0.0, f64::max), "N");
-    let mut lines = vec![(
-        "forces".to_owned(),
-        blue,
-        frames
-            .iter()
-            .map(|f| Some(f.total_force * factor))
-            .collect(),
-    )];
-    if frames.iter().any(|f| f.total_sticking > 0.0) {
-        lines.push((
-            "sticking".to_owned(),
-            red,
-            frames
-                .iter()
-                .map(|f| Some(f.total_sticking * factor))
-                .collect(),
-        ));
-    }
-    let caption = match lines.len() {
-        1 => "Total force over the steps",
-        _ => "Total force and total sticking over the steps",
+/// The table of all scenes, with links to them and, where pages are numbered, the page of each.
+pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -> Grid {
+    let fails = if compares {
+        "what changed"
+    } else {
+        "what fails"
     };
-    let mut charts = vec![(caption, newtons.as_str(), lines)];
-    if frames.iter().any(|f| f.margins.is_some()) {
-        let tilt = frames.iter().map(|f| {
-            let margins = f.margins.as_ref()?;
-            let [left, right] = [&margins.tilt.left, &margins.tilt.right].map(|m| m.at());
-            match (left, right) {
-                (Some(a), Some(b)) => Some(a.min(b)),
-                (a, b) => a.or(b),
-            }
-        });
-        let friction = frames.iter().map(|f| f.margins.as_ref()?.friction.at());
-        charts.push((
-            "Largest tilt (the smaller of left and right) over the steps",
-            "degrees",
-            vec![("tilt".to_owned(), blue, tilt.collect())],
-        ));
-        charts.push((
-            "Least friction coefficient with which it stands, over the steps",
-            "coefficient",
-            vec![("friction".to_owned(), blue, friction.collect())],
-        ));
-    }
-    let drawn = charts.into_iter().filter_map(|(caption, y, lines)| {
-        let chart = Course {
-            title: caption.to_owned(),
-            y: y.to_owned(),
-            steps: steps.clone(),
-            lines,
+    let mut heads = vec!["picture", "name", "verdict", "headline margin", fails];
+    heads.extend(pages.map(|_| "#page"));
+    let mut grid = Grid::new("", &heads);
+    for row in rows {
+        let name = TableCell {
+            scene: Some(row.number),
+            ..row.title.clone().into()
         };
-        // A chart without any number is left out.
-        let svg = chart::course(&chart).ok()?;
-        Some(Chart {
-            caption: caption.to_owned(),
-            svg,
-        })
-    });
-    drawn.collect()
+        let mut cells = vec![
+            TableCell::picture(row.thumbnail.clone()),
+            name,
+            row.verdict_words().into(),
+            row.margin_words().into(),
+            row.fails.clone().into(),
+        ];
+        cells.extend(
+            pages
+                .and_then(|p| p.get(row.number - 1))
+                .map(|page| TableCell::from(page.to_string())),
+        );
+        grid.add("", cells);
+    }
+    grid
 }

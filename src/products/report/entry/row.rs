@@ -1,13 +1,16 @@
 //! [`Row`]: the row of a scene in the table of all scenes.
 
 use super::bullet;
+use super::governing::{governing, headline_words};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Camera;
 use crate::drawing::{Outline, PagePoint, Segment};
 use crate::geometry::Bounds;
+use crate::scene::{BlockId, Scene};
 use crate::text;
 use crate::wording::failure;
 use crate::wording::number::{percent, quantity};
+use crate::wording::verdict::plain;
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL: (f64, f64) = (96.0, 60.0);
@@ -17,6 +20,8 @@ const MAX_THUMBNAIL_BLOCKS: usize = 400;
 /// A summary of a scene.
 #[derive(Clone, Debug)]
 pub struct Row {
+    /// The number of the scene in its report, from 1.
+    pub number: usize,
     /// The path as given by the user.
     pub name: String,
     /// The title of the scene, or the name of its file.
@@ -29,9 +34,10 @@ pub struct Row {
     pub stand: (usize, usize),
     /// The number of blocks that its steps place.
     pub blocks: usize,
-    /// The margin of all steps that matters most: of a scene with loads their factor, else the one nearest to its end. In
-    /// words, and what is left in parts of what there is.
-    pub closest: Option<(String, f64)>,
+    /// The margin of the governing step that matters most, as a sentence; empty where none was computed.
+    pub headline: String,
+    /// What is left to the end of this margin, as a share: −1 for a scene that falls whatever its loads, 2 without margin.
+    pub reserve: f64,
     /// The largest share of the available friction that an interface uses, among the steps that stand. `None` if no step
     /// stands: the forces of a falling step include the missing forces.
     pub friction: Option<f64>,
@@ -44,7 +50,7 @@ pub struct Row {
 }
 
 /// A small picture: outlines as SVG path data.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Thumbnail {
     /// The blocks.
     pub blocks: String,
@@ -57,10 +63,9 @@ impl Row {
     pub fn new(name: &str, analysis: &Analysis) -> Row {
         let scene = &analysis.scene;
         let frames = &analysis.frames;
-        let mut bullets = Vec::new();
-        for frame in frames {
-            bullets.extend(bullet::margin_bars(scene, frame));
-        }
+        let number = governing(analysis);
+        let bars = bullet::margin_bars(scene, &frames[number]);
+        let bar = bars.first();
         let standing = || frames.iter().filter(|f| f.verdict == Verdict::Stable);
         let mut placed: Vec<usize> = scene
             .frames
@@ -81,20 +86,18 @@ impl Row {
             title => text::line(title),
         };
         Row {
+            number: 1,
             name: text::line(name),
             title,
             verdict: analysis.verdict(),
             before: None,
             stand: (standing().count(), frames.len()),
             blocks: placed.len(),
-            closest: match (bullet::headline(&bullets), analysis.verdict()) {
-                (None, _) => None,
-                (Some(bar), _) if bar.is_load_factor => {
-                    Some((text::line(&bar.short()), bar.reserve))
-                }
-                (Some(_), Verdict::Unstable) => Some(("none: it falls".into(), -1.0)),
-                (Some(bar), _) => Some((text::line(&bar.short()), bar.reserve)),
-            },
+            headline: headline_words(scene, number, &frames[number]),
+            reserve: bar.map_or(2.0, |bar| match analysis.verdict() {
+                Verdict::Unstable if !bar.is_load_factor => -1.0,
+                _ => bar.reserve,
+            }),
             friction: standing()
                 .map(|f| f.contacts.iter().map(|c| c.friction_used))
                 .map(|shares| shares.fold(0.0, f64::max))
@@ -107,12 +110,31 @@ impl Row {
                 })
                 .reduce(f64::max),
             fails: text::line(&fails),
-            thumbnail: thumbnail(analysis, &placed),
+            thumbnail: thumbnail(
+                scene,
+                &placed.iter().map(|id| BlockId(*id)).collect::<Vec<_>>(),
+            ),
         }
     }
 }
 
 impl Row {
+    /// The verdict, of a comparison both verdicts, as text.
+    pub(crate) fn verdict_words(&self) -> String {
+        match self.before {
+            Some(before) => format!("{} → {}", plain(before), plain(self.verdict)),
+            None => plain(self.verdict).to_owned(),
+        }
+    }
+
+    /// The headline margin as text.
+    pub(crate) fn margin_words(&self) -> String {
+        match self.headline.as_str() {
+            "" => "–".to_owned(),
+            words => words.to_owned(),
+        }
+    }
+
     /// The share of the available friction that is used, as text.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
@@ -132,9 +154,9 @@ pub(super) fn file_name(name: &str) -> String {
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-fn thumbnail(analysis: &Analysis, placed: &[usize]) -> Thumbnail {
-    let scene = &analysis.scene;
-    let polygon = |id: usize| &scene.blocks[id].body.polygon;
+/// A small picture of some blocks and the ground.
+pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
+    let polygon = |id: BlockId| &scene.blocks[id.0].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());
     let Some(bounds) = bounds.reduce(Bounds::union) else {
         return Thumbnail::default();

@@ -2,6 +2,7 @@
 
 use crate::drawing::{Camera, Colour, Drawing, Group, Item, Outline, Path, Stroke};
 use crate::geometry::Point;
+use crate::text::line;
 
 /// Width of a target for an interface, in pixels: wide enough to hit with a mouse.
 const WIDTH: f64 = 10.0;
@@ -17,6 +18,15 @@ pub struct HoverTarget {
     pub words: String,
     /// The ends of an interface, or a point twice, in metres.
     pub ends: [Point; 2],
+}
+
+/// A part at a point.
+pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
+    HoverTarget {
+        mark,
+        words: line(words),
+        ends: [at, at],
+    }
 }
 
 /// Adds an invisible target to a drawing for each part, above everything else. A drawing without a scene is unchanged.

@@ -5,14 +5,15 @@
 //! that follow the mouse. The body of a scene stands in a `noscript`: with scripts it is plain text until somebody opens
 //! the scene, so that a page of a thousand scenes opens at once; without scripts the browser reads it as it is.
 
-mod scene;
+mod bar;
+mod part;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-pub(super) use scene::section;
+pub(super) use part::section;
 
 use super::entry::{Row, Thumbnail};
-use super::page::{OutputFile, Report};
+use super::head::{Head, MEANING, OutputFile, sign, slug};
 use crate::analysis::Verdict;
 use crate::text;
 use crate::wording::verdict::plain;
@@ -24,35 +25,34 @@ const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 const OPEN: usize = 12;
 
 /// A page that holds everything.
-pub(super) fn whole(report: &Report, summary: &str, bodies: &[&str]) -> String {
+pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     let main = html! {
-        (refused(report))
-        @if report.pieces.len() > 1 { (overview(report, &|number| format!("#scene-{number}"))) }
+        (refused(head))
+        @if head.rows.len() > 1 { (overview(head, &|number| format!("#scene-{number}"))) }
         section #scenes aria-label="Scenes" data-open=(bodies.len() <= OPEN) {
             @for body in bodies { (PreEscaped(body)) }
         }
     };
-    page(report, &report.title, summary, &main)
+    page(head, head.title, &head.summary, &main)
 }
 
 /// An index and a page for each scene.
-pub(super) fn split(report: &Report, summary: &str) -> Vec<OutputFile> {
-    let names: Vec<String> = report
-        .pieces
-        .iter()
-        .enumerate()
-        .map(|(i, piece)| format!("{:04}-{}.html", i + 1, slug(&piece.row.title)))
-        .collect();
-    let link = |number: usize| names[number - 1].clone();
+pub(super) fn split(head: &Head<'_>, bodies: &[&str]) -> Vec<OutputFile> {
+    let name = |row: &&Row| format!("{:04}-{}.html", row.number, slug(&row.title));
+    let names: Vec<String> = head.rows.iter().map(name).collect();
+    let link = |number: usize| {
+        let place = head.rows.iter().position(|row| row.number == number);
+        place.map_or(String::new(), |place| names[place].clone())
+    };
     let index = html! {
-        (refused(report))
-        (overview(report, &link))
+        (refused(head))
+        (overview(head, &link))
     };
     let mut files = vec![(
         "index.html".to_owned(),
-        page(report, &report.title, summary, &index).into_bytes(),
+        page(head, head.title, &head.summary, &index).into_bytes(),
     )];
-    for (number, piece) in report.pieces.iter().enumerate() {
+    for (number, (row, body)) in head.rows.iter().zip(bodies).enumerate() {
         let beside = |number: Option<usize>, words: &str| {
             let name = number.and_then(|n| names.get(n));
             html! { @if let Some(name) = name { a href=(name) { (words) } " " } }
@@ -63,38 +63,17 @@ pub(super) fn split(report: &Report, summary: &str) -> Vec<OutputFile> {
                 (beside(number.checked_sub(1), "Previous scene"))
                 (beside(Some(number + 1), "Next scene"))
             }
-            section #scenes aria-label="Scenes" data-open="true" { (PreEscaped(piece.text())) }
+            section #scenes aria-label="Scenes" data-open="true" { (PreEscaped(body)) }
         };
         let stated = format!("scene {} of {}", number + 1, names.len());
-        let page = page(report, &piece.row.title, &stated, &main);
+        let page = page(head, &row.title, &stated, &main);
         files.push((names[number].clone(), page.into_bytes()));
     }
     files
 }
 
-/// A piece of a file's name made of a title.
-pub(super) fn slug(title: &str) -> String {
-    let mut slug = String::new();
-    for c in title.chars() {
-        match c.to_ascii_lowercase() {
-            c if c.is_ascii_alphanumeric() => slug.push(c),
-            _ if !slug.ends_with('-') && !slug.is_empty() => slug.push('-'),
-            _ => {}
-        }
-        if slug.len() >= 40 {
-            break;
-        }
-    }
-    let slug = slug.trim_end_matches('-');
-    if slug.is_empty() {
-        "scene".into()
-    } else {
-        slug.into()
-    }
-}
-
-fn page(report: &Report, title: &str, summary: &str, main: &Markup) -> String {
-    let dark = report.dark.map(|dark| if dark { "dark" } else { "light" });
+fn page(head: &Head<'_>, title: &str, summary: &str, main: &Markup) -> String {
+    let dark = head.dark.map(|dark| if dark { "dark" } else { "light" });
     let title = text::line(title);
     html! {
         (DOCTYPE)
@@ -113,13 +92,12 @@ fn page(report: &Report, title: &str, summary: &str, main: &Markup) -> String {
                     p.summary { (summary) "." }
                 }
                 main {
-                    @for note in &report.notes { p.small { (text::line(note)) } }
+                    @for note in head.notes { p.small { (text::line(note)) } }
                     (main)
                 }
                 footer {
                     p {
-                        "“Stands” says that a balance of forces exists: for rigid blocks, laid dry (no mortar, no cohesion), at "
-                        "rest. A balance that lives on wedging counts. Nothing here moves in time: no impact, no earthquake."
+                        (MEANING)
                     }
                     p { "drystone " (env!("CARGO_PKG_VERSION")) }
                 }
@@ -130,13 +108,13 @@ fn page(report: &Report, title: &str, summary: &str, main: &Markup) -> String {
     .into_string()
 }
 
-fn refused(report: &Report) -> Markup {
+fn refused(head: &Head<'_>) -> Markup {
     html! {
-        @if !report.refused.is_empty() {
+        @if !head.refused.is_empty() {
             section.refused aria-labelledby="refused" {
                 h2 #refused { "Files that are no scenes" }
                 p { "These are not in the report. Each is listed with everything that is wrong with it." }
-                @for file in &report.refused {
+                @for file in head.refused {
                     h3 { bdi { (text::line(&file.name)) } }
                     ul { @for line in file.lines() { li { (line) } } }
                 }
@@ -147,12 +125,7 @@ fn refused(report: &Report) -> Markup {
 
 /// The mark and the word of a verdict.
 fn verdict(verdict: Verdict) -> Markup {
-    let (class, sign) = match verdict {
-        Verdict::Stable => ("stands", "✓"),
-        Verdict::Unstable => ("falls", "✗"),
-        Verdict::Undecided => ("undecided", "?"),
-    };
-    html! { span.verdict.(class) { span aria-hidden="true" { (sign) } " " (plain(verdict)) } }
+    html! { span.verdict.(plain(verdict)) { span aria-hidden="true" { (sign(verdict)) } " " (plain(verdict)) } }
 }
 
 /// The verdict, of a comparison both, on one line.
@@ -172,10 +145,9 @@ fn path(name: &str) -> Markup {
     }
 }
 
-fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
-    let rows = || report.pieces.iter().map(|p| &p.row);
-    let margins = rows().any(|row| row.closest.is_some());
-    let fails = if report.compares {
+fn overview(head: &Head<'_>, link: &dyn Fn(usize) -> String) -> Markup {
+    let margins = head.rows.iter().any(|row| !row.headline.is_empty());
+    let fails = if head.compares {
         "what changed"
     } else {
         "what fails"
@@ -190,7 +162,7 @@ fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
                             th scope="col" { "picture" }
                             th scope="col" data-sort="text" { "name" }
                             th scope="col" data-sort="text" { "verdict" }
-                            @if margins { th scope="col" data-sort="number" { "closest margin" } }
+                            @if margins { th scope="col" data-sort="number" { "headline margin" } }
                             th.number scope="col" data-sort="number" { "friction used, where it stands" }
                             th.number scope="col" data-sort="number" { "blocks" }
                             th.number scope="col" data-sort="number" { "largest force, where it stands" }
@@ -198,7 +170,7 @@ fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
                         }
                     }
                     tbody {
-                        @for (i, row) in rows().enumerate() { (line(row, &link(i + 1), margins)) }
+                        @for row in &head.rows { (line(row, &link(row.number), margins)) }
                     }
                 }
             }
@@ -222,12 +194,7 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
                 (verdicts(row))
                 @if !steps.is_empty() { span.file { (steps) } }
             }
-            @if margins {
-                @match &row.closest {
-                    Some((words, reserve)) => td data-value=(reserve) { (words) },
-                    None => td data-value="2" { "–" },
-                }
-            }
+            @if margins { td data-value=(row.reserve) { (row.margin_words()) } }
             td.number data-value=(row.friction.unwrap_or(-1.0)) { (row.friction_words()) }
             td.number data-value=(row.blocks) { (row.blocks) }
             td.number data-value=(row.largest.unwrap_or(-1.0)) { (row.largest_words()) }

@@ -1,5 +1,5 @@
-//! The names of fields that a line of a batch can have, in the order of the result: those of the keys of a
-//! result, and `verdict`, the worst of all frames.
+//! The names of the fields of a batch line, in the order of the result: the keys of a result, and `verdict`, the worst
+//! verdict of all frames.
 
 use std::sync::LazyLock;
 
@@ -16,7 +16,7 @@ pub(super) struct Name {
 /// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // Keys below a robot's own name are selected together with all robots.
+    // Keys below the name of a robot are selected together for all robots.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))
@@ -47,7 +47,7 @@ fn leaf(word: &'static str) -> Name {
     }
 }
 
-/// The path behind a name as it was typed.
+/// The path of a typed name.
 pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     if typed == "all" {
         return Some(vec!["all"]);
@@ -62,13 +62,22 @@ pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     Some(path)
 }
 
-/// The nearest known name.
+/// The most similar known name.
 pub(super) fn nearest(typed: &str) -> Option<String> {
     let known = all();
+    // What newcomers call the forces between bodies, and the forces of robots.
+    let synonym = match typed.rsplit('.').next().unwrap_or(typed) {
+        "forces" | "contacts" | "contact_forces" => Some("frames.interfaces"),
+        "force" | "sum_of_forces" => Some("frames.total_force"),
+        _ => None,
+    };
+    if let Some(name) = synonym {
+        return Some(name.to_owned());
+    }
     text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// Every name, parts behind dots.
+/// All names, with dots between their parts.
 fn all() -> Vec<String> {
     fn add(names: &[Name], before: &str, list: &mut Vec<String>) {
         for name in names {

@@ -82,26 +82,10 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         if x.abs() <= POSITION_TOL && y.abs() <= POSITION_TOL {
             return Movement::None;
         }
-        // Positions are rounded to 0.01. Round the translation more coarsely, so that elements that moved together report
-        // the same distance.
-        let whole = |by: f64| match by.abs() {
-            far if far < 0.2 => (by * 100.0).round() / 100.0,
-            _ => (by * 10.0).round() / 10.0,
-        };
-        return Movement::Moved(whole(x), whole(y));
+        return Movement::Moved(rounded(x), rounded(y));
     }
-    // 3. The best rotation about the centroids in the least-squares sense (the Procrustes problem in the plane): its angle
-    // is atan2(Σ p × q, Σ p · q).
-    let (mut along, mut across) = (0.0, 0.0);
-    for (p, q) in a.iter().zip(&b) {
-        let (p, q) = (
-            [p[0] - from[0], p[1] - from[1]],
-            [q[0] - to[0], q[1] - to[1]],
-        );
-        along += p[0] * q[0] + p[1] * q[1];
-        across += p[0] * q[1] - p[1] * q[0];
-    }
-    let angle = libm::atan2(across, along);
+    // 3. The best rotation about the centroids.
+    let angle = best_rotation(&a, &b, from, to);
     let (sin, cos) = libm::sincos(angle);
     let turned = |p: [f64; 2]| {
         let p = [p[0] - from[0], p[1] - from[1]];
@@ -115,6 +99,30 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         return Movement::Turned(-angle.to_degrees());
     }
     Movement::Reshaped(stayed)
+}
+
+/// A translation along one axis. Positions are rounded to 0.01; it is rounded more coarsely, so that elements that moved
+/// together report the same distance.
+fn rounded(by: f64) -> f64 {
+    match by.abs() {
+        far if far < 0.2 => (by * 100.0).round() / 100.0,
+        _ => (by * 10.0).round() / 10.0,
+    }
+}
+
+/// The angle of the best rotation of `a` about `from` to `b` about `to` in the least-squares sense (the Procrustes problem in
+/// the plane): atan2(Σ p × q, Σ p · q), radians.
+fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let (mut along, mut across) = (0.0, 0.0);
+    for (p, q) in a.iter().zip(b) {
+        let (p, q) = (
+            [p[0] - from[0], p[1] - from[1]],
+            [q[0] - to[0], q[1] - to[1]],
+        );
+        along += p[0] * q[0] + p[1] * q[1];
+        across += p[0] * q[1] - p[1] * q[0];
+    }
+    libm::atan2(across, along)
 }
 
 fn centre(points: &[[f64; 2]]) -> [f64; 2] {

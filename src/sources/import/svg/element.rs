@@ -15,55 +15,12 @@ use crate::import::subpath::{Arc, Segment, Subpath};
 /// # Errors
 /// A message if the shape has no valid size.
 pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
-    let tag = node.tag_name().name();
-    let across = |name| length(node, name, viewport.width);
-    let down = |name| length(node, name, viewport.height);
-    let diagonal = libm::hypot(viewport.width, viewport.height) / core::f64::consts::SQRT_2;
-    let round = |name| length(node, name, diagonal);
-    let positive = |name: &str, value: Option<f64>| match value {
-        Some(v) if v > 0.0 => Ok(v),
-        Some(v) => Err(format!("its {name} is {v}")),
-        None => Err(format!("it has no {name}")),
-    };
-    match tag {
-        "rect" => {
-            let at = Point::new(across("x").unwrap_or(0.0), down("y").unwrap_or(0.0));
-            let width = positive("width", across("width"))?;
-            let height = positive("height", down("height"))?;
-            let radius = |own: Option<f64>, other: Option<f64>, side: f64| {
-                own.or(other).unwrap_or(0.0).clamp(0.0, side / 2.0)
-            };
-            let (rx, ry) = (across("rx"), down("ry"));
-            let radii = Vector::new(radius(rx, ry, width), radius(ry, rx, height));
-            Ok(vec![rectangle(at, Vector::new(width, height), radii)])
-        }
-        "circle" | "ellipse" => {
-            let centre = Point::new(across("cx").unwrap_or(0.0), down("cy").unwrap_or(0.0));
-            let (rx, ry) = if tag == "circle" {
-                let r = positive("radius", round("r"))?;
-                (r, r)
-            } else {
-                let (rx, ry) = (across("rx"), down("ry"));
-                (
-                    positive("radius rx", rx.or(ry))?,
-                    positive("radius ry", ry.or(rx))?,
-                )
-            };
-            Ok(vec![Subpath::ellipse(centre, rx, ry)])
-        }
-        "polygon" | "polyline" => {
-            let text = node.attribute("points").unwrap_or("");
-            let points: Vec<Point> = PointsParser::from(text)
-                .map(|p| Point::new(p.0, p.1))
-                .collect();
-            let Some(subpath) = Subpath::closed(&points) else {
-                return Err("it has no points".into());
-            };
-            let closed = tag == "polygon";
-            Ok(vec![Subpath { closed, ..subpath }])
-        }
+    match node.tag_name().name() {
+        "rect" => rect(node, viewport),
+        "circle" | "ellipse" => ellipse(node, viewport),
+        tag @ ("polygon" | "polyline") => polyline(node, tag == "polygon"),
         "line" => {
-            let place = |x, y| Point::new(across(x).unwrap_or(0.0), down(y).unwrap_or(0.0));
+            let place = |x, y| point(node, viewport, [x, y]);
             let segments = vec![Segment::Line(place("x2", "y2"))];
             Ok(vec![Subpath {
                 start: place("x1", "y1"),
@@ -74,6 +31,63 @@ pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Sub
         _ => path::subpaths(node.attribute("d").unwrap_or(""))
             .map_err(|why| format!("its path data cannot be read ({why})")),
     }
+}
+
+/// A point from two attributes; 0 where one is missing.
+fn point(node: Node<'_, '_>, viewport: Viewport, [x, y]: [&str; 2]) -> Point {
+    Point::new(
+        length(node, x, viewport.width).unwrap_or(0.0),
+        length(node, y, viewport.height).unwrap_or(0.0),
+    )
+}
+
+fn positive(name: &str, value: Option<f64>) -> Result<f64, String> {
+    match value {
+        Some(v) if v > 0.0 => Ok(v),
+        Some(v) => Err(format!("its {name} is {v}")),
+        None => Err(format!("it has no {name}")),
+    }
+}
+
+fn rect(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
+    let across = |name| length(node, name, viewport.width);
+    let down = |name| length(node, name, viewport.height);
+    let width = positive("width", across("width"))?;
+    let height = positive("height", down("height"))?;
+    let radius = |own: Option<f64>, other: Option<f64>, side: f64| {
+        own.or(other).unwrap_or(0.0).clamp(0.0, side / 2.0)
+    };
+    let (rx, ry) = (across("rx"), down("ry"));
+    let radii = Vector::new(radius(rx, ry, width), radius(ry, rx, height));
+    let at = point(node, viewport, ["x", "y"]);
+    Ok(vec![rectangle(at, Vector::new(width, height), radii)])
+}
+
+fn ellipse(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
+    let (rx, ry) = if node.tag_name().name() == "circle" {
+        // Percentages of a radius refer to the diagonal of the viewport over √2.
+        let diagonal = libm::hypot(viewport.width, viewport.height) / core::f64::consts::SQRT_2;
+        let r = positive("radius", length(node, "r", diagonal))?;
+        (r, r)
+    } else {
+        let rx = length(node, "rx", viewport.width);
+        let ry = length(node, "ry", viewport.height);
+        (
+            positive("radius rx", rx.or(ry))?,
+            positive("radius ry", ry.or(rx))?,
+        )
+    };
+    let centre = point(node, viewport, ["cx", "cy"]);
+    Ok(vec![Subpath::ellipse(centre, rx, ry)])
+}
+
+fn polyline(node: Node<'_, '_>, closed: bool) -> Result<Vec<Subpath>, String> {
+    let text = node.attribute("points").unwrap_or("");
+    let points: Vec<Point> = PointsParser::from(text)
+        .map(|p| Point::new(p.0, p.1))
+        .collect();
+    let subpath = Subpath::closed(&points).ok_or("it has no points")?;
+    Ok(vec![Subpath { closed, ..subpath }])
 }
 
 fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {

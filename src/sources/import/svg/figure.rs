@@ -2,10 +2,11 @@
 
 use roxmltree::{Node, NodeType};
 
+use super::context::Context;
 use super::element;
 use super::style::Style;
 use super::viewport::Viewport;
-use super::walk::{Context, Walk};
+use super::walk::Walk;
 use super::xml::{is, words};
 use crate::import::affine::Affine;
 use crate::import::draft::{FillRule, Form, Part, Role, Values};
@@ -22,6 +23,28 @@ pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
         })
         .collect();
     (!found.is_empty()).then_some(found)
+}
+
+/// The map from a frame to metres, with y up.
+fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String> {
+    let numbers = |name: &str| -> Option<Vec<f64>> {
+        let text = picture.attribute(name)?;
+        let all = text
+            .split_whitespace()
+            .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
+        all.collect()
+    };
+    let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
+    let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
+        return Err(format!(
+            "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes; export the figure again"
+        ));
+    };
+    let metres = scale.unwrap_or(1.0 / pixels);
+    if !(metres.is_finite() && metres > 0.0) {
+        return Err(format!("its {SCALE} is {pixels}"));
+    }
+    Ok(Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]))
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
@@ -45,23 +68,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 number + 1
             ));
         };
-        let numbers = |name: &str| -> Option<Vec<f64>> {
-            let text = picture.attribute(name)?;
-            let all = text
-                .split_whitespace()
-                .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
-            all.collect()
-        };
-        let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
-        let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
-            return Err(format!(
-                "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes; export the figure again"
-            ));
-        };
-        let metres = scale.unwrap_or(1.0 / pixels);
-        if !(metres.is_finite() && metres > 0.0) {
-            return Err(format!("its {SCALE} is {pixels}"));
-        }
+        let map = frame_map(picture, scale)?;
         let note = if count == 1 {
             "a figure by drystone".into()
         } else {
@@ -73,19 +80,12 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.draft.notes.push(format!(
             "{note}: colours and arrows show forces and are not imported; weights, friction and limits are not in the figure"
         ));
-        let around = Context {
-            map: Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]),
-            style: Style::ROOT,
-            viewport: Viewport {
-                width: 0.0,
-                height: 0.0,
-                copied: (None, None),
-            },
-            kind: None,
-            group: None,
-            copy: None,
-            depth: 0,
+        let viewport = Viewport {
+            width: 0.0,
+            height: 0.0,
+            copied: (None, None),
         };
+        let around = Context::of_page(map, Style::ROOT, viewport);
         self.read_groups(picture, &around);
         Ok(())
     }

@@ -6,11 +6,13 @@
 //!
 //! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED`] of one kind.
 
+mod context;
 mod element;
 mod figure;
 mod name;
 mod path;
 mod remark;
+mod shape;
 mod style;
 mod viewport;
 mod walk;
@@ -26,6 +28,8 @@ use self::walk::Walk;
 use self::xml::{is, words};
 use super::draft::Draft;
 use super::limit::too_many;
+use super::naming::Naming;
+use super::scale::Scale;
 
 /// The largest number of comparisons of a style rule with an element.
 const MAX_RULE_MATCHES: usize = 150_000_000;
@@ -34,7 +38,12 @@ const MAX_RULE_MATCHES: usize = 150_000_000;
 ///
 /// # Errors
 /// The reason why the text cannot be read as SVG.
-pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Result<Draft, String> {
+pub(super) fn read(
+    text: &str,
+    scale: Scale,
+    frame: Option<usize>,
+    naming: &Naming<'_>,
+) -> Result<Draft, String> {
     let options = ParsingOptions {
         allow_dtd: true,
         ..ParsingOptions::default()
@@ -45,13 +54,7 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         let found = root.tag_name().name();
         return Err(format!("its root element is <{found}> and not <svg>"));
     }
-    let mut css = String::new();
-    for node in document.descendants().filter(|n| is(*n, "style")) {
-        for segment in node.children().filter_map(|c| c.text()) {
-            css += segment;
-            css.push('\n');
-        }
-    }
+    let css = style_text(&document);
     let sheet = StyleSheet::parse(&css);
     let elements = document.descendants().filter(Node::is_element).count();
     let rules = sheet.rules.len();
@@ -60,16 +63,11 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
             "its {rules} style rules and {elements} elements need too many comparisons; simplify its styles"
         ));
     }
-    let mut ids = BTreeMap::new();
-    for node in document.descendants() {
-        if let Some(id) = node.attribute("id") {
-            ids.entry(id).or_insert(node);
-        }
-    }
     let mut walk = Walk {
         sheet,
+        naming,
         styled: 0,
-        ids,
+        ids: ids(&document),
         lines: Lines::new(text),
         draft: Draft::default(),
         seen: 0,
@@ -80,15 +78,43 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         walk.draft.title = words(title);
     }
     if let Some(pictures) = figure::frames(root) {
-        walk.figure(&pictures, scale, frame)?;
+        if scale.ratio.is_some() {
+            return Err(
+                "a figure by drystone contains its own scale; leave out --scale 1:N".into(),
+            );
+        }
+        walk.figure(&pictures, scale.metres, frame)?;
     } else if frame.is_some() {
         return Err("--frame needs a figure by drystone; this drawing has no frames".into());
     } else {
-        walk.drawing(root, scale);
+        walk.drawing(root, scale)?;
     }
     walk.count_unlisted();
     if walk.more > 0 {
         return Err(too_many(walk.draft.parts.len() + walk.more).message);
     }
     Ok(walk.draft)
+}
+
+/// The text of all style sheets.
+fn style_text(document: &Document<'_>) -> String {
+    let mut css = String::new();
+    for node in document.descendants().filter(|n| is(*n, "style")) {
+        for segment in node.children().filter_map(|c| c.text()) {
+            css += segment;
+            css.push('\n');
+        }
+    }
+    css
+}
+
+/// The elements by their ids; of several with one id the first.
+fn ids<'a, 'd>(document: &'a Document<'d>) -> BTreeMap<&'a str, Node<'a, 'd>> {
+    let mut ids = BTreeMap::new();
+    for node in document.descendants() {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node);
+        }
+    }
+    ids
 }

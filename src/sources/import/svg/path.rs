@@ -58,6 +58,7 @@ impl SubpathBuilder {
         self.at = segment.end();
     }
 
+    /// Adds a command of the path.
     fn draw(&mut self, segment: PathSegment) {
         let base = if segment.is_abs() {
             Vector::zeros()
@@ -67,15 +68,7 @@ impl SubpathBuilder {
         let place = |x: f64, y: f64| Point::new(x, y) + base;
         let (handle, quadratic) = (self.handle.take(), self.quadratic.take());
         match segment {
-            PathSegment::MoveTo { x, y, .. } => {
-                self.finish();
-                self.at = place(x, y);
-                self.open = Some(Subpath {
-                    start: self.at,
-                    segments: Vec::new(),
-                    closed: false,
-                });
-            }
+            PathSegment::MoveTo { x, y, .. } => self.begin(place(x, y)),
             PathSegment::LineTo { x, y, .. } => self.add(Segment::Line(place(x, y))),
             PathSegment::HorizontalLineTo { x, .. } => {
                 self.add(Segment::Line(Point::new(x + base.x, self.at.y)));
@@ -92,13 +85,11 @@ impl SubpathBuilder {
                 y,
                 ..
             } => {
-                self.handle = Some(place(x2, y2));
-                self.add(Segment::Cubic(place(x1, y1), place(x2, y2), place(x, y)));
+                self.cubic(place(x1, y1), place(x2, y2), place(x, y));
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
                 let first = handle.map_or(self.at, |h| self.at + (self.at - h));
-                self.handle = Some(place(x2, y2));
-                self.add(Segment::Cubic(first, place(x2, y2), place(x, y)));
+                self.cubic(first, place(x2, y2), place(x, y));
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
                 self.quadratic(place(x1, y1), place(x, y));
@@ -124,15 +115,35 @@ impl SubpathBuilder {
                     None => Segment::Line(to),
                 });
             }
-            PathSegment::ClosePath { .. } => {
-                if let Some(mut subpath) = self.open.take() {
-                    self.at = subpath.start;
-                    subpath.closed = true;
-                    self.open = Some(subpath);
-                    self.finish();
-                }
-            }
+            PathSegment::ClosePath { .. } => self.close(),
         }
+    }
+
+    /// Begins a subpath.
+    fn begin(&mut self, start: Point) {
+        self.finish();
+        self.at = start;
+        self.open = Some(Subpath {
+            start,
+            segments: Vec::new(),
+            closed: false,
+        });
+    }
+
+    /// Closes the open subpath.
+    fn close(&mut self) {
+        if let Some(mut subpath) = self.open.take() {
+            self.at = subpath.start;
+            subpath.closed = true;
+            self.open = Some(subpath);
+            self.finish();
+        }
+    }
+
+    /// Adds a cubic curve.
+    fn cubic(&mut self, first: Point, second: Point, to: Point) {
+        self.handle = Some(second);
+        self.add(Segment::Cubic(first, second, to));
     }
 
     /// Adds a quadratic curve as a cubic one: its control points are at 2/3 of the way to the quadratic control point.

@@ -5,7 +5,6 @@ use core::str::FromStr;
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::walk::Context;
 use crate::import::affine::Affine;
 
 /// The size to which percentages refer.
@@ -78,49 +77,12 @@ fn described(root: Node<'_, '_>, by_width: bool) -> String {
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
-/// Sets the transform and the viewport for the content of a nested `<svg>` or a `<symbol>`.
-pub(super) fn enter(node: Node<'_, '_>, inner: &mut Context) {
-    let (copied_width, copied_height) = inner.viewport.copied;
-    let outer = inner.viewport;
-    let (mut x, mut y) = (0.0, 0.0);
-    let mut size = (copied_width, copied_height);
-    if node.tag_name().name() == "svg" {
-        x = length(node, "x", outer.width).unwrap_or(0.0);
-        y = length(node, "y", outer.height).unwrap_or(0.0);
-        size.0 = size.0.or(length(node, "width", outer.width));
-        size.1 = size.1.or(length(node, "height", outer.height));
-    }
-    let (width, height) = (
-        size.0.unwrap_or(outer.width),
-        size.1.unwrap_or(outer.height),
-    );
-    inner.map = inner.map.after(&Affine::translation(x, y));
-    inner.viewport = Viewport {
-        width,
-        height,
-        copied: (None, None),
-    };
-    if let Some(view) = view_box(node)
-        && width > 0.0
-        && height > 0.0
-    {
-        let ratio = node
-            .attribute("preserveAspectRatio")
-            .and_then(|t| AspectRatio::from_str(t).ok());
-        inner.map = inner
-            .map
-            .after(&fitted(view, width, height, ratio.unwrap_or_default()));
-        inner.viewport.width = view.w;
-        inner.viewport.height = view.h;
-    }
-}
-
 /// A length in user units; `None` if it is missing or not valid.
 pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
     in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
 }
 
-fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
+pub(super) fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
     let text = node.attribute("viewBox")?;
     let view = ViewBox::from_str(text).ok()?;
     [view.x, view.y, view.w, view.h]
@@ -130,7 +92,7 @@ fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
 }
 
 /// The map of a view box into its viewport, by `preserveAspectRatio`.
-fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
+pub(super) fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
     let (sx, sy) = (width / view.w, height / view.h);
     if ratio.align == Align::None {
         return Affine::scale(sx, sy).after(&Affine::translation(-view.x, -view.y));

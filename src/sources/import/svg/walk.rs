@@ -4,18 +4,18 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 use simplecss::StyleSheet;
-use svgtypes::{TransformListParser, TransformListToken};
 
+use super::MAX_RULE_MATCHES;
+use super::context::{Context, UseElement};
 use super::name::{self, Lines};
-use super::remark::RemarkKind;
-use super::style::{Fill, Style};
-use super::viewport::{self, Viewport};
+use super::remark::{MAX_LISTED, RemarkKind};
+use super::style::Style;
+use super::viewport;
 use super::xml::{SVG, is, is_never_drawn};
-use super::{MAX_RULE_MATCHES, element};
 use crate::import::affine::Affine;
-use crate::import::draft::{Draft, Form, Part, Role, Values};
-use crate::import::limit::MAX_BODIES;
-use crate::import::scene_file;
+use crate::import::draft::{Draft, Role};
+use crate::import::naming::Naming;
+use crate::import::scale::Scale;
 
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
@@ -23,30 +23,10 @@ const MAX_DEPTH: usize = 100;
 /// The largest number of elements, copies included. Copies of copies can grow exponentially.
 const MAX_ELEMENTS: usize = 500_000;
 
-/// The properties that an element inherits from the elements around it.
-#[derive(Clone)]
-pub(super) struct Context {
-    pub(super) map: Affine,
-    pub(super) style: Style,
-    pub(super) viewport: Viewport,
-    pub(super) kind: Option<Role>,
-    /// The name of the innermost named group, for elements without a name.
-    pub(super) group: Option<String>,
-    /// The `<use>` element that draws this copy, if any.
-    pub(super) copy: Option<UseElement>,
-    pub(super) depth: usize,
-}
-
-/// The `<use>` element of a copy: its description and its name.
-#[derive(Clone)]
-pub(super) struct UseElement {
-    pub(super) element: String,
-    pub(super) name: Option<String>,
-}
-
 /// The state of a walk over the elements of an SVG.
 pub(super) struct Walk<'a, 'd> {
     pub(super) sheet: StyleSheet<'a>,
+    pub(super) naming: &'a Naming<'a>,
     pub(super) ids: BTreeMap<&'a str, Node<'a, 'd>>,
     pub(super) lines: Lines,
     pub(super) draft: Draft,
@@ -62,28 +42,13 @@ pub(super) struct Walk<'a, 'd> {
 
 impl<'a, 'd> Walk<'a, 'd> {
     /// Reads a drawing that is not a figure by drystone.
-    pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Option<f64>) {
+    pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Scale) -> Result<(), String> {
         let page = viewport::page(root);
-        let scale = match (scale, page.unit) {
-            (Some(scale), _) => {
-                let note = format!("a unit of the drawing is {scale} m (from --scale)");
-                self.draft.notes.push(note);
-                scale
-            }
-            (None, Some((unit, stated))) => {
-                let note = format!(
-                    "a unit of the drawing is {} m, because it is {stated}",
-                    scene_file::six_digits(unit)
-                );
-                self.draft.notes.push(note);
-                unit
-            }
-            (None, None) => {
-                let note = "a unit of the drawing is 1 m, because it has no size in mm, cm, in or pt; --scale sets another unit";
-                self.draft.notes.push(note.into());
-                1.0
-            }
-        };
+        let stated = page
+            .unit
+            .map(|(unit, stated)| (unit, format!("it is {stated}")));
+        let (scale, note) = scale.of(stated, "it has no size in mm, cm, in or pt")?;
+        self.draft.notes.push(note);
         // The lower left corner of the page becomes the origin, as in the rulers of Inkscape.
         let map = Affine([
             scale,
@@ -93,16 +58,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             -scale * page.left,
             scale * page.bottom,
         ]);
-        let around = Context {
-            map,
-            style: Style::ROOT.of_child(root, &self.sheet),
-            viewport: page.viewport,
-            kind: None,
-            group: None,
-            copy: None,
-            depth: 0,
-        };
+        let style = Style::ROOT.of_child(root, &self.sheet);
+        let around = Context::of_page(map, style, page.viewport);
         self.children(root, &around);
+        Ok(())
     }
 
     fn children(&mut self, node: Node<'a, 'd>, around: &Context) {
@@ -119,24 +78,12 @@ impl<'a, 'd> Walk<'a, 'd> {
         if is_never_drawn(tag) || (tag == "symbol" && around.copy.is_none()) {
             return;
         }
-        self.seen += 1;
-        self.styled = self.styled.saturating_add(self.sheet.rules.len());
-        if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
-            let why = format!(
-                "the drawing has more than {} elements, copies included; this one is left out",
-                self.seen - 1
-            );
-            self.remark(RemarkKind::TooManyElements, node, around, &why, "");
-            return;
-        }
-        if around.depth >= MAX_DEPTH {
-            let why = format!("groups are nested more than {MAX_DEPTH} levels deep; left out");
-            self.remark(RemarkKind::TooDeep, node, around, &why, "ungroup them");
+        if self.is_beyond_limits(node, around) {
             return;
         }
         let style = around.style.of_child(node, &self.sheet);
         let kind = name::all_names(node)
-            .find_map(|n| Role::from_name(&n))
+            .find_map(|n| self.naming.role(&n))
             .or(around.kind);
         if !style.displayed {
             self.skip(node, around, "it is hidden");
@@ -148,23 +95,13 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         if style.clipped {
             let why = "clip paths are not supported; the whole outline is imported";
-            self.remark(
-                RemarkKind::ClipPath,
-                node,
-                around,
-                why,
-                "cut the outline itself",
-            );
+            let help = "cut the outline itself";
+            self.remark(RemarkKind::ClipPath, node, around, why, help);
         }
         if style.masked {
             let why = "masks are not supported; the whole outline is imported";
-            self.remark(
-                RemarkKind::Mask,
-                node,
-                around,
-                why,
-                "cut the outline itself",
-            );
+            let help = "cut the outline itself";
+            self.remark(RemarkKind::Mask, node, around, why, help);
         }
         let inner = Context {
             map: around.map.after(&self.transform(node, around)),
@@ -174,6 +111,26 @@ impl<'a, 'd> Walk<'a, 'd> {
             ..around.clone()
         };
         self.draw(node, around, inner);
+    }
+
+    /// Counts an element; whether a limit on their number or depth leaves it out, which is remarked.
+    fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
+        self.seen += 1;
+        self.styled = self.styled.saturating_add(self.sheet.rules.len());
+        if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
+            let why = format!(
+                "the drawing has more than {} elements, copies included; this one is left out",
+                self.seen - 1
+            );
+            self.remark(RemarkKind::TooManyElements, node, around, &why, "");
+            return true;
+        }
+        if around.depth >= MAX_DEPTH {
+            let why = format!("groups are nested more than {MAX_DEPTH} levels deep; left out");
+            self.remark(RemarkKind::TooDeep, node, around, &why, "ungroup them");
+            return true;
+        }
+        false
     }
 
     /// Draws an element and its children, whose context is `inner`.
@@ -186,7 +143,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 }
                 match tag {
                     "svg" | "symbol" => {
-                        viewport::enter(node, &mut inner);
+                        inner.enter(node);
                         self.children(node, &inner);
                     }
                     "switch" => {
@@ -274,97 +231,54 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.element(target, &inner);
     }
 
-    fn shape(&mut self, node: Node<'a, 'd>, around: &Context) {
-        if !around.style.visible {
-            self.skip(node, around, "it is hidden");
-            return;
-        }
-        let subpaths = match element::subpaths(node, around.viewport) {
-            Ok(subpaths) => subpaths,
-            Err(why) => {
-                self.remark(
-                    RemarkKind::BrokenOutline,
-                    node,
-                    around,
-                    &format!("{why}; left out"),
-                    "",
-                );
-                return;
-            }
-        };
-        let fill = match around.style.fill {
-            Fill::Colour(fill) => Some(fill),
-            Fill::Paint => {
-                let why =
-                    "a gradient or pattern cannot become a material; the fill is not imported";
-                self.remark(RemarkKind::Gradient, node, around, why, "use one colour");
-                None
-            }
-            Fill::Unknown => {
-                let why = "its fill is not a valid colour; it is not imported";
-                self.remark(
-                    RemarkKind::BadFill,
-                    node,
-                    around,
-                    why,
-                    "write it as #rrggbb",
-                );
-                None
-            }
-            Fill::Unspecified | Fill::None => None,
-        };
-        let copied = around.copy.as_ref().and_then(|c| c.name.clone());
-        let name = copied
-            .or_else(|| name::user_name(node))
-            .or_else(|| around.group.clone())
-            .or_else(|| name::any_name(node))
-            .unwrap_or_default();
-        if self.draft.parts.len() >= MAX_BODIES {
-            self.more += 1;
-            return;
-        }
-        let mapped = subpaths.iter().map(|t| t.mapped(&around.map)).collect();
-        let part = Part {
-            kind: around.kind.unwrap_or(Role::Block),
-            name,
-            element: self.element_label(node, around),
-            form: Form::Subpaths(mapped, around.style.rule),
-            fill,
-            values: Values::default(),
-        };
-        self.draft.parts.push(part);
-    }
-
-    pub(super) fn transform(&mut self, node: Node<'a, 'd>, around: &Context) -> Affine {
-        let mut map = Affine::IDENTITY;
-        for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
-            let Ok(token) = token else {
-                let why =
-                    "its transform cannot be read completely; the part before the error is used";
-                self.remark(RemarkKind::BadTransform, node, around, why, "");
-                break;
-            };
-            map = map.after(&match token {
-                TransformListToken::Matrix { a, b, c, d, e, f } => Affine([a, b, c, d, e, f]),
-                TransformListToken::Translate { tx, ty } => Affine::translation(tx, ty),
-                TransformListToken::Scale { sx, sy } => Affine::scale(sx, sy),
-                TransformListToken::Rotate { angle } => Affine::rotation(angle),
-                TransformListToken::SkewX { angle } => {
-                    Affine([1.0, 0.0, libm::tan(angle.to_radians()), 1.0, 0.0, 0.0])
-                }
-                TransformListToken::SkewY { angle } => {
-                    Affine([1.0, libm::tan(angle.to_radians()), 0.0, 1.0, 0.0, 0.0])
-                }
-            });
-        }
-        map
-    }
-
     /// A description of an element for messages; for a copy, that of its `<use>` element.
     pub(super) fn element_label(&self, node: Node<'a, 'd>, around: &Context) -> String {
         match &around.copy {
             Some(copy) => copy.element.clone(),
             None => self.lines.element(node),
+        }
+    }
+
+    /// Notes that an element is left out, and why.
+    pub(super) fn skip(&mut self, node: Node<'a, 'd>, around: &Context, why: &str) {
+        let times = self.remarked.entry(RemarkKind::Skipped).or_default();
+        *times += 1;
+        if *times <= MAX_LISTED {
+            let note = format!("{} is left out: {why}", self.element_label(node, around));
+            self.draft.notes.push(note);
+        }
+    }
+
+    /// Adds a remark about an element.
+    pub(super) fn remark(
+        &mut self,
+        kind: RemarkKind,
+        node: Node<'a, 'd>,
+        around: &Context,
+        message: &str,
+        help: &str,
+    ) {
+        let times = self.remarked.entry(kind).or_default();
+        *times += 1;
+        if *times <= MAX_LISTED {
+            let element = self.element_label(node, around);
+            self.draft.remark(element, message, help);
+        }
+    }
+
+    /// Adds a remark with the number of unlisted remarks of each kind.
+    pub(super) fn count_unlisted(&mut self) {
+        for (kind, times) in &self.remarked {
+            let Some(more) = times.checked_sub(MAX_LISTED).filter(|more| *more > 0) else {
+                continue;
+            };
+            match kind.plural() {
+                None => {
+                    let note = format!("{more} more elements are left out for the same reasons");
+                    self.draft.notes.push(note);
+                }
+                Some(plural) => self.draft.remark("", format!("{more} more {plural}"), ""),
+            }
         }
     }
 }

@@ -30,34 +30,38 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
     };
     let hole = json!({ "holes": [rectangle(0.25, 0.25, 0.5, 0.5)] });
     hold(vec![
-        Claim("its `weight` (N)", without(&[]), Result(WEIGHT, json!(5))),
         Claim(
-            "its `mass` (kg) times gravity",
+            "its `weight` in newtons",
+            without(&[]),
+            Result(WEIGHT, json!(5)),
+        ),
+        Claim(
+            "its `mass` in kilograms times gravity",
             without(&["weight"]),
             Result(WEIGHT, json!(70)),
         ),
         Claim(
-            "the density is its own",
+            "The density is that of the block",
             without(&["weight", "mass"]),
             Result(WEIGHT, json!(90)),
         ),
         Claim(
-            "its material's",
+            "of its material, or of the scene",
             without(&["weight", "mass", "density"]),
             Result(WEIGHT, json!(7000)),
         ),
         Claim(
-            "or the scene's",
+            "or of the scene",
             without(&["weight", "mass", "density", "material"]),
             Result(WEIGHT, json!(30)),
         ),
         Claim(
-            "its area times the thickness times a density times gravity",
+            "its area times the thickness times the density times gravity",
             block(hole, json!({})),
             Result(WEIGHT, json!(0.75 * 9.81)),
         ),
         Claim(
-            "The weight acts at the centroid of the outline, along gravity",
+            "The weight acts at the centroid of the outline, in the direction of gravity",
             block(
                 json!({ "weight": 5 }),
                 json!({ "gravity": [3, -4], "friction": 2 }),
@@ -68,7 +72,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             ),
         ),
         Claim(
-            "no weight acts, not even one that is given",
+            "no weight acts, not even a given `weight`",
             block(
                 json!({ "weight": 5 }),
                 json!({ "gravity": [0, 0], "ground": [] }),
@@ -76,7 +80,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             stands(),
         ),
         Claim(
-            "The friction coefficient of an interface is that of the `friction_pairs` entry of the two bodies' materials",
+            "The friction coefficient of an interface comes from the `friction_pairs` entry of the two materials",
             pair(["oak", "stone"], 0.1),
             Result(MU, json!(1.5)),
         ),
@@ -86,7 +90,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(1.5)),
         ),
         Claim(
-            "the smaller of the two bodies' own",
+            "the smaller coefficient of the two bodies",
             block(
                 json!({ "friction": 0.9 }),
                 json!({ "ground": floor(json!({ "friction": 0.3 })) }),
@@ -94,7 +98,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(0.3)),
         ),
         Claim(
-            "which is the body's, its material's or the scene's",
+            "The coefficient of a body is its own",
             block(
                 json!({ "material": "oak", "friction": 0.6 }),
                 json!({ "materials": materials }),
@@ -102,7 +106,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(0.6)),
         ),
         Claim(
-            "its material's or the scene's",
+            "that of its material, or that of the scene",
             block(
                 json!({ "material": "oak" }),
                 json!({ "materials": materials }),
@@ -110,12 +114,12 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(0.5)),
         ),
         Claim(
-            "or the scene's",
+            "or that of the scene",
             file(json!({ "friction": 0.4 })),
             Result(MU, json!(0.4)),
         ),
         Claim(
-            "polygon may be given either way round",
+            "The corners of a polygon may be listed in either direction",
             block(
                 json!({ "polygon": [[0, 0], [0, 1], [1, 1], [1, 0]] }),
                 json!({}),
@@ -131,7 +135,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             stands(),
         ),
         Claim(
-            "turned by `angle` about its own origin and then moved by `at`, which counts metres",
+            "turned by `angle` about its own origin and then moved by `at`. `at` is in metres",
             block(
                 json!({ "polygon": rectangle(0.0, 0.0, 2.0, 1.0), "angle": 90, "at": [5, 0] }),
                 json!({}),
@@ -139,7 +143,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(ENDS, json!([[5, 0], [4, 0]])),
         ),
         Claim(
-            "or lattice steps where the scene has a `grid`",
+            "or in lattice steps if the scene has a `grid`",
             block(
                 json!({ "at": [3, 0] }),
                 json!({ "grid": { "kind": "triangular", "side": 2 } }),
@@ -160,7 +164,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result("/frames/0/interfaces/0/ends", json!([[0.5, 0], [0, 0]])),
         ),
         Claim(
-            "`at` is in whole steps",
+            "their `at` consists of whole steps",
             cells(json!({ "at": [0.5, 0] })),
             Refused("off_lattice", "is not a lattice point"),
         ),
@@ -170,7 +174,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Refused("off_lattice", "a multiple of 90°"),
         ),
         Claim(
-            "their `angle` a multiple of 60° on the triangular",
+            "their `angle` is a multiple of 60° on the triangular lattice",
             json!({ "drystone": 1, "grid": { "kind": "triangular" },
             "blocks": [{ "shape": "hexagon", "angle": 90 }] }),
             Refused("off_lattice", "a multiple of 60°"),
@@ -179,7 +183,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
     let mut file = cells(json!({}));
     file["contact_tolerance"] = json!(0.1);
     hold(vec![Claim(
-        "`contact_tolerance` does nothing",
+        "`contact_tolerance` has no effect",
         file,
         Result("/contact_tolerance/gap", json!(0)),
     )]);

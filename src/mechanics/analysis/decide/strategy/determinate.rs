@@ -5,12 +5,12 @@ use crate::program::Program;
 use crate::solve::{Effort, collapse};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
-    let (motion, adhesion) = collapse(program).unzip();
+    let (motion, least_adhesion) = collapse(program).unzip();
     Attempt {
         forces: None,
         motion,
         witness: None,
-        adhesion,
+        least_adhesion,
         effort: Effort::default(),
     }
 }

@@ -1,17 +1,17 @@
-//! Least adhesion: the least that mortar or stronger robots would have to provide for a balance. The optimum is the physical
-//! residual. It distinguishes 0 from almost 0 closer to the limit than a solver's status does.
+//! Least adhesion: the smallest forces by which contacts or robots would have to exceed their limits. The optimum is the
+//! physical residual. Near the limit it separates zero from nearly zero better than the status of a solver.
 
 use super::Attempt;
 use crate::program::Program;
 use crate::solve::{SolverSettings, least_adhesion_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
-    let adhesion = least_adhesion_in(program, settings);
+    let least_adhesion = least_adhesion_in(program, settings);
     Attempt {
-        forces: (adhesion.balanced == Some(true)).then(|| adhesion.forces.clone()),
-        motion: adhesion.motion.clone(),
-        effort: adhesion.effort,
+        forces: (least_adhesion.balanced == Some(true)).then(|| least_adhesion.forces.clone()),
+        motion: least_adhesion.motion.clone(),
+        effort: least_adhesion.effort,
         witness: None,
-        adhesion: Some(adhesion),
+        least_adhesion: Some(least_adhesion),
     }
 }

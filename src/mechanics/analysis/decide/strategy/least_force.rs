@@ -1,5 +1,5 @@
-//! Least force: admissible forces of least sum that balance, or a motion that none can stop. One program answers nearly
-//! every component, and its forces are those to be drawn.
+//! Least force: admissible forces with the least sum that balance, or a motion that no forces can stop. One program answers
+//! nearly every component, and figures draw its forces.
 
 use super::Attempt;
 use crate::program::Program;
@@ -9,7 +9,8 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_in(program, settings))
 }
 
-/// The same, stopped early: near the limit, where it may end without a status, other strategies decide sooner.
+/// Like the strategy itself, but with few iterations. Near the limit it may end without a status, and other strategies
+/// decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_at_first_look(program, settings))
 }
@@ -19,7 +20,7 @@ fn of(solved: Balance) -> Attempt {
         forces: solved.forces,
         motion: solved.motion,
         witness: solved.witness,
-        adhesion: None,
+        least_adhesion: None,
         effort: solved.effort,
     }
 }

@@ -1,5 +1,6 @@
-//! Any balance, or a motion that excludes all; then least residual: the forces with the least imbalance, and the motion of
-//! greatest power. Both programs have an optimum on both sides of the limit, where least force may end without a status.
+//! Any balance, or a motion that excludes all balances; then the forces with the least imbalance and the motion with the
+//! greatest power. Both programs have an optimum on both sides of the limit, where the program of least force may end
+//! without a status.
 
 use super::Attempt;
 use crate::program::Program;
@@ -19,14 +20,14 @@ fn of(solved: Option<Residual>) -> Attempt {
             forces: left.nearest.then_some(left.forces),
             motion: Some(left.motion),
             witness: None,
-            adhesion: None,
+            least_adhesion: None,
             effort: left.effort,
         },
         None => Attempt {
             forces: None,
             motion: None,
             witness: None,
-            adhesion: None,
+            least_adhesion: None,
             effort: Effort::default(),
         },
     }

@@ -1,4 +1,4 @@
-//! The strategies of route 3 and their order. Each poses one program and returns forces, a motion, or neither.
+//! The strategies of route 3 and their order. Each strategy solves one program and returns forces, a motion, or neither.
 
 mod determinate;
 mod least_force;
@@ -31,7 +31,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Its name in results.
+    /// The name in results.
     pub fn name(self) -> &'static str {
         match self {
             Method::ClosedForm => "closed form",
@@ -72,7 +72,7 @@ pub(super) enum Strategy {
     /// Forces with the least imbalance.
     Residual,
     /// Least sticking.
-    Sticking(SolverSettings),
+    Adhesion(SolverSettings),
 }
 
 /// What a strategy found, in the program's units and without a proof.
@@ -84,15 +84,18 @@ pub(super) struct Attempt {
     /// From the program of least force: a motion that bounds the sum of balancing forces from below.
     pub witness: Option<Vec<f64>>,
     /// The answer of the program of least adhesion, if that was the strategy.
-    pub adhesion: Option<LeastAdhesion>,
+    pub least_adhesion: Option<LeastAdhesion>,
     pub effort: Effort,
 }
 
 impl Attempt {
     /// The forces of this attempt, also those that balance only with adhesion.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
-        let adhesion = self.adhesion.as_ref().map(|adhesion| &adhesion.forces);
-        self.forces.as_ref().or(adhesion)
+        let least_adhesion = self
+            .least_adhesion
+            .as_ref()
+            .map(|least_adhesion| &least_adhesion.forces);
+        self.forces.as_ref().or(least_adhesion)
     }
 }
 
@@ -127,13 +130,15 @@ impl Strategy {
         let quick = settings.iter().find(plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
         match place {
+            // Large: a short attempt, any balance, least adhesion if failures are wanted, least residual, then full attempts.
             Place::Anywhere if many && !any => {
                 strategies.splice(0..0, residual);
                 if complete_result {
-                    strategies.splice(1..1, quick.map(Strategy::Sticking));
+                    strategies.splice(1..1, quick.map(Strategy::Adhesion));
                 }
                 strategies.splice(0..0, quick.map(Strategy::FirstLook));
             }
+            // Large, verdict only: any balance, a short attempt, least residual, then full attempts.
             Place::Anywhere if many => {
                 strategies.splice(0..0, residual);
                 let unique = |settings| SolverSettings {
@@ -142,16 +147,19 @@ impl Strategy {
                 };
                 strategies.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
             }
+            // Small: one attempt at least force, any balance, least residual, then refined attempts.
             Place::Anywhere => {
                 let second = 1.min(strategies.len());
                 strategies.splice(second..second, residual);
             }
+            // At the limit least force may have no optimum, so least residual comes first.
             Place::AtEdge => {
                 strategies.splice(0..0, residual);
             }
         }
+        // Closed form is always first, least adhesion always last.
         strategies.insert(0, Strategy::Determinate);
-        for settings in settings.iter().copied().map(Strategy::Sticking) {
+        for settings in settings.iter().copied().map(Strategy::Adhesion) {
             if !strategies.contains(&settings) {
                 strategies.push(settings);
             }
@@ -166,21 +174,22 @@ impl Strategy {
             Strategy::Force(settings) => least_force::attempt(program, *settings),
             Strategy::AnyBalance => least_residual::any(program),
             Strategy::Residual => least_residual::attempt(program),
-            Strategy::Sticking(settings) => least_adhesion::attempt(program, *settings),
+            Strategy::Adhesion(settings) => least_adhesion::attempt(program, *settings),
         }
     }
 
-    /// Whether its forces are those of least sum.
+    /// Whether the forces have the least sum.
     pub fn is_least(&self) -> bool {
         matches!(self, Strategy::Force(_))
     }
 
-    /// Whether its forces come so near to a balance that, where they have no proof, none have.
+    /// Whether the program has an optimum on both sides of the limit. Then, if its forces have no proof, no other forces
+    /// have one.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
             Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
-            Strategy::Sticking(_) => attempt.adhesion.is_some(),
+            Strategy::Adhesion(_) => attempt.least_adhesion.is_some(),
         }
     }
 
@@ -193,7 +202,7 @@ impl Strategy {
             }
             Strategy::Force(_) => Method::LeastForceRefined,
             Strategy::AnyBalance | Strategy::Residual => Method::LeastResidual,
-            Strategy::Sticking(_) => Method::LeastSticking,
+            Strategy::Adhesion(_) => Method::LeastSticking,
         }
     }
 }

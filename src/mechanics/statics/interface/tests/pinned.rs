@@ -110,6 +110,7 @@ fn frame(placed: &[usize]) -> Frame {
         placed: placed.iter().map(|n| BlockId(*n)).collect(),
         holds: Vec::new(),
         plans: Vec::new(),
+        expected: None,
     }
 }
 

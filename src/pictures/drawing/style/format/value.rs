@@ -1,4 +1,5 @@
-//! [`Value`]: what both notations of a style file come to. No other file of `drawing` names serde, serde_json or toml.
+//! [`Value`]: a value of a style file, read from JSON or from TOML. No other file of `drawing` uses serde, serde_json or
+//! toml.
 
 use core::fmt;
 
@@ -18,7 +19,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// The value as a sentence has it.
+    /// The value as text for messages.
     pub(super) fn stated(&self) -> String {
         match self {
             Value::Number(number) => format!("the number {number}"),

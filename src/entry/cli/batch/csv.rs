@@ -1,0 +1,61 @@
+//! The answers of a batch as CSV: one row for each frame, with the same columns in every file.
+
+use crate::analysis::{Analysis, FrameAnalysis};
+use crate::result::Origin;
+use crate::scene::Problem;
+use crate::text;
+use crate::wording::verdict::word;
+
+/// The first row. Forces are in newtons; a share of 1 is the whole of the friction or of a robot's limit.
+pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
+
+/// The rows of a scene.
+pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
+    let scene = &analysis.scene;
+    let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
+    let row = |(number, (answer, frame)): (usize, (&FrameAnalysis, &crate::scene::Frame))| {
+        let [start, title] = [place(origin), cell(&frame.title)];
+        let name = cell(&scene.title);
+        let verdict = word(answer.verdict);
+        let forces = answer.contacts.iter().map(|c| c.resultant.force.norm());
+        let numbers = [
+            answer.weight,
+            forces.fold(0.0, f64::max),
+            answer.total_force,
+            answer.total_sticking,
+            (answer.contacts.iter().map(|c| c.friction_used)).fold(0.0, f64::max),
+            (answer.robots.iter().map(|r| r.limit_used)).fold(0.0, f64::max),
+        ];
+        let numbers = numbers.map(|number| number.to_string()).join(",");
+        format!(
+            "{start},{name},{},{title},{verdict},{numbers},\n",
+            number + 1
+        )
+    };
+    frames.map(row).collect()
+}
+
+/// The row of a scene that is wrong: its first problem.
+pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
+    let words = problems.first().map_or(String::new(), |problem| {
+        match (problem.line, problem.message.is_empty()) {
+            (0, _) => problem.message.clone(),
+            (line, _) => format!("line {line}: {}", problem.message),
+        }
+    });
+    let between = ",".repeat(HEADER.matches(',').count() - 1);
+    format!("{}{between}{}\n", place(origin), cell(&words))
+}
+
+fn place(origin: &Origin) -> String {
+    let file = origin.file.as_deref().map_or(String::new(), text::csv);
+    let line = origin.line.map_or(String::new(), |line| line.to_string());
+    format!("{file},{line}")
+}
+
+fn cell(words: &str) -> String {
+    match words.is_empty() {
+        true => String::new(),
+        false => text::csv(words),
+    }
+}

@@ -1,0 +1,108 @@
+//! The options of `drystone render`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Margin, Normalise};
+use crate::cli::level::AnalysisArgs;
+use crate::cli::look::StyleArgs;
+use crate::cli::picture::Picture;
+use crate::cli::source::FrameChoice;
+
+/// Draw scenes with their forces, and what fails, as SVG, PNG, GIF, PDF or TikZ
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    /// Scene files, or folders of them; - reads standard input
+    #[arg(required = true, value_name = "SCENE")]
+    pub(super) scenes: Vec<PathBuf>,
+    /// Where to: a .svg, .png, .gif, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+    #[command(flatten)]
+    pub(super) picture: Picture,
+    #[command(flatten)]
+    pub(super) look: StyleArgs,
+    /// One resulting arrow per interface and block, or its normal and friction apart
+    #[arg(long, value_enum, default_value = "resultant")]
+    pub(super) arrows: Arrows,
+    /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
+    #[arg(long, value_enum, default_value = "drawn")]
+    pub(super) normalise: Normalise,
+    /// Arrows to one scale in each panel, or in the whole strip
+    #[arg(long, value_enum, default_value = "panel")]
+    pub(super) arrow_scale: ArrowScale,
+    /// What the figure shows
+    #[arg(long, value_enum, default_value = "forces")]
+    pub(super) kind: KindChoice,
+    /// The block that a free-body diagram cuts free, by its id
+    #[arg(long, value_name = "ID")]
+    pub(super) block: Option<String>,
+    /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
+    #[arg(long)]
+    pub(super) corners: bool,
+    /// Show the frames one after the other in a GIF or an animated PNG, each for this many seconds; what falls moves for that
+    /// time, and rests for one second at its end
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) animate: Option<f64>,
+    /// Write its amount next to every arrow
+    #[arg(long)]
+    pub(super) amounts: bool,
+    /// What the colours of blocks show
+    #[arg(long, value_enum, default_value = "amplitude")]
+    pub(super) fill: Fill,
+    /// Leave out the figure's title
+    #[arg(long)]
+    pub(super) no_title: bool,
+    /// Leave out the frames' captions
+    #[arg(long)]
+    pub(super) no_caption: bool,
+    /// Leave out the verdicts and what is written below them
+    #[arg(long)]
+    pub(super) no_verdict: bool,
+    /// Leave out the key and the scale of arrows
+    #[arg(long)]
+    pub(super) no_key: bool,
+    /// Show a bar of a round number of metres
+    #[arg(long)]
+    pub(super) scale_bar: bool,
+    /// Measure the width and height of all blocks, or of the block of --zoom, at the edges of each panel
+    #[arg(long)]
+    pub(super) dimensions: bool,
+    /// Show the neighbourhood of one block only, by its id
+    #[arg(long, value_name = "ID")]
+    pub(super) zoom: Option<String>,
+    /// Write every panel of a strip to a file of its own, its letter after the name
+    #[arg(long, conflicts_with = "animate")]
+    pub(super) panels: bool,
+    /// Split a long strip over several A4 pages, each a file of its own, its number after the name
+    #[arg(long, conflicts_with_all = ["animate", "panels"])]
+    pub(super) pages: bool,
+    /// Of --kind margin, in which direction [default: tilt]
+    #[arg(long, value_enum, value_name = "DIRECTION")]
+    pub(super) margin: Option<Margin>,
+    /// Panels per row of a strip
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) columns: Option<u16>,
+    /// Draw the outlines alone with the problems of a refused scene marked and numbered; ends with 2 where there are any
+    #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners"])]
+    pub(super) broken: bool,
+    /// Draw again whenever a scene or the style file is saved, until the program is stopped
+    #[arg(long)]
+    pub(super) watch: bool,
+    /// Draw one frame only, by number from 1, by its letter in the strip, or last
+    #[arg(long, value_name = "N")]
+    pub(super) frame: Option<FrameChoice>,
+    /// End with 1 or 3, as check does, where something is unstable or undecided
+    #[arg(long)]
+    pub(super) strict: bool,
+    #[command(flatten)]
+    pub(super) level: AnalysisArgs,
+}
+
+fn seconds(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(seconds) if (0.01..=600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("it is a time in seconds, from 0.01 to 600".into()),
+    }
+}

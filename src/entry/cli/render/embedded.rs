@@ -1,0 +1,108 @@
+//! Figures for a caller in the same process: the options of `render` as words, and an analysis that is there already.
+
+use clap::Parser;
+
+use super::{ANIMATION_WIDTH, Render};
+use crate::analysis::{Analysis, Options};
+use crate::cli::complaint::CliError;
+use crate::cli::picture::Format;
+use crate::cli::script;
+use crate::cli::source::Source;
+use crate::drawing::Drawing;
+use crate::figure;
+use crate::output::animation;
+use crate::output::fonts::Fonts;
+use crate::scene::Sketch;
+
+/// The options of `render` on a line of their own.
+#[derive(Debug, Parser)]
+#[command(name = "figure", disable_help_flag = true)]
+struct Line {
+    #[command(flatten)]
+    render: Render,
+}
+
+/// The options, the format by its ending, and the fonts that they name.
+fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), String> {
+    let output = format!("figure.{ending}");
+    let head = ["figure", "scene.json", "-o", output.as_str()];
+    let line = head.into_iter().chain(words.iter().map(String::as_str));
+    let render = Line::try_parse_from(line)
+        .map_err(|error| error.render().to_string())?
+        .render;
+    if render.panels || render.pages || render.watch || render.strict || render.frame.is_some() {
+        let why = "panels, pages, watch, strict and frame are options of the command line only";
+        return Err(why.into());
+    }
+    let format = Format::from_ending(ending).ok_or_else(|| {
+        let known = Format::ALL.map(Format::ending).join(", ");
+        format!("there is no format {ending}; a figure is one of {known}")
+    })?;
+    render
+        .check_kind(format)
+        .map_err(|error| words_of(&error))?;
+    let fonts = render.picture.fonts().map_err(|error| words_of(&error))?;
+    Ok((render, format, fonts))
+}
+
+/// The bytes of a figure, or of an animation where the words ask for one.
+///
+/// # Errors
+/// Words that `render` does not take, or a picture that cannot be written; in words.
+pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result<Vec<u8>, String> {
+    let (render, format, fonts) = parsed(words, ending)?;
+    let drawn = || {
+        let theme = render.look.theme()?;
+        let options = render.options(theme);
+        let mut found = found.clone();
+        if render.kind.needs_margins() && found.frames.iter().any(|frame| frame.margins.is_none()) {
+            found = Analysis::with(found.scene, &Options::default().margins(true));
+        }
+        let source = Source {
+            path: "the scene".into(),
+            scene: (*found.scene).clone(),
+        };
+        let options = render.zoomed(&source, &options)?;
+        if render.picture.draws_words(format) && script::lacks(&found.scene, &fonts) {
+            found.scene = script::legible(&found.scene, &fonts).into();
+        }
+        match render.animate {
+            None => {
+                let drawing = render.drawing(&source, &found, &options)?;
+                render.picture.bytes(drawing, format, &fonts)
+            }
+            Some(seconds) => {
+                let kind = render.kind.panels().unwrap_or_default();
+                let film = figure::film(&found, kind, &options, seconds);
+                let animate = format.animate().unwrap_or(animation::gif);
+                let picture = render.picture.clone().or_width(ANIMATION_WIDTH, format);
+                picture.animated(film, animate, &fonts)
+            }
+        }
+    };
+    drawn().map_err(|error| words_of(&error))
+}
+
+/// The bytes of the outlines of a refused scene, with its problems marked and numbered.
+///
+/// # Errors
+/// As [`figure`].
+pub(crate) fn sketch(words: &[String], ending: &str, text: &str) -> Result<Vec<u8>, String> {
+    let (render, format, fonts) = parsed(words, ending)?;
+    let drawn = || {
+        let options = render.options(render.look.theme()?);
+        let sketch = Sketch::from_bytes(text.as_bytes(), render.level.contact_tolerance);
+        let drawing: Drawing = figure::broken(&sketch, &options);
+        render.picture.bytes(drawing, format, &fonts)
+    };
+    drawn().map_err(|error| words_of(&error))
+}
+
+/// A complaint without what is of use on a command line alone.
+fn words_of(error: &CliError) -> String {
+    let page = error.page(None);
+    let text = page.text().trim_start_matches("error: ");
+    text.replace("\nFor more information, try '--help'.\n", "")
+        .trim_end()
+        .to_owned()
+}

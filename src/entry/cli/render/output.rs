@@ -1,0 +1,129 @@
+//! What was rendered, and how it is written.
+
+use std::path::{Path, PathBuf};
+
+use super::Render;
+use super::target::part_path;
+use crate::analysis::{Analysis, Verdict};
+use crate::cli::complaint::CliError;
+use crate::cli::destination::{self, Destination};
+use crate::cli::ending::ExitStatus;
+use crate::cli::terminal::Terminal;
+use crate::figure;
+use crate::output::file::Existing;
+use crate::wording::verdict::{counted, plain};
+
+/// A figure and what it shows.
+pub(super) struct Rendered {
+    /// One for each file; more than one where each panel has its own.
+    pub(super) bytes: Vec<Vec<u8>>,
+    pub(super) ending: ExitStatus,
+    pub(super) summary: String,
+}
+
+/// The results and the paths they are written to, where the program did not fail; its faults go to `faults`.
+pub(super) fn without_faults(
+    rendered: Vec<Result<Rendered, CliError>>,
+    paths: Vec<PathBuf>,
+    faults: &mut Vec<CliError>,
+) -> (Vec<Result<Rendered, CliError>>, Vec<PathBuf>) {
+    let (mut results, mut targets) = (Vec::new(), Vec::new());
+    let mut paths = paths.into_iter();
+    for result in rendered {
+        // On standard output there is no path.
+        let path = paths.next();
+        match result {
+            Err(complaint) if complaint.is_internal_fault() => faults.push(complaint),
+            other => {
+                results.push(other);
+                targets.extend(path);
+            }
+        }
+    }
+    (results, targets)
+}
+
+impl Render {
+    /// Writes the pictures, all or none, and then a line about each scene.
+    pub(super) fn write(
+        &self,
+        rendered: Vec<Rendered>,
+        destination: &Destination,
+        paths: &[PathBuf],
+        terminal: &Terminal,
+    ) -> Result<(), CliError> {
+        if let Destination::Stdout = destination {
+            for picture in rendered.iter().flat_map(|r| &r.bytes) {
+                terminal.print_bytes(picture)?;
+            }
+            return Ok(());
+        }
+        if let Destination::Folder(folder) = destination {
+            destination::make_folder(folder)?;
+        }
+        let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+        let mut summaries = Vec::new();
+        for (path, rendered) in paths.iter().zip(rendered) {
+            summaries.push(rendered.summary);
+            for (number, bytes) in rendered.bytes.into_iter().enumerate() {
+                files.push((self.target(path, number), bytes));
+            }
+        }
+        destination::write(&files, Existing::Replace)?;
+        for (path, summary) in paths.iter().zip(summaries) {
+            terminal.note(&format!("{}: {summary}", path.display()));
+        }
+        Ok(())
+    }
+
+    /// The file of one part of a figure, counted from 0; the path itself if a figure is one file.
+    fn target(&self, path: &Path, number: usize) -> PathBuf {
+        if self.pages {
+            part_path(path, &(number + 1).to_string())
+        } else if self.panels {
+            part_path(path, &figure::letter(number))
+        } else {
+            path.to_owned()
+        }
+    }
+}
+
+/// Every result, or every complaint.
+pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
+    let mut good = Vec::with_capacity(results.len());
+    let mut complaints = Vec::new();
+    for result in results {
+        match result {
+            Ok(value) => good.push(value),
+            Err(complaint) => complaints.push(complaint),
+        }
+    }
+    if complaints.is_empty() {
+        Ok(good)
+    } else {
+        Err(complaints)
+    }
+}
+
+/// `6 frames: 5 stand, 1 falls`.
+pub(super) fn summary(analysis: &Analysis) -> String {
+    let count = |verdict| {
+        analysis
+            .frames
+            .iter()
+            .filter(|f| f.verdict == verdict)
+            .count()
+    };
+    let parts: Vec<String> = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided]
+        .into_iter()
+        .filter(|v| count(*v) > 0)
+        .map(|v| match analysis.frames.len() {
+            1 => plain(v).into(),
+            _ => counted(count(v), v),
+        })
+        .collect();
+    match analysis.frames.len() {
+        1 => parts.join(", "),
+        n => format!("{n} frames: {}", parts.join(", ")),
+    }
+}

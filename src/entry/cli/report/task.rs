@@ -1,0 +1,135 @@
+//! [`Task`]: which scenes a report is about, and which of them it compares.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::Report;
+use crate::cli::complaint::CliError;
+
+/// A scene in a report, or two that it compares.
+pub(super) enum Task {
+    One(PathBuf),
+    Two([PathBuf; 2]),
+}
+
+impl Report {
+    /// The scenes of the report, and notes on files that have no counterpart.
+    pub(super) fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
+        if self.compare {
+            return self.pairs();
+        }
+        if self.scenes.iter().filter(|p| *p == Path::new("-")).count() > 1 {
+            let why = "standard input (-) can be read only once";
+            return Err(vec![CliError::CommandLine(why.into())]);
+        }
+        let mut tasks = Vec::new();
+        let mut complaints = Vec::new();
+        for path in &self.scenes {
+            if !path.is_dir() {
+                tasks.push(Task::One(path.clone()));
+                continue;
+            }
+            match below(path) {
+                Ok(files) if files.is_empty() => {
+                    let why = format!("{}: there is no .json file in this folder", path.display());
+                    complaints.push(CliError::CommandLine(why));
+                }
+                Ok(files) => tasks.extend(files.into_iter().map(Task::One)),
+                Err(complaint) => complaints.push(complaint),
+            }
+        }
+        if complaints.is_empty() {
+            Ok((tasks, Vec::new()))
+        } else {
+            Err(complaints)
+        }
+    }
+
+    fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
+        let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
+        let [a, b] = self.scenes.as_slice() else {
+            return Err(refuse(
+                "--compare takes two scenes, or two folders of scenes",
+            ));
+        };
+        match (a.is_dir(), b.is_dir()) {
+            (false, false) => Ok((vec![Task::Two([a.clone(), b.clone()])], Vec::new())),
+            (true, true) => {
+                let one = |complaint| vec![complaint];
+                let (first, second) = (below(a).map_err(one)?, below(b).map_err(one)?);
+                let mut tasks = Vec::new();
+                let mut notes = Vec::new();
+                for path in &first {
+                    let inside = path.strip_prefix(a).unwrap_or(path);
+                    let other = b.join(inside);
+                    if second.contains(&other) {
+                        tasks.push(Task::Two([path.clone(), other]));
+                    } else {
+                        notes.push(format!("Only in the first folder: {}", inside.display()));
+                    }
+                }
+                for path in &second {
+                    let inside = path.strip_prefix(b).unwrap_or(path);
+                    if !first.contains(&a.join(inside)) {
+                        notes.push(format!("Only in the second folder: {}", inside.display()));
+                    }
+                }
+                if tasks.is_empty() {
+                    return Err(refuse(
+                        "--compare finds no file of the same name in both folders",
+                    ));
+                }
+                Ok((tasks, notes))
+            }
+            _ => Err(refuse(
+                "--compare takes two files or two folders, not one of each",
+            )),
+        }
+    }
+}
+
+impl Task {
+    pub(super) fn paths(&self) -> Vec<&Path> {
+        match self {
+            Task::One(path) => vec![path.as_path()],
+            Task::Two(paths) => paths.iter().map(PathBuf::as_path).collect(),
+        }
+    }
+
+    pub(super) fn name(&self) -> String {
+        let names = self.paths().into_iter();
+        names
+            .map(|p| p.display().to_string())
+            .collect::<Vec<_>>()
+            .join(" → ")
+    }
+}
+
+/// Every .json file below a folder, in the order of their paths. Links to folders are not followed: they may lead in a
+/// circle.
+fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
+    let unread = |path: &Path, error: &std::io::Error| CliError::NotRead {
+        what: path.display().to_string(),
+        why: error.to_string(),
+    };
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(&folder).map_err(|e| unread(&folder, &e))?;
+        for entry in entries {
+            let entry = entry.map_err(|e| unread(&folder, &e))?;
+            let kind = entry.file_type().map_err(|e| unread(&entry.path(), &e))?;
+            let path = entry.path();
+            let json = path
+                .extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+            if kind.is_dir() {
+                folders.push(path);
+            } else if json && path.is_file() {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,237 @@
+//! The analysis of all frames of a scene, one after the other.
+//!
+//! Each frame: assemble it, split it into components, decide the components that no earlier frame had, put them together, and
+//! then look for wedging and margins if they were asked for.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
+
+use super::cost::{SolveReport, Stages};
+use super::decide::{self, Findings, Method, decide_component};
+use super::frame::settle;
+use super::gather::{add, gathered};
+use super::key::{Key, key};
+use super::margin::{self, ComponentIntervals, Part};
+use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
+use crate::assembly::Assembly;
+use crate::effect::wedging::{self, Wedging};
+use crate::effect::{self, EffectReport, FrameContext};
+use crate::interface::Interfaces;
+use crate::program::UnknownCounts;
+use crate::scene::{RobotId, Scene};
+use crate::solve::{DeadlineGuard, Effort};
+
+/// Fewer components than this are decided on one thread: starting several costs more than it saves.
+#[cfg(feature = "parallel")]
+const MIN_PARALLEL_COMPONENTS: usize = 17;
+
+/// What is known of the components of earlier frames.
+#[derive(Default)]
+pub(super) struct Known {
+    findings: BTreeMap<Key, Findings>,
+    intervals: BTreeMap<Key, ComponentIntervals>,
+}
+
+/// A component of a frame and what was found out about it.
+struct Solved<'a> {
+    component: &'a Assembly,
+    key: &'a Key,
+    found: &'a Findings,
+}
+
+/// Analyses every frame of a scene, without closing gaps and overlaps.
+pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
+    let found = Interfaces::new(scene);
+    let frames = analyse_frames(scene, &found, options);
+    (found, frames)
+}
+
+/// Analyses every frame of a scene with given interfaces.
+pub(super) fn analyse_frames(
+    scene: &Scene,
+    found: &Interfaces,
+    options: &Options,
+) -> Vec<FrameAnalysis> {
+    let mut known = Known::default();
+    let frames = scene.frames.iter();
+    frames
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            let context = FrameContext {
+                scene,
+                frame,
+                interfaces: &interfaces,
+            };
+            let mut analysis = analyse_frame(&context, *options, &mut known);
+            analysis.notices.extend(found.notices.iter().cloned());
+            analysis
+        })
+        .collect()
+}
+
+/// Analyses one frame.
+pub(super) fn analyse_frame(
+    context: &FrameContext,
+    options: Options,
+    known: &mut Known,
+) -> FrameAnalysis {
+    let start = Instant::now();
+    let seconds = || start.elapsed().as_secs_f64();
+    // Bodies, contacts and loads; components cannot influence each other.
+    let (assembly, reports) = effect::assemble(context);
+    let components = assembly.components();
+    let keys: Vec<Key> = components.iter().map(key).collect();
+    let mut stages = Stages {
+        assembly: seconds(),
+        ..Stages::default()
+    };
+    // Verdict and forces of each component.
+    let (effort, fresh) = decide_fresh(&components, &keys, options, &mut known.findings);
+    let solved = (components.iter().zip(&keys)).map(|(component, key)| {
+        let found = known.findings.get(key)?;
+        Some(Solved {
+            component,
+            key,
+            found,
+        })
+    });
+    let solved: Vec<Solved> = solved.flatten().collect();
+    // Verdict and forces of the frame.
+    let mut analysis = combine(context, &assembly, reports, &solved, options);
+    stages.solution = seconds() - stages.assembly;
+    analysis.solve = SolveReport {
+        method: (solved.iter().map(|s| s.found.method).max()).unwrap_or(Method::ClosedForm),
+        iterations: effort.iterations,
+        programs: effort.programs,
+        groups: components.len(),
+        reused: components.len() - fresh,
+        seconds: 0.0,
+        stages,
+    };
+    // What else was asked for.
+    let _until = DeadlineGuard::new(options.deadline);
+    let before = seconds();
+    let wedging = find_wedging(context.scene, &mut analysis, &solved, options);
+    let after = seconds();
+    if options.wedging {
+        analysis.solve.stages.wedging = after - before;
+    }
+    let judged = find_margins(
+        context.scene,
+        &mut analysis,
+        &solved,
+        options,
+        &mut known.intervals,
+    );
+    if options.margins {
+        analysis.solve.stages.margins = seconds() - after;
+    }
+    analysis.effects.push(effect::margin::report(judged));
+    analysis.effects.push(wedging::report(wedging));
+    analysis.solve.seconds = seconds();
+    analysis
+}
+
+/// Decides the components that no earlier frame had; returns the effort, and the number of these components.
+fn decide_fresh(
+    components: &[Assembly],
+    keys: &[Key],
+    options: Options,
+    known: &mut BTreeMap<Key, Findings>,
+) -> (Effort, usize) {
+    let fresh: Vec<usize> = (0..components.len())
+        .filter(|k| !known.contains_key(&keys[*k]))
+        .collect();
+    let one = |k: &usize| {
+        // A deadline belongs to a thread.
+        let _until = DeadlineGuard::new(options.deadline);
+        decide_component(&components[*k], options)
+    };
+    // The order of the results is that of the components, with several threads too.
+    #[cfg(feature = "parallel")]
+    let findings: Vec<Findings> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
+        fresh.par_iter().map(one).collect()
+    } else {
+        fresh.iter().map(one).collect()
+    };
+    #[cfg(not(feature = "parallel"))]
+    let findings: Vec<Findings> = fresh.iter().map(one).collect();
+    let effort = findings
+        .iter()
+        .fold(Effort::default(), |sum, f| sum.and(f.effort));
+    for (k, found) in fresh.iter().zip(findings) {
+        known.insert(keys[*k].clone(), found);
+    }
+    (effort, fresh.len())
+}
+
+/// The frame from its components.
+fn combine(
+    context: &FrameContext,
+    assembly: &Assembly,
+    reports: Vec<EffectReport>,
+    solved: &[Solved],
+    options: Options,
+) -> FrameAnalysis {
+    let mut analysis = gathered(context, assembly, reports);
+    for Solved {
+        component, found, ..
+    } in solved
+    {
+        add(&mut analysis, component, found, context.scene.kernel);
+    }
+    let count = solved
+        .iter()
+        .fold(UnknownCounts::default(), |sum, s| sum.plus(&s.found.count));
+    settle(&mut analysis, context, &count, options.verdict_only);
+    if analysis.verdict == Verdict::Undecided && options.is_late() {
+        analysis.doubts.insert(0, UndecidedReason::Late);
+    }
+    analysis
+}
+
+/// Whether the frame stands only by wedging, if that was asked for and the frame stands.
+fn find_wedging(
+    scene: &Scene,
+    analysis: &mut FrameAnalysis,
+    solved: &[Solved],
+    options: Options,
+) -> Wedging {
+    match (options.wedging, analysis.verdict) {
+        (false, _) => Wedging::NotAsked,
+        (true, Verdict::Stable) => {
+            let components = solved.iter().map(|s| (s.component, s.found));
+            let (only, shown, wedged) = decide::only_by_wedging(scene, components);
+            (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
+            shown
+        }
+        (true, _) => Wedging::Falls,
+    }
+}
+
+/// Adds the margins to a frame if they were asked for; returns the number of changed components that were judged for them.
+fn find_margins(
+    scene: &Scene,
+    analysis: &mut FrameAnalysis,
+    solved: &[Solved],
+    options: Options,
+    known: &mut BTreeMap<Key, ComponentIntervals>,
+) -> Option<usize> {
+    if !options.margins {
+        return None;
+    }
+    let parts = solved.iter().map(|s| Part {
+        component: s.component,
+        key: s.key,
+        found: s.found,
+    });
+    let parts: Vec<Part> = parts.collect();
+    let (margins, judged) = margin::find_margins(&parts, options.margin_kinds, known);
+    let name = |robot: RobotId| scene.robots[robot.0].id.clone();
+    analysis.notices.extend(margins.intervals.withheld(name));
+    analysis.margins = Some(margins);
+    Some(judged)
+}

@@ -1,0 +1,163 @@
+//! The forces of a frame at its interfaces and robots, and those that are missing.
+
+use crate::geometry::{Point, Vector};
+use crate::interface::Interface;
+use crate::resultant::Resultant;
+use crate::scene::{BlockId, BodyId, RobotId};
+
+/// An interface and the admissible force it carries.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Contact {
+    /// Where the two bodies touch; forces are those on `interface.bodies[0]`.
+    pub interface: Interface,
+    /// The two application points, metres.
+    pub application_points: [Point; 2],
+    /// Normal forces N1, N2 at them, N, at least 0.
+    pub normal_forces: [f64; 2],
+    /// Friction force, N, signed along (−n_y, n_x).
+    pub friction_force: f64,
+    /// The interface's one force.
+    pub resultant: Resultant,
+    /// |T| / (μ ΣN), 0 without force.
+    pub friction_used: f64,
+}
+
+/// What a robot gives to the block it holds.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct RobotForce {
+    /// The robot.
+    pub robot: RobotId,
+    /// The block it holds.
+    pub block: BlockId,
+    /// The grip point, metres.
+    pub at: Point,
+    /// Force on the block, N.
+    pub force: Vector,
+    /// Torque on the block, N·m.
+    pub torque: f64,
+    /// Largest share of a limit that is used, 0 where nothing is limited.
+    pub limit_used: f64,
+}
+
+/// One thing that would have to stick, or one thing a robot would have to give beyond its limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Failure {
+    /// A pull across an interface, at one of its application points.
+    Tension {
+        /// The two bodies; `force` acts on the first.
+        bodies: [BodyId; 2],
+        /// Where.
+        at: Point,
+        /// The pull on `bodies[0]`, N.
+        force: Vector,
+    },
+    /// Friction beyond what the pressure allows, drawn at the middle of the interface.
+    Friction {
+        /// The two bodies; `force` acts on the first.
+        bodies: [BodyId; 2],
+        /// Where.
+        at: Point,
+        /// The force on `bodies[0]`, N.
+        force: Vector,
+    },
+    /// A force the robot's limits do not allow.
+    RobotForce {
+        /// The robot.
+        robot: RobotId,
+        /// The block it holds.
+        block: BlockId,
+        /// The grip point.
+        at: Point,
+        /// The missing force on the block, N.
+        force: Vector,
+    },
+    /// A torque the robot's limit does not allow.
+    RobotTorque {
+        /// The robot.
+        robot: RobotId,
+        /// The block it holds.
+        block: BlockId,
+        /// The grip point.
+        at: Point,
+        /// The missing torque on the block, N·m.
+        torque: f64,
+    },
+}
+
+impl Failure {
+    /// The word in JSON results.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Failure::Tension { .. } => "tension",
+            Failure::Friction { .. } => "friction",
+            Failure::RobotForce { .. } => "robot_force",
+            Failure::RobotTorque { .. } => "robot_torque",
+        }
+    }
+
+    /// How much is missing: the length of a joint's force, `|Fx| + |Fy|` of a robot's, N; the size of a torque, N·m.
+    pub fn amount(&self) -> f64 {
+        match *self {
+            Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),
+            Failure::RobotForce { force, .. } => force.x.abs() + force.y.abs(),
+            Failure::RobotTorque { torque, .. } => torque.abs(),
+        }
+    }
+
+    /// The point at which the force is missing, in metres.
+    pub fn at(&self) -> Point {
+        match *self {
+            Failure::Tension { at, .. }
+            | Failure::Friction { at, .. }
+            | Failure::RobotForce { at, .. }
+            | Failure::RobotTorque { at, .. } => at,
+        }
+    }
+
+    /// The missing force in newtons, on the first body of a joint or on the block that a robot holds; zero for a torque.
+    pub fn force(&self) -> Vector {
+        match *self {
+            Failure::Tension { force, .. }
+            | Failure::Friction { force, .. }
+            | Failure::RobotForce { force, .. } => force,
+            Failure::RobotTorque { .. } => Vector::zeros(),
+        }
+    }
+
+    /// The missing torque on the block that a robot holds, N·m; zero for a force.
+    pub fn torque(&self) -> f64 {
+        match *self {
+            Failure::RobotTorque { torque, .. } => torque,
+            _ => 0.0,
+        }
+    }
+
+    /// The missing force (N) and torque (N·m) on a body; `None` if they do not act on that body.
+    pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
+        let sign = match *self {
+            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
+                [a, _] if a == body => 1.0,
+                [_, b] if b == body => -1.0,
+                _ => return None,
+            },
+            Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
+                if BodyId::Block(block) != body {
+                    return None;
+                }
+                1.0
+            }
+        };
+        Some((self.force() * sign, self.torque()))
+    }
+
+    /// The robot whose limits are exceeded; `None` for a joint.
+    pub fn robot(&self) -> Option<RobotId> {
+        match *self {
+            Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. } => Some(robot),
+            Failure::Tension { .. } | Failure::Friction { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! [`Analysis::thrust_states`]: how far the forces of a frame that stands may vary.
+//!
+//! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest value: two
+//! linear programs on the constraints of the verdict. The most central forces stay within the largest safety kernel. The
+//! other forces of an analysis are those of least sum, which in an arch is near the state of least thrust.
+
+use std::collections::BTreeSet;
+
+use super::{Analysis, Contact, FrameAnalysis, Options, Verdict};
+use crate::assembly::Assembly;
+use crate::effect::{self, FrameContext};
+use crate::geometry::{Vector, quarter_turn};
+use crate::interface::Interfaces;
+use crate::program::{Column, Force, Program, Scale, columns};
+use crate::proof::{self, ContactForces, Forces, GripForces, Proof};
+use crate::resultant::{friction_used, from_corner_forces};
+use crate::scene::{BlockId, BodyId, Scene};
+use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
+
+/// Frames of more blocks have no family: its programs would take longer than the verdict.
+const MAX_BLOCKS: usize = 200;
+/// A frame whose least thrust is at most this share of its weight needs none to stand.
+const NO_THRUST: f64 = 1e-3;
+/// Among forces of one thrust those of less sum are sought, at this price.
+const PRICE_OF_FORCE: f64 = 1e-6;
+/// Forces of a state balance every block up to this share of its load.
+const BALANCED: f64 = 1e-6;
+/// The most central forces are sought this share within the largest kernel, where they are not yet at their limit.
+const WITHIN_KERNEL: f64 = 1e-4;
+
+/// Forces that balance a frame.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ThrustState {
+    /// The frame with these forces; its verdict and margins are those of the analysis.
+    pub frame: FrameAnalysis,
+    /// Its horizontal thrust, N: half the sum of the horizontal forces of both supports inward.
+    pub thrust: f64,
+}
+
+/// The states between which the forces of a frame may vary. Each is `None` where it was not found.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct ThrustStates {
+    /// The least horizontal thrust.
+    pub least: Option<ThrustState>,
+    /// The greatest horizontal thrust.
+    pub greatest: Option<ThrustState>,
+    /// The largest distance from the edges of all joints: the state at the largest safety kernel. It needs the margin of
+    /// the kernel.
+    pub central: Option<ThrustState>,
+    /// The horizontal thrust of the forces of the analysis, N.
+    pub present: f64,
+}
+
+impl Analysis {
+    /// The states of least and greatest horizontal thrust and the most central state of a frame, counted from 0. Nothing for
+    /// a frame that does not stand, stands without thrust, rests on the ground with other than two blocks, or has more than 200.
+    pub fn thrust_states(&self, frame: usize) -> ThrustStates {
+        let Some(found) = self.frames.get(frame) else {
+            return ThrustStates::default();
+        };
+        let few = self.scene.frames[frame].placed.len() <= MAX_BLOCKS;
+        let feet: BTreeSet<BlockId> = supports(&found.contacts).iter().map(|s| s.0).collect();
+        if found.verdict != Verdict::Stable || !few || feet.len() != 2 {
+            return ThrustStates::default();
+        }
+        let least = self.extreme(frame, 1.0);
+        let needed = least
+            .as_ref()
+            .is_some_and(|s| s.thrust > NO_THRUST * found.weight);
+        if !needed {
+            return ThrustStates::default();
+        }
+        ThrustStates {
+            least,
+            greatest: self.extreme(frame, -1.0),
+            central: self.central(frame),
+            present: thrust(&self.scene, &found.contacts),
+        }
+    }
+
+    /// The state of least thrust for a sign of 1, of greatest thrust for −1.
+    fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
+        let scene = &*self.scene;
+        let frame = &scene.frames[number];
+        let interfaces = Interfaces::new(scene);
+        let context = FrameContext {
+            scene,
+            frame,
+            interfaces: &interfaces.in_frame(scene, frame),
+        };
+        let (assembly, _) = effect::assemble(&context);
+        let mut state = self.frames[number].clone();
+        for component in assembly.components() {
+            let forces = extreme_forces(scene, &component, sign)?;
+            enter(&mut state, &component, &forces, scene.kernel);
+        }
+        let thrust = thrust(scene, &state.contacts);
+        Some(ThrustState {
+            frame: state,
+            thrust,
+        })
+    }
+
+    /// The forces at the largest kernel, where its margin is known.
+    fn central(&self, number: usize) -> Option<ThrustState> {
+        let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
+        let mut scene = Scene::clone(&self.scene);
+        scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
+        let found = Analysis::with(scene, &Options::default())
+            .frames
+            .swap_remove(number);
+        let frame = FrameAnalysis {
+            contacts: found.contacts,
+            robots: found.robots,
+            ..self.frames[number].clone()
+        };
+        let thrust = thrust(&self.scene, &frame.contacts);
+        (found.verdict == Verdict::Stable).then_some(ThrustState { frame, thrust })
+    }
+}
+
+/// Half the sum of the horizontal forces of all supports inward, N: those left of the middle push to the right.
+fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
+    let across = quarter_turn(scene.down());
+    let supports = supports(contacts);
+    let places = supports
+        .iter()
+        .map(|(_, c)| across.dot(&c.interface.middle().coords));
+    let middle = middle(places.clone());
+    let pushes = supports
+        .iter()
+        .zip(places)
+        .map(|((block, contact), place)| {
+            let on_block = contact.resultant.on == BodyId::Block(*block);
+            let force = contact.resultant.force * if on_block { 1.0 } else { -1.0 };
+            force.dot(&across) * if place < middle { 1.0 } else { -1.0 }
+        });
+    0.5 * pushes.sum::<f64>()
+}
+
+/// The contacts with the ground, each with its block.
+fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
+    let support = |contact: &'_ Contact| match contact.interface.bodies {
+        [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => {
+            Some(block)
+        }
+        _ => None,
+    };
+    contacts
+        .iter()
+        .filter_map(|contact| Some((support(contact)?, contact)))
+        .collect()
+}
+
+/// Half-way between the outermost places.
+fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
+    let least = places.clone().fold(f64::INFINITY, f64::min);
+    0.5 * (least + places.fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// The forces of a component of least (sign 1) or greatest (−1) thrust inward at its supports; `None` without a proof.
+fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forces> {
+    let across = quarter_turn(scene.down());
+    let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);
+    let supports = (0..component.contacts.len()).filter(|k| component.contacts[*k].from.is_none());
+    let middle = middle(supports.map(place));
+    let program = Program::new(component, Scale::from_assembly(component));
+    let columns = columns(&program);
+    let cost = |column: &Column| {
+        let inward = match column.force {
+            Force::Ray {
+                contact,
+                normal,
+                friction,
+                ..
+            } if component.contacts[contact].from.is_none() => {
+                let axis = component.contacts[contact].normal;
+                let force: Vector = axis * normal + quarter_turn(axis) * friction;
+                let side = if place(contact) < middle { 1.0 } else { -1.0 };
+                side * force.dot(&across)
+            }
+            _ => 0.0,
+        };
+        sign * inward + PRICE_OF_FORCE
+    };
+    let solved = dual(
+        &program.loads,
+        &columns,
+        Conditioning::Full,
+        &mut Effort::default(),
+        cost,
+    );
+    if solved.status != Status::Solved {
+        return None;
+    }
+    let mut amounts = Amounts::none(&program);
+    for (column, amount) in columns.iter().zip(&solved.amounts) {
+        amounts.add(column.force, *amount);
+    }
+    let forces = in_newtons(component, &program, &amounts);
+    match proof::check_forces(component, &forces) {
+        Proof::Forces {
+            worst_imbalance, ..
+        } if worst_imbalance <= BALANCED => Some(forces),
+        _ => None,
+    }
+}
+
+fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> Forces {
+    let unit = program.scale.force;
+    let contacts = component.contacts.iter().enumerate().map(|(k, contact)| {
+        let normal = amounts.normal[k].map(|v| (v * unit).max(0.0));
+        let most = contact.friction * (normal[0] + normal[1]);
+        ContactForces {
+            normal,
+            friction: (amounts.friction[k] * unit).clamp(-most, most),
+        }
+    });
+    let grips = amounts.grip.iter().map(|[x, y, turn]| GripForces {
+        force: Vector::new(x * unit, y * unit),
+        torque: turn * unit * program.scale.length,
+    });
+    Forces {
+        contacts: contacts.collect(),
+        grips: grips.collect(),
+    }
+}
+
+/// Enters the forces of a component into a frame.
+fn enter(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
+    for (at, pressed) in component.contacts.iter().zip(&forces.contacts) {
+        let contact = &mut state.contacts[at.interface];
+        let (normal, friction) = (pressed.normal, pressed.friction);
+        contact.normal_forces = normal;
+        contact.friction_force = friction;
+        contact.resultant = from_corner_forces(&contact.interface, kernel, normal, friction);
+        contact.friction_used = friction_used(&contact.interface, normal, friction);
+    }
+    for (grip, held) in component.grips.iter().zip(&forces.grips) {
+        let robot = &mut state.robots[grip.hold];
+        (robot.force, robot.torque) = (held.force, held.torque);
+    }
+}

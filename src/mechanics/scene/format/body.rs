@@ -1,0 +1,173 @@
+//! The bodies of a scene file, and what acts on them.
+
+#[cfg(feature = "schema")]
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+#[cfg(feature = "schema")]
+use super::FILL_PATTERN;
+use super::{CellEntry, Pair};
+
+/// A part of the ground; one of `polygon`, `cells` and `shape` says where it lies.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct GroundEntry {
+    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
+    pub polygon: Option<Vec<Pair>>,
+    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// Lattice cells, joined by edges, each listed once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub cells: Option<Vec<CellEntry>>,
+    /// Name of a shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<String>,
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
+    pub at: Option<Pair>,
+    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
+    /// lattice, 90. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
+    pub angle: Option<f64>,
+    /// Name of its material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Its own friction coefficient, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub friction: Option<f64>,
+    /// Fill colour, "#rrggbb" or "#rgb".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
+    pub fill: Option<String>,
+}
+
+/// A rigid block; one of `polygon`, `cells` and `shape` says what it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct BlockEntry {
+    /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
+    pub polygon: Option<Vec<Pair>>,
+    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// Lattice cells, joined by edges, each listed once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
+    pub cells: Option<Vec<CellEntry>>,
+    /// Name of a shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<String>,
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
+    pub at: Option<Pair>,
+    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
+    /// lattice, 90. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
+    pub angle: Option<f64>,
+    /// Name of its material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Weight in newtons along gravity, at least 0. Wins over `mass` and `density`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub weight: Option<f64>,
+    /// Mass in kg, at least 0. Wins over `density`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub mass: Option<f64>,
+    /// Its own density in kg/m³, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub density: Option<f64>,
+    /// Its own friction coefficient, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub friction: Option<f64>,
+    /// Fill colour, "#rrggbb" or "#rgb".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
+    pub fill: Option<String>,
+}
+
+/// A robot that can hold one block at a time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct RobotEntry {
+    /// Its name, used once. Default: "r" and its number in the list, from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// The block it holds in a scene without steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub holds: Option<String>,
+    /// Where it grips the block it `holds`, [x, y] in metres; nothing without `holds`. Default: the block's centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+    /// What it can give. Default: any force, no torque.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsEntry>,
+}
+
+/// Largest amounts a robot can give, per component, each way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct LimitsEntry {
+    /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub fx: Option<f64>,
+    /// Largest vertical force in newtons, at least 0. Default: `force`, else unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub fy: Option<f64>,
+    /// Largest torque in N·m, at least 0. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
+    pub torque: Option<f64>,
+    /// Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub force: Option<f64>,
+}
+
+/// A load on a block, in addition to its weight.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct LoadEntry {
+    /// The loaded block.
+    pub block: String,
+    /// Force [x, y] in newtons. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
+    pub force: Option<Pair>,
+    /// Where the force acts, [x, y] in metres. Default: the block's centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+    /// Torque in N·m, anticlockwise positive. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
+    pub torque: Option<f64>,
+}

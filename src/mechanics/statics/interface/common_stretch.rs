@@ -1,0 +1,111 @@
+//! [`CommonStretch`]: the stretch along which two edges face each other.
+
+use super::open_stretch::OpenStretch;
+use crate::geometry::{Edge, Point, Tolerance, Vector};
+use crate::scene::{Scene, ToleranceSource};
+
+/// If a tolerance is given, a stretch that covers this fraction of the shorter edge is a contact, however short the edge.
+///
+/// Ten times this is more than a whole edge. At a tenth, two bricks that barely touch at their chamfers would have a
+/// contact.
+const CONTACT_PER_EDGE: f64 = 0.5;
+
+/// Edges shorter than this fraction of a given tolerance are not real edges: healing moved their two corners to one
+/// point.
+///
+/// Ten times this would drop the edges of a circle of 100 000 corners; a tenth comes near the rounding of numbers.
+const MIN_EDGE_PER_TOLERANCE: f64 = 1e-6;
+
+/// The stretch that two opposite edges both cover, measured along their mean direction from the start of the first.
+pub(super) struct CommonStretch {
+    a: Edge,
+    b: Edge,
+    /// The mean direction of the two edges, that of the first.
+    along: Vector,
+    /// Where it begins and ends, metres.
+    pub(super) start: f64,
+    pub(super) end: f64,
+}
+
+impl CommonStretch {
+    /// The stretch of the edges `a` and `b`, which run in opposite directions.
+    pub(super) fn new(a: Edge, b: Edge) -> CommonStretch {
+        let along = (a.vector() - b.vector()).normalize();
+        let mut stretch = CommonStretch {
+            a,
+            b,
+            along,
+            start: 0.0,
+            end: 0.0,
+        };
+        stretch.start = f64::max(0.0, stretch.place(b.to));
+        stretch.end = f64::min(stretch.place(a.to), stretch.place(b.from));
+        stretch
+    }
+
+    /// Its length, metres; negative where the edges cover no common stretch.
+    pub(super) fn length(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// A point's place along the stretch, metres.
+    fn place(&self, p: Point) -> f64 {
+        self.along.dot(&(p - self.a.from))
+    }
+
+    /// The direction from the first edge to the second.
+    fn outward(&self) -> Vector {
+        Vector::new(self.along.y, -self.along.x)
+    }
+
+    /// How far outside the start of the first edge an edge runs at a place, metres.
+    fn height(&self, e: Edge, s: f64) -> f64 {
+        let outward = self.outward();
+        let (h0, h1) = (
+            outward.dot(&(e.from - self.a.from)),
+            outward.dot(&(e.to - self.a.from)),
+        );
+        let (t0, t1) = (self.place(e.from), self.place(e.to));
+        h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
+    }
+
+    /// The distance from the first edge to the second at a place, metres; negative where they overlap.
+    fn gap(&self, s: f64) -> f64 {
+        self.height(self.b, s) - self.height(self.a, s)
+    }
+
+    /// The larger distance at its two ends, gap or overlap, metres.
+    pub(super) fn distance(&self) -> f64 {
+        self.gap(self.start).abs().max(self.gap(self.end).abs())
+    }
+
+    /// The smaller gap at its two ends, metres; negative where the bodies overlap.
+    pub(super) fn depth(&self) -> f64 {
+        self.gap(self.start).min(self.gap(self.end))
+    }
+
+    /// The point halfway between the two edges at a place.
+    pub(super) fn middle(&self, s: f64) -> Point {
+        let height = (self.height(self.a, s) + self.height(self.b, s)) / 2.0;
+        self.a.from + self.along * s + self.outward() * height
+    }
+
+    /// The stretch as an open gap.
+    pub(super) fn open(&self) -> OpenStretch {
+        let at = self.a.from + self.along * ((self.start + self.end) / 2.0);
+        let ends = [self.start, self.end].map(|s| (self.middle(s), self.gap(s).abs()));
+        OpenStretch::new(ends, at)
+    }
+}
+
+/// The length in metres that two edges must have in common to form an interface; `edge` is the shorter edge's length.
+pub(super) fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
+    let min_length = tolerance.min_contact_length(edge);
+    let is_given = scene.healed.source == ToleranceSource::Given;
+    if is_given && edge > MIN_EDGE_PER_TOLERANCE * tolerance.gap {
+        // A given tolerance may exceed the edges of a round stone. A stretch that covers half of an edge is then a
+        // contact.
+        return min_length.min(CONTACT_PER_EDGE * edge);
+    }
+    min_length
+}

@@ -1,0 +1,160 @@
+//! Draws lines that grow with the size of a task, with their names at their ends.
+
+use plotters::prelude::*;
+use plotters::style::{FontStyle, RGBColor};
+
+use super::{Drawn, FINE, FONT, GRID, INK, LogAxes, Page, decades, font, large, tick, words_from};
+use crate::chart::{Growing, Growth, Point, SIZE};
+
+/// The colour of our own lines.
+const DARK: RGBColor = RGBColor(20, 70, 130);
+/// The colour of all other lines.
+const PALE: RGBColor = RGBColor(140, 140, 146);
+
+/// The left edge of the names.
+const NAMES_LEFT: i32 = (SIZE.0 - 232) * FINE;
+/// The least distance between two names.
+const NAMES_APART: i32 = 17 * FINE;
+
+/// The end of a line on the page, and the line.
+struct LineEnd<'c> {
+    y: i32,
+    x: i32,
+    line: &'c Growing,
+}
+
+/// Draws what grows.
+pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
+    let area = large(svg);
+    area.fill(&WHITE)?;
+    let all = || chart.lines.iter().flat_map(|line| &line.points);
+    let (low, high) = decades(all().map(|p| p.y));
+    let sizes = all().map(|p| p.x);
+    let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(a, b), x| (x.min(a), x.max(b)));
+    let ten = |e: i32| libm::exp10(f64::from(e));
+    let mut axes = ChartBuilder::on(&area)
+        .margin(14 * FINE)
+        .margin_right(250 * FINE)
+        .caption(&chart.title, font(17))
+        .x_label_area_size(46 * FINE)
+        .y_label_area_size(66 * FINE)
+        .build_cartesian_2d(
+            (0.8 * least..1.25 * most).log_scale(),
+            (ten(low)..ten(high)).log_scale(),
+        )?;
+    axes.configure_mesh()
+        .x_labels(4)
+        .y_labels((high - low + 3).clamp(4, 10) as usize)
+        .x_label_formatter(&|v| grouped(*v))
+        .y_label_formatter(&|v| grouped(*v))
+        .x_desc(&chart.x)
+        .y_desc(&chart.y)
+        .label_style(font(12))
+        .axis_desc_style(font(13))
+        .axis_style(INK.stroke_width(FINE as u32))
+        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    let mut ends = draw_lines(&mut axes, &chart.lines)?;
+    ends.sort_by_key(|end| (end.y, end.x));
+    draw_names(&area, &ends)?;
+    if all().any(|p| p.wrong) {
+        let y = (SIZE.1 - 24) * FINE;
+        let cross = Cross::new((NAMES_LEFT + 5 * FINE, y), 5 * FINE, crossing_pen());
+        area.draw(&cross)?;
+        let at = (NAMES_LEFT + 18 * FINE, y);
+        area.draw(&Text::new(chart.wrong.clone(), at, words_from(font(12))))?;
+    }
+    area.present()?;
+    Ok(())
+}
+
+/// Colour and width of a line.
+fn style(ours: bool) -> (RGBColor, i32) {
+    if ours { (DARK, 3) } else { (PALE, 1) }
+}
+
+/// The pen that crosses wrong points out.
+fn crossing_pen() -> ShapeStyle {
+    INK.stroke_width(2 * FINE as u32)
+}
+
+/// Draws the lines, ours above the others, and returns their ends.
+fn draw_lines<'c>(
+    axes: &mut LogAxes<'_, '_>,
+    lines: &'c [Growing],
+) -> Result<Vec<LineEnd<'c>>, Box<dyn std::error::Error>> {
+    let mut ends = Vec::new();
+    for ours in [false, true] {
+        let (colour, width) = style(ours);
+        for line in lines.iter().filter(|line| line.ours == ours) {
+            let points = || line.points.iter().map(|p| (p.x, p.y));
+            let stroke = colour.stroke_width((width * FINE) as u32);
+            axes.draw_series(LineSeries::new(points(), stroke))?;
+            let right = line.points.iter().filter(|p| !p.wrong);
+            let dot = |p: &Point| Circle::new((p.x, p.y), (3 + width) * FINE, colour.filled());
+            axes.draw_series(right.map(dot))?;
+            let wrong = line.points.iter().filter(|p| p.wrong);
+            let cross = |p: &Point| Cross::new((p.x, p.y), 5 * FINE, crossing_pen());
+            axes.draw_series(wrong.map(cross))?;
+            if let Some(end) = points().next_back() {
+                let (x, y) = axes.backend_coord(&end);
+                ends.push(LineEnd { y, x, line });
+            }
+        }
+    }
+    Ok(ends)
+}
+
+/// Draws the names of the lines to the right of the picture, joined to the ends of their lines.
+fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
+    for (y, end) in name_heights(ends).into_iter().zip(ends) {
+        let (colour, _) = style(end.line.ours);
+        let joint = vec![
+            (end.x + 8 * FINE, end.y),
+            (NAMES_LEFT - 14 * FINE, y),
+            (NAMES_LEFT - 4 * FINE, y),
+        ];
+        let thin = colour.mix(0.8).stroke_width(FINE as u32 / 2);
+        area.draw(&PathElement::new(joint, thin))?;
+        let face = match end.line.ours {
+            true => {
+                let bold = (FONT, 12 * FINE).into_font().style(FontStyle::Bold);
+                bold.color(&DARK)
+            }
+            false => font(12),
+        };
+        let at = (NAMES_LEFT, y);
+        area.draw(&Text::new(end.line.name.clone(), at, words_from(face)))?;
+    }
+    Ok(())
+}
+
+/// The heights of the names, in the order of the lines' ends, pushed apart.
+fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
+    // Downwards: no name covers the one above it.
+    let mut heights: Vec<i32> = ends.iter().map(|end| end.y).collect();
+    let mut free = 40 * FINE;
+    for height in &mut heights {
+        *height = (*height).max(free);
+        free = *height + NAMES_APART;
+    }
+    // Upwards: names that were pushed down make room for each other, so that none is far from its line.
+    let mut below = (SIZE.1 - 66) * FINE;
+    for (height, end) in heights.iter_mut().zip(ends).rev() {
+        *height = (*height)
+            .min(below)
+            .min((*height + end.y) / 2 + NAMES_APART);
+        below = *height - NAMES_APART;
+    }
+    heights
+}
+
+/// A power of ten with a space between thousands: `10 000`, `0.1`.
+fn grouped(value: f64) -> String {
+    let text = tick(value);
+    match text.strip_suffix("000").filter(|_| !text.contains('.')) {
+        Some(thousands) => format!("{thousands}\u{a0}000"),
+        None => text,
+    }
+}

@@ -1,0 +1,119 @@
+//! Draws a scatter.
+
+use plotters::prelude::*;
+use plotters::style::RGBColor;
+
+use super::{Drawn, FINE, GRID, INK, LogAxes, Page, decades, font, large, words_from};
+use crate::chart::{SIZE, Scatter, power_of_ten};
+
+/// The colour of the front.
+const GOLD: RGBColor = RGBColor(240, 190, 60);
+
+/// Draws a scatter.
+pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> Drawn {
+    let area = large(svg);
+    area.fill(&WHITE)?;
+    let all = chart.series.iter().flat_map(|s| &s.points);
+    let (left, right) = decades(all.clone().map(|p| p.x));
+    let (low, high) = decades(all.map(|p| p.y));
+    let ten = |e: i32| libm::exp10(f64::from(e));
+    let mut axes = ChartBuilder::on(&area)
+        .margin(14 * FINE)
+        .margin_right(230 * FINE)
+        .caption(&chart.title, font(17))
+        .x_label_area_size(46 * FINE)
+        .y_label_area_size(66 * FINE)
+        .build_cartesian_2d(
+            (ten(left)..ten(right)).log_scale(),
+            (ten(low)..ten(high)).log_scale(),
+        )?;
+    let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
+    // plotters takes the number as an upper bound that includes both ends.
+    let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
+    axes.configure_mesh()
+        .x_labels(every(left, right))
+        .y_labels(every(low, high))
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
+        .x_desc(&chart.x)
+        .y_desc(&chart.y)
+        .label_style(font(12))
+        .axis_desc_style(font(13))
+        .axis_style(INK.stroke_width(FINE as u32))
+        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    draw_points(&mut axes, chart)?;
+    draw_legend(&area, chart)?;
+    area.present()?;
+    Ok(())
+}
+
+/// The pen that crosses wrong points out.
+fn red() -> ShapeStyle {
+    RGBColor(215, 20, 30).stroke_width(4 * FINE as u32)
+}
+
+/// The front below everything else, then the series, then crosses on wrong points.
+fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
+    let front = stair(&chart.front.1);
+    axes.draw_series(LineSeries::new(front, GOLD.stroke_width(6 * FINE as u32)))?;
+    for series in &chart.series {
+        let [r, g, b] = series.colour;
+        let colour = RGBColor(r, g, b);
+        axes.draw_series(LineSeries::new(
+            series.points.iter().map(|p| (p.x, p.y)),
+            colour.stroke_width(3 * FINE as u32 / 2),
+        ))?;
+        let dots = series.points.iter().map(|p| (p.x, p.y));
+        axes.draw_series(dots.map(|at| Circle::new(at, 4 * FINE, colour.filled())))?;
+    }
+    let all = chart.series.iter().flat_map(|s| &s.points);
+    let wrong = all.filter(|p| p.wrong);
+    axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 8 * FINE, red())))?;
+    Ok(())
+}
+
+/// The front as a stair: between two of its points the error of the slower one is the best that the time of the faster one
+/// can buy.
+fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut stair: Vec<(f64, f64)> = Vec::new();
+    for (x, y) in front {
+        if let Some(last) = stair.last().copied() {
+            stair.push((*x, last.1));
+        }
+        stair.push((*x, *y));
+    }
+    stair
+}
+
+/// The legend, to the right of the picture, where no point can be.
+fn draw_legend(area: &Page<'_>, chart: &Scatter) -> Drawn {
+    let (name, front) = &chart.front;
+    let mut y = 60 * FINE;
+    let x = (SIZE.0 - 225) * FINE;
+    let words = |text: &str, y: i32| {
+        let at = (x + 30 * FINE, y);
+        area.draw(&Text::new(text.to_owned(), at, words_from(font(12))))
+    };
+    for series in &chart.series {
+        let [r, g, b] = series.colour;
+        let dot = Circle::new((x + 12 * FINE, y), 4 * FINE, RGBColor(r, g, b).filled());
+        area.draw(&dot)?;
+        words(&series.name, y)?;
+        y += 20 * FINE;
+    }
+    if !front.is_empty() {
+        y += 8 * FINE;
+        let line = vec![(x, y), (x + 24 * FINE, y)];
+        area.draw(&PathElement::new(line, GOLD.stroke_width(6 * FINE as u32)))?;
+        words(name, y)?;
+        y += 20 * FINE;
+    }
+    if chart.series.iter().flat_map(|s| &s.points).any(|p| p.wrong) {
+        y += 4 * FINE;
+        area.draw(&Cross::new((x + 12 * FINE, y), 8 * FINE, red()))?;
+        words(&chart.wrong, y)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,195 @@
+//! [`Reading`]: the keys of a style file, and everything that is wrong with them.
+
+use super::value::Value;
+use super::{AMPLITUDES, COLOURS, LETTERS, LISTS, PIXELS, SIZES, StyleProblem, Theme, WIDTHS};
+use crate::drawing::colour::Colour;
+use crate::drawing::ramp;
+use crate::text::nearest;
+
+/// Reads the keys of a file and notes all problems.
+#[derive(Default)]
+pub(super) struct Reading {
+    pub(super) problems: Vec<StyleProblem>,
+}
+
+impl Reading {
+    /// Notes a problem.
+    pub(super) fn note(&mut self, path: &str, message: String, help: String) {
+        self.problems.push(StyleProblem {
+            path: path.to_owned(),
+            message,
+            help,
+        });
+    }
+
+    /// The theme that a file names. An invalid name is reported when its key is read.
+    pub(super) fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
+        let named = |(key, value): &(String, Value)| match value {
+            Value::Text(name) if key == "theme" => Theme::named(name),
+            _ => None,
+        };
+        entries.iter().find_map(named)
+    }
+
+    /// Reads all keys into a theme.
+    pub(super) fn theme(&mut self, entries: &[(String, Value)], theme: &mut Theme) {
+        for (number, (key, value)) in entries.iter().enumerate() {
+            self.once(entries, number, key);
+            if let Some((_, field)) = COLOURS.iter().find(|c| c.0 == key) {
+                if let Some(colour) = self.colour(key, value) {
+                    *field(theme) = colour;
+                }
+            } else if let Some((_, field)) = LISTS.iter().find(|l| l.0 == key) {
+                if let Some(colours) = self.colours(key, value, 1) {
+                    *field(theme) = colours;
+                }
+            } else if key == AMPLITUDES {
+                if let Some(colours) = self.amplitudes(value) {
+                    theme.amplitudes = colours;
+                }
+            } else if key == "widths" {
+                let known = WIDTHS.map(|(key, _, range, unit)| (key, range, unit));
+                for (place, number) in self.numbers(key, value, &known) {
+                    *WIDTHS[place].1(&mut theme.widths) = number;
+                }
+            } else if key == "sizes" {
+                let known = SIZES.map(|(key, _)| (key, LETTERS, PIXELS));
+                for (place, number) in self.numbers(key, value, &known) {
+                    *SIZES[place].1(&mut theme.sizes) = number;
+                }
+            } else if key == "theme" {
+                self.name(key, value, &Theme::NAMES, "theme");
+            } else {
+                let lists = LISTS.iter().map(|l| l.0);
+                let others = ["theme", AMPLITUDES, "widths", "sizes"];
+                let known = COLOURS.iter().map(|c| c.0).chain(lists).chain(others);
+                self.unknown(key, key, &known.collect::<Vec<_>>());
+            }
+        }
+    }
+
+    /// Reports a duplicate key.
+    fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
+        let key = &entries[number].0;
+        if entries[..number].iter().any(|e| e.0 == *key) {
+            self.note(
+                path,
+                "this key is given twice".into(),
+                "keep one of them".into(),
+            );
+        }
+    }
+
+    fn unknown(&mut self, path: &str, key: &str, known: &[&str]) {
+        let help = match nearest(key, known.iter().copied()) {
+            Some(near) => format!("the nearest known key is `{near}`"),
+            None => format!("known keys are {}", known.join(", ")),
+        };
+        self.note(path, "unknown key".into(), help);
+    }
+
+    /// Reads a name that must be one of the known names.
+    fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
+        let Value::Text(name) = value else {
+            return self.note(
+                path,
+                format!("{} is no {sort}", value.stated()),
+                known.join(", "),
+            );
+        };
+        if known.contains(&name.as_str()) {
+            return;
+        }
+        let near =
+            nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
+        let help = format!("known are {}{}", known.join(", "), near.unwrap_or_default());
+        self.note(path, format!("{} is no {sort}", value.stated()), help);
+    }
+
+    fn colour(&mut self, path: &str, value: &Value) -> Option<Colour> {
+        let colour = match value {
+            Value::Text(text) => Colour::from_css(text),
+            _ => None,
+        };
+        if colour.is_none() {
+            let help = "give #rrggbb or #rgb in quotes, such as \"#d55e00\" or \"#d50\"";
+            self.note(
+                path,
+                format!("{} is no colour", value.stated()),
+                help.into(),
+            );
+        }
+        colour
+    }
+
+    /// Reads a list of at least `least` colours.
+    fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
+        let Value::List(list) = value else {
+            let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
+            self.note(
+                path,
+                format!("{} is no list of colours", value.stated()),
+                help.into(),
+            );
+            return None;
+        };
+        if list.len() < least {
+            let help = format!("give at least {least}");
+            self.note(path, format!("{} colours are too few", list.len()), help);
+        }
+        let colours: Vec<Option<Colour>> = (0..)
+            .zip(list)
+            .map(|(i, value): (usize, _)| self.colour(&format!("{path}[{i}]"), value))
+            .collect();
+        colours.into_iter().collect()
+    }
+
+    fn amplitudes(&mut self, value: &Value) -> Option<Vec<Colour>> {
+        if let Value::Text(name) = value {
+            self.name(AMPLITUDES, value, &ramp::NAMES, "row of colours");
+            return ramp::named(name);
+        }
+        let stops = self.colours(AMPLITUDES, value, 2)?;
+        Some(ramp::between(&stops))
+    }
+
+    /// Reads an object of numbers. `known` gives each key with its range and unit. Returns each number with the index of
+    /// its key in `known`.
+    fn numbers(
+        &mut self,
+        path: &str,
+        value: &Value,
+        known: &[(&str, [f64; 2], &str)],
+    ) -> Vec<(usize, f64)> {
+        let keys: Vec<&str> = known.iter().map(|k| k.0).collect();
+        let mut numbers = Vec::new();
+        let Value::Table(entries) = value else {
+            let help = format!("give a table with some of {}", keys.join(", "));
+            self.note(
+                path,
+                format!("{} is no table of {path}", value.stated()),
+                help,
+            );
+            return numbers;
+        };
+        for (number, (key, value)) in entries.iter().enumerate() {
+            let path = format!("{path}.{key}");
+            self.once(entries, number, &path);
+            let Some(place) = keys.iter().position(|k| k == key) else {
+                self.unknown(&path, key, &keys);
+                continue;
+            };
+            let (_, [least, most], unit) = known[place];
+            match value {
+                Value::Number(number) if (least..=most).contains(number) => {
+                    numbers.push((place, *number))
+                }
+                _ => {
+                    let help = format!("give a number of {unit} from {least} to {most}");
+                    self.note(&path, format!("{} cannot be drawn", value.stated()), help);
+                }
+            }
+        }
+        numbers
+    }
+}

@@ -1,0 +1,136 @@
+//! Pictures that follow one another and repeat without end: animated PNG and GIF.
+//!
+//! A picture is stored as the part that differs from the picture before it. Where every pixel is opaque, all pictures share
+//! one palette; both formats then need about as many bytes.
+
+mod palette;
+mod patch;
+#[cfg(test)]
+mod tests;
+
+use palette::{Palette, UNCHANGED};
+use patch::{Patch, patches};
+
+use super::fonts::Fonts;
+use super::png::{PngError, Size, rgba_in};
+
+/// A picture of an animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The picture.
+    pub svg: String,
+    /// How long it is shown, seconds.
+    pub seconds: f64,
+}
+
+/// Steps of one size as an animated PNG that repeats without end. A program that knows no animated PNG shows the first.
+///
+/// # Errors
+/// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render); [`PngError::Encode`] for an empty list,
+/// for several sizes, and for a time outside 0.01 to 600 seconds.
+pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
+    let (patches, [width, height]) = film(steps, size, fonts)?;
+    let failed = |e: ::png::EncodingError| PngError::Encode(e.to_string());
+    let palette = Palette::new(&patches);
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, width, height);
+    encoder.set_depth(::png::BitDepth::Eight);
+    encoder.set_filter(::png::Filter::NoFilter);
+    encoder.set_deflate_compression(::png::DeflateCompression::Level(6));
+    match &palette {
+        Some(palette) => {
+            encoder.set_color(::png::ColorType::Indexed);
+            encoder.set_palette(palette.bytes());
+            let mut opaque = vec![u8::MAX; palette.len()];
+            opaque[usize::from(UNCHANGED)] = 0;
+            encoder.set_trns(opaque);
+        }
+        None => encoder.set_color(::png::ColorType::Rgba),
+    }
+    encoder
+        .set_animated(patches.len() as u32, 0)
+        .map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for (number, patch) in patches.iter().enumerate() {
+        // A position and a size must fit in the page together at every moment.
+        writer.reset_frame_position().map_err(failed)?;
+        writer
+            .set_frame_dimension(patch.width, patch.height)
+            .map_err(failed)?;
+        writer
+            .set_frame_position(patch.x, patch.y)
+            .map_err(failed)?;
+        writer
+            .set_frame_delay(patch.hundredths, 100)
+            .map_err(failed)?;
+        let over = palette.is_some() && number > 0;
+        let blend = if over {
+            ::png::BlendOp::Over
+        } else {
+            ::png::BlendOp::Source
+        };
+        writer.set_blend_op(blend).map_err(failed)?;
+        let data = match &palette {
+            Some(palette) => palette.indices(patch),
+            None => patch.all_pixels(),
+        };
+        writer.write_image_data(&data).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// Steps of one size as a GIF that repeats without end, in at most 255 colours.
+///
+/// # Errors
+/// As [`apng`]; also [`PngError::Encode`] for pictures in which the page shows through, and for a side above 65 535 pixels.
+pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
+    let (patches, [width, height]) = film(steps, size, fonts)?;
+    let wrong = |why: &str| PngError::Encode(why.to_owned());
+    let palette = Palette::new(&patches)
+        .ok_or_else(|| wrong("a GIF has no half-clear pixels; give the page a colour"))?;
+    let side = |pixels: u32| {
+        u16::try_from(pixels).map_err(|_| wrong("a GIF has at most 65535 pixels along a side"))
+    };
+    let failed = |e: ::gif::EncodingError| PngError::Encode(e.to_string());
+    let mut bytes = Vec::new();
+    let mut encoder =
+        ::gif::Encoder::new(&mut bytes, side(width)?, side(height)?, &palette.bytes())
+            .map_err(failed)?;
+    if patches.len() > 1 {
+        encoder
+            .set_repeat(::gif::Repeat::Infinite)
+            .map_err(failed)?;
+    }
+    for patch in &patches {
+        let frame = ::gif::Frame {
+            delay: patch.hundredths,
+            transparent: Some(UNCHANGED),
+            top: side(patch.y)?,
+            left: side(patch.x)?,
+            width: side(patch.width)?,
+            height: side(patch.height)?,
+            buffer: palette.indices(patch).into(),
+            ..::gif::Frame::default()
+        };
+        encoder.write_frame(&frame).map_err(failed)?;
+    }
+    drop(encoder);
+    Ok(bytes)
+}
+
+/// The patches of all steps, and the width and height of the pictures in pixels.
+fn film(steps: &[Step], size: Size, fonts: &Fonts) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
+    let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
+    if steps.is_empty() {
+        return wrong("there is nothing to show");
+    }
+    let sound = |step: &Step| (0.01..=600.0).contains(&step.seconds);
+    if !steps.iter().all(sound) {
+        return wrong("each picture is shown for 0.01 to 600 seconds");
+    }
+    let rasters = steps
+        .iter()
+        .map(|step| Ok((rgba_in(&step.svg, size, fonts)?, step.seconds)));
+    patches(rasters)
+}

@@ -1,0 +1,120 @@
+//! [`Palette`]: at most 255 colours for all pictures of an animation, and one number for pixels that do not change.
+
+use std::collections::BTreeMap;
+
+use super::patch::Patch;
+
+/// The number of a pixel that stays as it is.
+pub(super) const UNCHANGED: u8 = 0;
+/// Most colours beside it.
+const MAX_COLOURS: usize = 255;
+/// Where there are more, this number of the most frequent ones is exact: fills and lines are.
+const EXACT_COLOURS: usize = 96;
+/// Others share one colour where they agree in the leading bits of each channel, fewer bits than this.
+const BITS: u32 = 7;
+
+/// The colours of an animation.
+pub(super) struct Palette {
+    /// In the order of their numbers, from 1.
+    colours: Vec<[u8; 3]>,
+    numbers: BTreeMap<[u8; 3], u8>,
+}
+
+impl Palette {
+    /// The palette of opaque pictures; `None` where something shows through a picture.
+    pub fn new(patches: &[Patch]) -> Option<Palette> {
+        let counts = counts(patches)?;
+        let colours = chosen(&counts);
+        let number = |colour: &[u8; 3]| {
+            let near = colours.iter().enumerate();
+            let nearest = near.min_by_key(|(_, other)| distance(*colour, **other));
+            nearest.map_or(UNCHANGED, |(number, _)| number as u8 + 1)
+        };
+        let numbers = counts.keys().map(|colour| (*colour, number(colour)));
+        Some(Palette {
+            numbers: numbers.collect(),
+            colours,
+        })
+    }
+
+    /// The number of colours, that of unchanged pixels included.
+    pub fn len(&self) -> usize {
+        self.colours.len() + 1
+    }
+
+    /// Red, green and blue of every colour.
+    pub fn bytes(&self) -> Vec<u8> {
+        let all = [[0; 3]].into_iter().chain(self.colours.iter().copied());
+        all.flatten().collect()
+    }
+
+    /// The numbers of the pixels of a patch.
+    pub fn indices(&self, patch: &Patch) -> Vec<u8> {
+        let mut known = ([0; 3], None);
+        let number = |(colour, changed): &([u8; 4], bool)| {
+            if !changed {
+                return UNCHANGED;
+            }
+            let colour = opaque(*colour);
+            if known.1.is_none() || known.0 != colour {
+                known = (colour, self.numbers.get(&colour).copied());
+            }
+            known.1.unwrap_or(UNCHANGED)
+        };
+        patch.pixels.iter().map(number).collect()
+    }
+}
+
+fn opaque([red, green, blue, _]: [u8; 4]) -> [u8; 3] {
+    [red, green, blue]
+}
+
+/// How many changed pixels have each colour; `None` where one is not opaque.
+fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
+    let mut counts = BTreeMap::new();
+    let changed = |patch: &'_ Patch| -> Vec<[u8; 4]> {
+        let pixels = patch.pixels.iter().filter(|(_, changed)| *changed);
+        pixels.map(|(colour, _)| *colour).collect()
+    };
+    for patch in patches {
+        for alike in changed(patch).chunk_by(|a, b| a == b) {
+            if alike[0][3] != u8::MAX {
+                return None;
+            }
+            *counts.entry(opaque(alike[0])).or_insert(0) += alike.len();
+        }
+    }
+    Some(counts)
+}
+
+/// The colours that the palette has: all where there are few; else the most frequent ones, and one for each group of like
+/// colours among the others.
+fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
+    let mut colours: Vec<([u8; 3], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
+    if colours.len() > MAX_COLOURS {
+        colours.sort_by_key(|(colour, count)| (core::cmp::Reverse(*count), *colour));
+        let others = colours.split_off(EXACT_COLOURS);
+        colours.extend(reduced(&others, MAX_COLOURS - EXACT_COLOURS));
+    }
+    colours.into_iter().map(|(colour, _)| colour).collect()
+}
+
+/// The first colour of each group of like colours, in groups so wide that there are at most `most` of them.
+fn reduced(colours: &[([u8; 3], usize)], most: usize) -> Vec<([u8; 3], usize)> {
+    for bits in (1..BITS).rev() {
+        let mut groups = BTreeMap::new();
+        for (colour, count) in colours {
+            let group = colour.map(|channel| channel >> (8 - bits));
+            groups.entry(group).or_insert((*colour, *count));
+        }
+        if groups.len() <= most {
+            return groups.into_values().collect();
+        }
+    }
+    Vec::new()
+}
+
+fn distance(a: [u8; 3], b: [u8; 3]) -> u32 {
+    let channels = a.into_iter().zip(b);
+    channels.map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
+}

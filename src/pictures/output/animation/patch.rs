@@ -1,0 +1,100 @@
+//! [`Patch`]: the part of a picture that differs from the picture before it.
+
+use super::super::png::{PngError, Raster};
+
+/// A rectangle of new pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Patch {
+    /// Distance of its left edge from that of the picture, pixels.
+    pub x: u32,
+    /// Distance of its upper edge from that of the picture, pixels.
+    pub y: u32,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Row by row: the new colour, and whether it differs from the old one.
+    pub pixels: Vec<([u8; 4], bool)>,
+    /// How long the picture is shown, hundredths of a second.
+    pub hundredths: u16,
+}
+
+impl Patch {
+    /// The colours of all its pixels, changed or not.
+    pub fn all_pixels(&self) -> Vec<u8> {
+        self.pixels.iter().flat_map(|(colour, _)| *colour).collect()
+    }
+}
+
+/// The patches of pictures of one size and their seconds, and the width and height of the pictures. A picture that is like
+/// the one before it prolongs that one.
+pub(super) fn patches(
+    rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>,
+) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
+    let mut patches: Vec<Patch> = Vec::new();
+    let mut last: Option<Raster> = None;
+    for raster in rasters {
+        let (raster, seconds) = raster?;
+        let hundredths = (seconds * 100.0).round() as u16;
+        if let Some(last) = &last
+            && (last.width, last.height) != (raster.width, raster.height)
+        {
+            return Err(PngError::Encode("the pictures differ in size".to_owned()));
+        }
+        match (
+            patch(last.as_ref(), &raster, hundredths),
+            patches.last_mut(),
+        ) {
+            (None, Some(before)) => {
+                before.hundredths = before.hundredths.saturating_add(hundredths)
+            }
+            (patch, _) => patches.extend(patch),
+        }
+        last = Some(raster);
+    }
+    let size = last.map_or([0, 0], |last| [last.width, last.height]);
+    Ok((patches, size))
+}
+
+/// What of a picture differs from the one before it; `None` where nothing does.
+fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Patch> {
+    let across = raster.width as usize;
+    let Some(before) = before else {
+        return Some(Patch {
+            x: 0,
+            y: 0,
+            width: raster.width,
+            height: raster.height,
+            pixels: raster.rgba.iter().map(|colour| (*colour, true)).collect(),
+            hundredths,
+        });
+    };
+    let rows = before.rgba.chunks(across).zip(raster.rgba.chunks(across));
+    let changed: Vec<usize> = rows
+        .enumerate()
+        .filter_map(|(y, (old, new))| (old != new).then_some(y))
+        .collect();
+    let (top, bottom) = (*changed.first()?, *changed.last()?);
+    let (mut left, mut right) = (across, 0);
+    for y in changed {
+        let row = y * across..(y + 1) * across;
+        let (old, new) = (&before.rgba[row.clone()], &raster.rgba[row]);
+        let differs = |x: &usize| old[*x] != new[*x];
+        left = left.min((0..across).find(differs).unwrap_or(across));
+        right = right.max((0..across).rev().find(differs).unwrap_or(0));
+    }
+    let mut pixels = Vec::with_capacity((right + 1 - left) * (bottom + 1 - top));
+    for y in top..=bottom {
+        let row = y * across + left..=y * across + right;
+        let both = before.rgba[row.clone()].iter().zip(&raster.rgba[row]);
+        pixels.extend(both.map(|(old, new)| (*new, old != new)));
+    }
+    Some(Patch {
+        x: left as u32,
+        y: top as u32,
+        width: (right + 1 - left) as u32,
+        height: (bottom + 1 - top) as u32,
+        pixels,
+        hundredths,
+    })
+}

@@ -1,0 +1,65 @@
+//! [`Clearance`]: which displaced blocks overlap others, whether they touched before or not.
+
+use super::rigid::Displacement;
+use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
+use crate::scene::{BlockId, Frame, Scene};
+
+/// Largest overlap of two bodies, as a share of the area of the smaller one. Readers see an overlap of one hundredth.
+const MAX_OVERLAP: f64 = 0.004;
+
+/// The blocks of an overlapping pair; `None` for the ground.
+pub(super) type Pair = [Option<BlockId>; 2];
+
+/// The placed blocks and the ground of a frame.
+pub(super) struct Clearance<'a> {
+    bodies: Vec<(Option<BlockId>, &'a Polygon)>,
+}
+
+impl<'a> Clearance<'a> {
+    pub fn new(scene: &'a Scene, frame: &Frame) -> Clearance<'a> {
+        let blocks = frame.placed.iter();
+        let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
+        let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
+        Clearance {
+            bodies: blocks.chain(ground).collect(),
+        }
+    }
+
+    /// The pairs that overlap when blocks are displaced so, by the number of the block.
+    pub fn overlapping(&self, displaced: &[Option<Displacement>]) -> Vec<Pair> {
+        let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
+        let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();
+        for (id, polygon) in &self.bodies {
+            let moved = motion(*id).map_or_else(|| (*polygon).clone(), |d| moved(polygon, d));
+            let bounds = moved.bounds();
+            placed.push((*id, moved, bounds));
+        }
+        placed.sort_by(|a, b| a.2.min.x.total_cmp(&b.2.min.x));
+        let mut pairs = Vec::new();
+        for (number, (a, one, bounds)) in placed.iter().enumerate() {
+            let near = placed[number + 1..].iter();
+            let near = near.take_while(|other| other.2.min.x <= bounds.max.x);
+            for (b, other, others) in near {
+                // Bodies that move as one, or both rest, keep their places to each other.
+                if motion(*a) != motion(*b)
+                    && bounds.intersects(*others)
+                    && overlap_share(one, other) > MAX_OVERLAP
+                {
+                    pairs.push([*a, *b]);
+                }
+            }
+        }
+        pairs
+    }
+}
+
+/// The common area of two polygons as a share of the smaller one.
+fn overlap_share(a: &Polygon, b: &Polygon) -> f64 {
+    let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
+    common.map_or(0.0, |o| o.area / a.area().min(b.area()))
+}
+
+fn moved(polygon: &Polygon, displacement: &Displacement) -> Polygon {
+    let ring = |ring: &Vec<Point>| ring.iter().map(|p| displacement.moved(*p)).collect();
+    Polygon::from_valid_rings(polygon.rings().iter().map(ring).collect())
+}

@@ -1,0 +1,73 @@
+//! [`connected_groups`]: which moving blocks belong together.
+
+use std::collections::BTreeMap;
+
+use super::super::joint::Joint;
+use crate::analysis::{Analysis, Motion};
+use crate::scene::{BlockId, BodyId};
+
+/// A block is at rest if its fastest point is slower than this share of the fastest point of all. Slower motions are noise of
+/// the solution, or not visible.
+const REST_TOL: f64 = 1e-3;
+
+/// The moving blocks in rigid bodies: blocks without a hinge or slip between them move as one. In the order of their first
+/// blocks.
+pub(crate) fn rigid_bodies(
+    analysis: &Analysis,
+    frame: usize,
+    joints: &[Joint],
+) -> Vec<Vec<Motion>> {
+    let mut separated = vec![false; analysis.frames[frame].contacts.len()];
+    for joint in joints {
+        separated[joint.contact] = true;
+    }
+    connected_groups(analysis, frame, |contact| !separated[contact])
+}
+
+/// The motions of the moving blocks, in groups connected by the contacts for whose numbers `joins` is true: the connected
+/// components, by depth-first search, in the order of their first blocks.
+pub(crate) fn connected_groups(
+    analysis: &Analysis,
+    frame: usize,
+    joins: impl Fn(usize) -> bool,
+) -> Vec<Vec<Motion>> {
+    let motions: BTreeMap<BlockId, Motion> =
+        moving(analysis, frame).map(|m| (m.block, *m)).collect();
+    let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    for (number, contact) in analysis.frames[frame].contacts.iter().enumerate() {
+        if let ([BodyId::Block(a), BodyId::Block(b)], true) =
+            (contact.interface.bodies, joins(number))
+        {
+            neighbours.entry(a).or_default().push(b);
+            neighbours.entry(b).or_default().push(a);
+        }
+    }
+    let mut seen = vec![false; analysis.scene.blocks.len()];
+    let mut groups = Vec::new();
+    for first in motions.keys() {
+        let (mut group, mut stack) = (Vec::new(), vec![*first]);
+        while let Some(block) = stack.pop() {
+            let Some(motion) = motions.get(&block).filter(|_| !seen[block.0]) else {
+                continue;
+            };
+            seen[block.0] = true;
+            group.push(*motion);
+            stack.extend(neighbours.get(&block).into_iter().flatten());
+        }
+        if !group.is_empty() {
+            group.sort_by_key(|m| m.block);
+            groups.push(group);
+        }
+    }
+    groups
+}
+
+/// The motions of the blocks of a frame that are not at rest.
+fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
+    let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
+    let speed = |m: &Motion| m.fastest(scene);
+    let fastest = motions.iter().map(speed).fold(0.0, f64::max);
+    motions
+        .iter()
+        .filter(move |m| m.fastest(scene) > REST_TOL * fastest)
+}

@@ -1,0 +1,312 @@
+//! [`Linkage`]: rigid bodies joined by hinges and sliding joints, which stay closed along the way.
+//!
+//! Every body first goes along its own velocity. That alone would tear hinges open, by the square of the angle. The nearest
+//! positions at which all joints are closed follow from a few steps of Newton's method, each the smallest correction.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::super::joint::Joint;
+use super::group::rigid_bodies;
+use super::rigid::Displacement;
+use crate::analysis::{Analysis, Motion};
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Scene};
+
+/// The joints of more bodies are not closed, which would take longer than the drawing.
+const MAX_BODIES: usize = 40;
+const MAX_STEPS: usize = 12;
+/// Joints are closed up to this share of the length of the frame.
+const CLOSED: f64 = 1e-7;
+/// Corrections larger than this share of the way mean that the joints cannot all be closed: then none is.
+const MAX_CORRECTION: f64 = 1.0;
+/// Keeps the equations of joints that say the same solvable, relative to the largest.
+const RIDGE: f64 = 1e-10;
+
+/// One equation that a joint keeps.
+#[derive(Clone, Copy, Debug)]
+enum Condition {
+    /// A point of both bodies stays one point: two equations.
+    Hinge(Point),
+    /// A point of the first body stays on a line of the second, through this point and across this normal.
+    OnLine(Point, Vector),
+    /// The two bodies turn alike.
+    Parallel,
+}
+
+/// A condition between two bodies; `None` for one at rest.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    bodies: [Option<usize>; 2],
+    condition: Condition,
+}
+
+/// One rigid body of several blocks.
+#[derive(Clone, Debug)]
+struct Member {
+    blocks: Vec<BlockId>,
+    /// Its motion about `centre`.
+    motion: Motion,
+    centre: Point,
+}
+
+/// A group of connected blocks that move.
+#[derive(Clone, Debug)]
+pub(super) struct Linkage {
+    members: Vec<Member>,
+    links: Vec<Link>,
+    /// Turns are weighed against ways by this length, metres.
+    length: f64,
+}
+
+/// Where a body is: its translation in metres and its rotation in radians.
+#[derive(Clone, Copy, Debug)]
+struct Pose {
+    way: Vector,
+    angle: f64,
+}
+
+impl Linkage {
+    /// The bodies and joints of a group of motions in a frame.
+    pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
+        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let within = |body: &Vec<Motion>| {
+            body.iter()
+                .any(|m| group.iter().any(|g| g.block == m.block))
+        };
+        let bodies = rigid_bodies(analysis, frame, joints)
+            .into_iter()
+            .filter(within);
+        let members: Vec<Member> = bodies.map(|body| member(scene, &body)).collect();
+        let mut number_of: BTreeMap<BlockId, usize> = BTreeMap::new();
+        for (number, member) in members.iter().enumerate() {
+            number_of.extend(member.blocks.iter().map(|block| (*block, number)));
+        }
+        let mut links = Vec::new();
+        for joint in joints {
+            let interface = &found.contacts[joint.contact].interface;
+            let bodies = interface.bodies.map(|body| match body {
+                BodyId::Block(block) => number_of.get(&block).copied(),
+                BodyId::Ground(_) => None,
+            });
+            if bodies[0] == bodies[1] {
+                continue;
+            }
+            links.extend(
+                conditions(scene, interface.bodies, interface.normal, joint)
+                    .into_iter()
+                    .map(|(turned, condition)| Link {
+                        bodies: if turned {
+                            [bodies[1], bodies[0]]
+                        } else {
+                            bodies
+                        },
+                        condition,
+                    }),
+            );
+        }
+        Linkage {
+            members,
+            links,
+            length: found.length.max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// The number of blocks.
+    pub fn len(&self) -> usize {
+        self.blocks().count()
+    }
+
+    /// All blocks.
+    pub fn blocks(&self) -> impl Iterator<Item = BlockId> {
+        self.members
+            .iter()
+            .flat_map(|member| member.blocks.iter().copied())
+    }
+
+    /// Where each block is when a point of speed 1 has gone `amplitude` metres.
+    pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
+        let start: Vec<Pose> = self
+            .members
+            .iter()
+            .map(|member| Pose {
+                way: Displacement::new(&member.motion, member.centre, amplitude).translation(),
+                angle: amplitude * member.motion.spin,
+            })
+            .collect();
+        let poses = self.closed(&start).unwrap_or(start);
+        let mut displaced = Vec::new();
+        for (member, pose) in self.members.iter().zip(poses) {
+            let displacement = Displacement::from_pose(member.centre, pose.angle, pose.way);
+            displaced.extend(member.blocks.iter().map(|block| (*block, displacement)));
+        }
+        displaced
+    }
+
+    /// The nearest poses at which all joints are closed; `None` where Newton's method finds none nearby.
+    fn closed(&self, start: &[Pose]) -> Option<Vec<Pose>> {
+        if self.links.is_empty() || self.members.len() > MAX_BODIES {
+            return None;
+        }
+        let mut poses = start.to_vec();
+        for _ in 0..MAX_STEPS {
+            let (rows, gaps) = self.equations(&poses);
+            if gaps.amax() <= CLOSED * self.length {
+                let far = |(pose, start): (&Pose, &Pose)| (pose.way - start.way).norm();
+                let correction = poses.iter().zip(start).map(far).fold(0.0, f64::max);
+                let way = start
+                    .iter()
+                    .map(|p| p.way.norm() + p.angle.abs() * self.length);
+                let way = way.fold(0.0, f64::max);
+                return (correction <= MAX_CORRECTION * way).then_some(poses);
+            }
+            let mut square = &rows * rows.transpose();
+            let ridge = RIDGE * square.diagonal().amax().max(f64::MIN_POSITIVE);
+            for i in 0..square.nrows() {
+                square[(i, i)] += ridge;
+            }
+            let multipliers = square.cholesky()?.solve(&gaps);
+            let step = rows.transpose() * multipliers;
+            for (number, pose) in poses.iter_mut().enumerate() {
+                pose.way -= Vector::new(step[3 * number], step[3 * number + 1]);
+                pose.angle -= step[3 * number + 2] / self.length;
+            }
+        }
+        None
+    }
+
+    /// How far every joint is open, metres, and how that changes with the poses: x, y and angle times length of each body.
+    fn equations(&self, poses: &[Pose]) -> (DMatrix<f64>, DVector<f64>) {
+        let count = self.links.iter().map(|link| match link.condition {
+            Condition::Hinge(_) => 2,
+            Condition::OnLine(..) | Condition::Parallel => 1,
+        });
+        let mut system = System {
+            rows: DMatrix::zeros(count.sum(), 3 * self.members.len()),
+            gaps: DVector::zeros(0),
+            length: self.length,
+        };
+        system.gaps = DVector::zeros(system.rows.nrows());
+        let mut row = 0;
+        for link in &self.links {
+            row += self.add(link, poses, row, &mut system);
+        }
+        (system.rows, system.gaps)
+    }
+
+    /// Adds the equations of a link from this row on, and returns their number.
+    fn add(&self, link: &Link, poses: &[Pose], row: usize, system: &mut System) -> usize {
+        let [first, second] = link.bodies;
+        match link.condition {
+            Condition::Hinge(point) => {
+                let gap = self.place(first, poses, point) - self.place(second, poses, point);
+                for (number, axis) in [Vector::x(), Vector::y()].into_iter().enumerate() {
+                    system.gaps[row + number] = gap.dot(&axis);
+                    for (body, sign) in [(first, 1.0), (second, -1.0)] {
+                        let arm = self.arm(body, poses, point);
+                        system.add(row + number, body, axis * sign, arm);
+                    }
+                }
+                2
+            }
+            Condition::OnLine(point, normal) => {
+                let angle = second.map_or(0.0, |body| poses[body].angle);
+                let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+                let normal = normal * cos + quarter_turn(normal) * sin;
+                let way = self.place(first, poses, point) - self.place(second, poses, point);
+                system.gaps[row] = normal.dot(&way);
+                system.add(row, first, normal, self.arm(first, poses, point));
+                // The line turns with its body, about the body's centre.
+                let arm = self.arm(second, poses, point) + way;
+                system.add(row, second, -normal, arm);
+                1
+            }
+            Condition::Parallel => {
+                let angle = |body: Option<usize>| body.map_or(0.0, |body| poses[body].angle);
+                system.gaps[row] = (angle(first) - angle(second)) * self.length;
+                for (body, sign) in [(first, 1.0), (second, -1.0)] {
+                    if let Some(body) = body {
+                        system.rows[(row, 3 * body + 2)] += sign;
+                    }
+                }
+                1
+            }
+        }
+    }
+
+    /// From the centre of a body, where it is now, to one of its points.
+    fn arm(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Vector {
+        body.map_or(Vector::zeros(), |body| {
+            let (centre, pose) = (self.members[body].centre, poses[body]);
+            Displacement::from_pose(centre, pose.angle, pose.way).turned(point - centre)
+        })
+    }
+
+    /// Where a body takes a point.
+    fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
+        body.map_or(point, |body| {
+            self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point)
+        })
+    }
+}
+
+/// Linear equations of the poses.
+struct System {
+    rows: DMatrix<f64>,
+    gaps: DVector<f64>,
+    length: f64,
+}
+
+impl System {
+    /// Adds how a point of a body, `arm` from its centre, moves along a direction.
+    fn add(&mut self, row: usize, body: Option<usize>, along: Vector, arm: Vector) {
+        let Some(body) = body else {
+            return;
+        };
+        self.rows[(row, 3 * body)] += along.x;
+        self.rows[(row, 3 * body + 1)] += along.y;
+        self.rows[(row, 3 * body + 2)] += along.dot(&quarter_turn(arm)) / self.length;
+    }
+}
+
+fn member(scene: &Scene, body: &[Motion]) -> Member {
+    let first = body[0];
+    Member {
+        blocks: body.iter().map(|m| m.block).collect(),
+        motion: first,
+        centre: scene.blocks[first.block.0].centroid,
+    }
+}
+
+/// What a joint keeps; `true` where the line belongs to the first body. A joint that lifts while it slides keeps nothing.
+fn conditions(
+    scene: &Scene,
+    bodies: [BodyId; 2],
+    normal: Vector,
+    joint: &Joint,
+) -> Vec<(bool, Condition)> {
+    if let Some(at) = joint.hinge {
+        return vec![(false, Condition::Hinge(at))];
+    }
+    if joint.slip == 0.0 || joint.lift != 0.0 {
+        return Vec::new();
+    }
+    match joint.touch {
+        // It slides on its whole face.
+        None => vec![
+            (false, Condition::Parallel),
+            (false, Condition::OnLine(joint.at, normal)),
+        ],
+        // A corner slides along the edge of the other body.
+        Some(at) => {
+            let is_corner = |body: BodyId| {
+                let mut corners = scene.body(body).polygon.rings().iter().flatten();
+                let near = 1e-6 * scene.body(body).polygon.bounds().diagonal();
+                corners.any(|corner| (corner - at).norm() <= near)
+            };
+            let turned = !is_corner(bodies[0]) && is_corner(bodies[1]);
+            vec![(turned, Condition::OnLine(at, normal))]
+        }
+    }
+}

@@ -1,0 +1,153 @@
+use super::*;
+use crate::figure::unit::unit;
+use crate::geometry::{ConvexPieces, Polygon, overlap};
+use crate::geometry::{Vector, quarter_turn};
+use crate::scene::BlockId;
+
+fn falling() -> Vec<Scene> {
+    [
+        include_str!("../../../../assets/study/arch-27-thin.json"),
+        include_str!("../../../../assets/study/stack-harmonic-falls.json"),
+        include_str!("../../../../assets/thesis/figure-8-right.json"),
+    ]
+    .map(|text| Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}")))
+    .into()
+}
+
+fn moved(block: &crate::scene::Block, displacement: &Displacement) -> Polygon {
+    let corners = block.body.polygon.outline().iter();
+    let corners = corners.map(|p| displacement.moved(*p)).collect();
+    Polygon::new(corners, Vec::new()).expect("a rigid motion keeps an outline simple")
+}
+
+#[test]
+fn displaced_blocks_keep_their_areas_and_sides() {
+    for scene in falling() {
+        let analysis = Analysis::new(&scene);
+        let displaced = Course::new(&analysis, 0, unit(&scene, None)).at(1.0);
+        let mut count = 0;
+        for (block, displacement) in scene.blocks.iter().zip(&displaced) {
+            let Some(displacement) = displacement else {
+                continue;
+            };
+            let (before, after) = (&block.body.polygon, moved(block, displacement));
+            assert!((before.area() - after.area()).abs() < 1e-9 * before.area());
+            for (a, b) in before.edges().zip(after.edges()) {
+                assert!((a.length() - b.length()).abs() < 1e-9 * a.length());
+            }
+            count += 1;
+        }
+        assert!(count > 4, "{count} blocks move");
+    }
+}
+
+#[test]
+fn no_block_overlaps_another_anywhere_along_the_way() {
+    for scene in falling() {
+        let analysis = Analysis::new(&scene).elementary();
+        let course = Course::new(&analysis, 0, unit(&scene, None));
+        for step in 0..=20 {
+            let displaced = course.at(f64::from(step) / 20.0);
+            let blocks = scene.blocks.iter().zip(&displaced);
+            let mut bodies: Vec<Polygon> = blocks
+                .map(|(block, displacement)| match displacement {
+                    Some(displacement) => moved(block, displacement),
+                    None => block.body.polygon.clone(),
+                })
+                .collect();
+            bodies.extend(scene.ground.iter().map(|g| g.body.polygon.clone()));
+            for (i, a) in bodies.iter().enumerate() {
+                for b in &bodies[..i] {
+                    let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
+                    let share = common.map_or(0.0, |o| o.area) / a.area().min(b.area());
+                    assert!(share < 0.005, "{share} of the smaller at step {step}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn hinges_stay_closed_along_the_way() {
+    let scene = &falling()[0];
+    let analysis = Analysis::new(scene).elementary();
+    let displaced = Course::new(&analysis, 0, unit(scene, None)).at(1.0);
+    let at = |body: BodyId, p: Point| match body {
+        BodyId::Block(id) => displaced[id.0].map_or(p, |d| d.moved(p)),
+        BodyId::Ground(_) => p,
+    };
+    let mut hinges = 0;
+    for joint in joints(&analysis, 0) {
+        let Some(hinge) = joint.hinge else { continue };
+        let [a, b] = analysis.frames[0].contacts[joint.contact].interface.bodies;
+        let gap = (at(a, hinge) - at(b, hinge)).norm();
+        assert!(gap < 1e-5, "{gap} m");
+        hinges += 1;
+    }
+    assert!(hinges >= 4, "{hinges}");
+}
+
+#[test]
+fn a_rotation_leaves_its_centre_and_all_distances_and_can_be_taken_back() {
+    let centroid = Point::new(3.0, 2.0);
+    let corner = Point::new(4.0, 1.0);
+    for spin in [0.8, -1e-9, 0.0] {
+        // Turning about the corner: the velocity of the centroid is spin × arm.
+        let velocity = if spin == 0.0 {
+            Vector::new(1.0, -0.5)
+        } else {
+            quarter_turn(centroid - corner) * spin
+        };
+        let motion = Motion {
+            block: BlockId(0),
+            velocity,
+            spin,
+        };
+        let moved = Displacement::new(&motion, centroid, 0.6);
+        if spin != 0.0 {
+            assert!((moved.moved(corner) - corner).norm() < 1e-12);
+        } else {
+            assert!((moved.moved(corner) - corner - velocity * 0.6).norm() < 1e-12);
+        }
+        let far = Point::new(-7.0, 5.0);
+        let distance = (moved.moved(far) - moved.moved(centroid)).norm();
+        assert!((distance - (far - centroid).norm()).abs() < 1e-12);
+        assert!((moved.back(moved.moved(far)) - far).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn a_small_block_beside_a_large_scene_is_not_whirled_about() {
+    let brick = |id: &str, x: f64, size: f64| {
+        format!(
+            r#"{{ "id": "{id}", "weight": 6,
+                 "polygon": [[{x},0],[{},0],[{},{size}],[{x},{size}]] }}"#,
+            x + size,
+            x + size
+        )
+    };
+    // Each stands with a third of its width on its own piece of ground, and tips.
+    let ground = |x: f64, size: f64| {
+        format!(
+            r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#,
+            x + size / 3.0,
+            x + size / 3.0
+        )
+    };
+    let text = format!(
+        r#"{{ "drystone": 1, "ground": [{}, {}], "blocks": [{}, {}] }}"#,
+        ground(0.0, 9.0),
+        ground(200.0, 0.3),
+        brick("large", 0.0, 9.0),
+        brick("small", 200.0, 0.3)
+    );
+    let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
+    let displaced = Course::new(&Analysis::new(&scene), 0, unit(&scene, None)).at(1.0);
+    for (block, displacement) in scene.blocks.iter().zip(displaced) {
+        let displacement = displacement.expect("it tips");
+        let turned = displacement.turned(Vector::new(1.0, 0.0));
+        assert!(libm::atan2(turned.y, turned.x).abs() < 0.36, "{}", block.id);
+        let way = (displacement.moved(block.centroid) - block.centroid).norm();
+        assert!(way > 0.02 * block.body.polygon.area().sqrt(), "{way}");
+    }
+}

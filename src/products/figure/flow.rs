@@ -1,0 +1,425 @@
+//! Force flow: how the forces run through the blocks, with lines as wide as the forces.
+//!
+//! Inside each block strands join the points where forces enter to the points where they leave; [`strands`] computes them.
+//! Bands of one force on both sides of a joint have the same width and the same direction.
+
+mod line;
+mod ribbon;
+mod strand;
+mod words;
+
+use strand::{Strand, StrandKind, strands};
+
+use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
+use super::bearing::bearings;
+use super::content::PanelContent;
+use super::context::FigureContext;
+use super::label::{self, Callout, SAME_FORCE};
+use super::legend::{self, Entry};
+use super::limit;
+use super::mark;
+use super::option::{ArrowScale, Options};
+use super::panel::composed_with;
+use super::pen::Pen;
+use super::unit::unit;
+use super::words::{quantity, round_below};
+use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
+use crate::drawing::placement::Ink;
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Theme};
+use crate::geometry::Bounds;
+use crate::scene::Scene;
+
+/// Width of the band of the largest force, unit edges; its least and its largest width, pixels.
+const LARGEST_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
+/// Least width of a band, pixels: a thinner one cannot be seen.
+const LEAST_WIDTH: f64 = 0.4;
+/// In frames with more blocks than this, bands of one colour are one path, and joints have no dots.
+const MANY_STRANDS: usize = 150;
+/// Length of the longest arrow of a load or a missing force, as a share of the longer side of the structure.
+const LONGEST_ARROW: f64 = 0.1;
+/// Width of the shaft of such an arrow, as a share of the longest one.
+const SHAFT: f64 = 0.055;
+
+/// The figure of force flow.
+pub(crate) struct ForceFlow;
+
+impl PanelContent for ForceFlow {
+    fn name(&self) -> &'static str {
+        "flow"
+    }
+
+    fn help(&self) -> &'static str {
+        "How the forces run through the blocks, in lines as wide as the forces"
+    }
+
+    fn title(&self) -> &'static str {
+        "The flow of forces in a dry-laid structure"
+    }
+
+    fn draws_forces(&self) -> bool {
+        true
+    }
+
+    fn lines_cross_names(&self) -> bool {
+        true
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        let edge = unit(&analysis.scene, options.zoom);
+        largest_arrow(analysis, frame) * edge / longest_arrow(analysis, options)
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        Picture::new(context, frame, camera).drawn(view)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        entries(context, unit)
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        words::reason(context, frame)
+    }
+}
+
+/// The largest load or missing force of a frame, N; a torque counts with the unit edge as its arm.
+fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let placed = &scene.frames[frame].placed;
+    let edge = unit(scene, None);
+    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block));
+    let loads = loads.map(|l| l.force.norm().max(l.torque.abs() / edge));
+    let missing = found.failures.iter();
+    let missing = missing.map(|f| f.force().norm().max(f.torque().abs() / edge));
+    loads.chain(missing).fold(0.0, f64::max)
+}
+
+/// The length of the longest arrow, metres.
+fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
+    let edge = unit(&analysis.scene, options.zoom);
+    let blocks = analysis.scene.blocks.iter();
+    let all = blocks
+        .map(|b| b.body.polygon.bounds())
+        .reduce(Bounds::union);
+    let longer = all.map_or(edge, |b| b.width().max(b.height()));
+    edge.max(LONGEST_ARROW * longer)
+}
+
+/// The arrows of loads, which end where they act, and those of missing forces.
+fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
+    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
+    let width = SHAFT * longest_arrow(analysis, options);
+    let shown = |arrow: ForceArrow| match arrow.kind {
+        ArrowKind::Load => Some(ForceArrow {
+            at: arrow.at - arrow.vector,
+            width,
+            ..arrow
+        }),
+        kind if kind.is_failure() => Some(ForceArrow { width, ..arrow }),
+        _ => None,
+    };
+    let turns = marks.turns.into_iter();
+    let shown = Marks {
+        arrows: marks.arrows.into_iter().filter_map(shown).collect(),
+        turns: turns
+            .filter(|turn| !matches!(turn.kind, TurnKind::Robot(_)))
+            .collect(),
+        newtons_per_unit,
+    };
+    // Without arrows there is nothing to give a scale for.
+    if shown.arrows.is_empty() && shown.turns.is_empty() {
+        Marks::default()
+    } else {
+        shown
+    }
+}
+
+/// The contact with the largest force of a frame; of forces that are equal but for rounding, the first.
+pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
+    let force = |c: &&Contact| c.resultant.force.norm();
+    let contacts = found.contacts.iter();
+    contacts.filter(|c| force(c) > 0.0).reduce(|most, c| {
+        if force(&c) > (1.0 + SAME_FORCE) * force(&most) {
+            c
+        } else {
+            most
+        }
+    })
+}
+
+/// The largest force of a joint or a robot in all frames, N.
+fn largest(context: &FigureContext<'_>) -> f64 {
+    let frames = &context.analysis.frames;
+    let contacts = frames.iter().filter_map(largest_contact);
+    let contacts = contacts.map(|c| c.resultant.force.norm());
+    let robots = frames.iter().flat_map(|f| &f.robots);
+    contacts
+        .chain(robots.map(|r| r.force.norm()))
+        .fold(0.0, f64::max)
+}
+
+/// Width of the band of the largest force, pixels, for a unit edge of this length.
+fn widest(unit: f64) -> f64 {
+    let (width, least, most) = LARGEST_WIDTH;
+    (width * unit).clamp(least, most)
+}
+
+/// The colour of force that is carried, in a frame with this verdict.
+fn carried(theme: &Theme, verdict: Verdict) -> Colour {
+    match verdict {
+        Verdict::Stable => theme.motion,
+        _ => theme.motion.mixed(theme.outline, 0.6),
+    }
+}
+
+/// The colour of a strand.
+fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
+    let carried = carried(theme, verdict);
+    match kind {
+        StrandKind::Carried => carried,
+        StrandKind::Weight => carried.mixed(theme.block, 0.55),
+        StrandKind::Missing => theme.failure.mixed(theme.block, 0.5),
+    }
+}
+
+/// The picture of a frame.
+struct Picture<'a> {
+    pen: Pen<'a>,
+    scene: &'a Scene,
+    found: &'a FrameAnalysis,
+    theme: &'a Theme,
+    strands: Vec<Strand>,
+    /// Pixels per newton.
+    scale: f64,
+}
+
+impl<'a> Picture<'a> {
+    fn new(context: &'a FigureContext<'a>, frame: usize, camera: &'a Camera) -> Picture<'a> {
+        let (scene, found) = (&*context.analysis.scene, &context.analysis.frames[frame]);
+        let pen = Pen::new(context, frame, camera);
+        let scale = widest(pen.unit()) / largest(context).max(f64::MIN_POSITIVE);
+        let metres = camera.metres(scale);
+        Picture {
+            strands: strands(scene, &scene.frames[frame], found, metres),
+            pen,
+            scene,
+            found,
+            theme: &context.options.theme,
+            scale,
+        }
+    }
+
+    fn drawn(&self, view: Bounds) -> Group {
+        let mut ink = label::ink(&self.pen);
+        let flow = self.flow(&mut ink);
+        let dots = self.dots(&mut ink);
+        let (forces, missing) = (self.pen.arrows(false), self.pen.arrows(true));
+        let marks = vec![flow, dots, forces, missing];
+        composed_with(
+            &self.pen,
+            view,
+            self.pen.blocks(),
+            marks,
+            self.callout(),
+            ink,
+        )
+    }
+
+    /// Whether bands are joined by colour, without titles, and joints have no dots.
+    fn many(&self) -> bool {
+        self.scene.frames[self.pen.number].placed.len() > MANY_STRANDS
+    }
+
+    /// The bands: weights at the bottom, then what is carried, and on top what is missing.
+    fn flow(&self, ink: &mut Ink) -> Group {
+        let mut group = Group::with_class("flow");
+        let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];
+        for kind in order {
+            let strands = self.strands.iter().filter(|s| s.kind == kind);
+            let colour = colour(self.theme, self.found.verdict, kind);
+            let mut joined = Outline::default();
+            for strand in strands {
+                let outline = self.band(strand, ink);
+                if self.many() {
+                    joined.extend(outline);
+                    continue;
+                }
+                let title = words::strand(self.scene, self.found, strand);
+                let band = Group::with_class("strand").titled(title);
+                let band = band.with(Path::filled(outline, colour));
+                group.items.push(band.into());
+            }
+            if !joined.segments.is_empty() {
+                group.items.push(Path::filled(joined, colour).into());
+            }
+        }
+        group
+    }
+
+    /// The outline of a strand; its axis is ink that no label may hide.
+    fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
+        let camera = self.pen.camera;
+        let width = |newtons: &f64| camera.metres((newtons * self.scale).max(LEAST_WIDTH));
+        let mut widths: Vec<f64> = strand.widths.iter().map(width).collect();
+        let mut axis = strand.axis.clone();
+        if self.many() && !strand.exact {
+            // Among many blocks nobody sees the bends, and straight bands make a small file.
+            axis = axis
+                .first()
+                .into_iter()
+                .chain(axis.last())
+                .copied()
+                .collect();
+            widths = widths
+                .first()
+                .into_iter()
+                .chain(widths.last())
+                .copied()
+                .collect();
+        }
+        for (pair, width) in axis.windows(2).zip(&widths) {
+            let [from, to] = [pair[0], pair[1]].map(|p| camera.place(p));
+            ink.line(from, to, camera.length(*width) + 1.0);
+        }
+        ribbon::ribbon(&axis, &widths, camera)
+    }
+
+    /// A dot where the resultant of each joint acts.
+    fn dots(&self, ink: &mut Ink) -> Group {
+        let mut group = Group::with_class("resultants");
+        if self.many() {
+            return group;
+        }
+        let radius = dot(self.pen.unit());
+        let limits = limit::reached(self.scene, self.found);
+        for (contact, bearing) in self
+            .found
+            .contacts
+            .iter()
+            .zip(bearings(self.scene, self.found))
+        {
+            if bearing.is_none() {
+                continue;
+            }
+            let at = self.pen.camera.place(contact.resultant.at);
+            ink.disc(at, radius + 1.0);
+            let title = words::joint(self.scene, contact);
+            let dot = Group::with_class("resultant").titled(title);
+            let at_limit = limits.iter().any(|c| core::ptr::eq(*c, contact));
+            let path = match at_limit {
+                true => limit::sign(at, radius, self.theme),
+                false => dot_at(at, radius, self.theme),
+            };
+            group.items.push(dot.with(path).into());
+        }
+        group
+    }
+
+    /// The amount of the largest force of a joint, at its dot.
+    fn callout(&self) -> Vec<Callout> {
+        let largest = largest_contact(self.found).into_iter();
+        let callout = |contact: &Contact| {
+            let force = contact.resultant.force.norm();
+            Callout {
+                at: self.pen.camera.place(contact.resultant.at),
+                clear: 0.5 * self.scale * force + 3.0,
+                words: format!("largest: {}", quantity(force, "N")),
+                colour: carried(self.theme, self.found.verdict),
+            }
+        };
+        largest.map(callout).collect()
+    }
+}
+
+/// Radius of the dot at a joint, pixels.
+fn dot(unit: f64) -> f64 {
+    (0.06 * unit).clamp(1.1, 3.2)
+}
+
+fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
+}
+
+fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![dot_at(at.moved(4.0, 0.0), 3.0, theme).into()]
+}
+
+fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+    let scene = &*context.analysis.scene;
+    let frames = || scene.frames.iter().zip(&context.analysis.frames);
+    let all: Vec<(Verdict, Strand)> = frames()
+        .flat_map(|(frame, found)| {
+            let strands = strands(scene, frame, found, 0.0).into_iter();
+            strands.map(|strand| (found.verdict, strand))
+        })
+        .collect();
+    let mut entries = Vec::new();
+    if context.options.scale == ArrowScale::Strip {
+        entries.extend(legend::shared_scale(context, unit));
+    }
+    entries.extend(bands(context, unit, &all));
+    let most = scene.frames.iter().map(|f| f.placed.len()).max();
+    if !all.is_empty() && most.unwrap_or(0) <= MANY_STRANDS {
+        let words = "resultant of a joint".to_owned();
+        entries.push(Entry::Sign(dot_sign, 8.0, words));
+    }
+    entries.extend(legend::limits(context));
+    entries.extend(legend::loads(context));
+    entries.extend(legend::robots(context));
+    if all.iter().any(|s| !s.1.exact) {
+        let words = "inside a block the lines are schematic; widths are exact".to_owned();
+        entries.push(Entry::Note(words));
+    }
+    entries
+}
+
+/// The entries for bands, of which the figure shows these.
+fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> Vec<Entry> {
+    let theme = &context.options.theme;
+    let mut entries = Vec::new();
+    let any = |kind: StrandKind| all.iter().find(|s| s.1.kind == kind).map(|s| s.0);
+    let largest = largest(context);
+    let amount = round_below(largest);
+    if let Some(verdict) = any(StrandKind::Carried).or(any(StrandKind::Weight)) {
+        let width = widest(unit) * amount / largest.max(f64::MIN_POSITIVE);
+        let what = match verdict {
+            Verdict::Stable => "force",
+            _ => "what is carried",
+        };
+        let thin = LEAST_WIDTH / widest(unit) * largest;
+        let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
+        let least = match all.iter().any(|s| thinner(&s.1)) {
+            true => format!(", equally thin under {}", quantity(thin, "N")),
+            false => String::new(),
+        };
+        let words = format!("{what}, this wide for {}{least}", quantity(amount, "N"));
+        entries.push(Entry::Line(carried(theme, verdict), width, words));
+    }
+    if let Some(verdict) = any(StrandKind::Weight) {
+        let light = colour(theme, verdict, StrandKind::Weight);
+        entries.push(Entry::Line(light, 2.5, "weight".into()));
+    }
+    if any(StrandKind::Missing).is_some() {
+        let red = colour(theme, Verdict::Unstable, StrandKind::Missing);
+        let words = "what cannot be carried".to_owned();
+        entries.push(Entry::Line(red, 4.0, words));
+        entries.push(Entry::Missing);
+    }
+    entries
+}

@@ -1,0 +1,137 @@
+//! [`path`]: the true lines of action in a block that two bodies press.
+//!
+//! The path starts along the force at the first joint. Where it meets the line of action of a load or of the weight, it
+//! goes on along the line of their resultant. At last it arrives at the second joint along the line of the force there.
+
+use crate::geometry::{Point, Polygon, Vector, cross};
+
+/// A line passes through a point if it misses it by less than this share of the block's size.
+const LENGTH_TOL: f64 = 1e-6;
+/// Corners of the path lie at most this far outside the block, as a share of the square root of its area.
+const NEAR: f64 = 0.15;
+/// The sine of the angle below which two lines of action are parallel.
+const PARALLEL: f64 = 1e-6;
+/// With more loads than this, the weight counted in, their orders are not tried.
+const MAX_ORDERED: usize = 4;
+
+/// A force with a point of its line of action.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pressed {
+    pub at: Point,
+    /// The force on the block, N.
+    pub force: Vector,
+}
+
+/// A path along true lines of action.
+#[derive(Clone, Debug)]
+pub(super) struct TruePath {
+    /// From the first joint over every corner to the second joint.
+    pub corners: Vec<Point>,
+    /// The force along each piece between them, N.
+    pub amounts: Vec<f64>,
+    /// For each load its number and the corner where it joins.
+    pub joins: Vec<(usize, Point)>,
+}
+
+/// The path from the first joint to the second, if all of it lies in or near the block and leads forward. The order of the
+/// loads is not known, so all orders are tried.
+pub(super) fn path(
+    polygon: &Polygon,
+    first: Pressed,
+    second: Pressed,
+    loads: &[Pressed],
+) -> Option<TruePath> {
+    if loads.len() > MAX_ORDERED {
+        return None;
+    }
+    let size = polygon.area().sqrt();
+    let search = Search {
+        polygon,
+        near: NEAR * size,
+        miss: LENGTH_TOL * size,
+        second,
+        loads,
+    };
+    let start = TruePath {
+        corners: vec![first.at],
+        amounts: Vec::new(),
+        joins: Vec::new(),
+    };
+    search.onward(start, first.force)
+}
+
+struct Search<'a> {
+    polygon: &'a Polygon,
+    /// How far outside the block a corner may lie, metres.
+    near: f64,
+    /// By how much a line may miss a point, metres.
+    miss: f64,
+    second: Pressed,
+    loads: &'a [Pressed],
+}
+
+impl Search<'_> {
+    /// The path completed from its last corner along `force`.
+    fn onward(&self, path: TruePath, force: Vector) -> Option<TruePath> {
+        let amount = force.norm();
+        let at = *path.corners.last()?;
+        if amount <= 0.0 {
+            return None;
+        }
+        if path.joins.len() == self.loads.len() {
+            return self.arrived(path, at, force);
+        }
+        let rest = |i: &usize| path.joins.iter().all(|join| join.0 != *i);
+        (0..self.loads.len()).filter(rest).find_map(|i| {
+            let load = self.loads[i];
+            let corner = meeting(at, force, load.at, load.force)?;
+            let forward = (corner - at).dot(&force) >= -self.miss * amount;
+            if !forward || !self.is_near(corner) {
+                return None;
+            }
+            let next = force + load.force;
+            let mut path = path.clone();
+            path.corners.push(corner);
+            path.amounts.push(amount);
+            path.joins.push((i, corner));
+            self.onward(path, next)
+        })
+    }
+
+    /// The path with its last piece, if that lies on the line of the second joint's force.
+    fn arrived(&self, mut path: TruePath, at: Point, force: Vector) -> Option<TruePath> {
+        let way = self.second.at - at;
+        let aside = cross(force, way) / force.norm();
+        let forward = way.dot(&force) >= 0.0;
+        if aside.abs() > self.miss.max(1e-4 * way.norm()) || !forward {
+            return None;
+        }
+        path.corners.push(self.second.at);
+        path.amounts.push(force.norm());
+        Some(path)
+    }
+
+    /// Whether a point lies in the block or near it.
+    fn is_near(&self, p: Point) -> bool {
+        let mut edges = self.polygon.edges();
+        self.polygon.contains(p) || edges.any(|edge| from_edge(edge.from, edge.to, p) <= self.near)
+    }
+}
+
+/// Where two lines meet, `None` where they are parallel. A force whose point lies on the other line meets it there.
+fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
+    let sine = cross(along_a, along_b);
+    if sine.abs() <= PARALLEL * along_a.norm() * along_b.norm() {
+        let way = b - a;
+        let aside = cross(along_a, way) / along_a.norm();
+        return (aside.abs() <= LENGTH_TOL * way.norm()).then_some(b);
+    }
+    Some(a + along_a * (cross(b - a, along_b) / sine))
+}
+
+/// The distance of a point from the piece of a line between two points, metres.
+fn from_edge(a: Point, b: Point, p: Point) -> f64 {
+    let along = b - a;
+    let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+    (p - (a + along * share.clamp(0.0, 1.0))).norm()
+}

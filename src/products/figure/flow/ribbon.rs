@@ -1,0 +1,47 @@
+//! [`ribbon`]: the outline of a band along an axis, as wide at each point as it is told.
+
+use crate::drawing::{Camera, Outline};
+use crate::geometry::{Point, Vector, quarter_turn};
+
+/// At a corner a band is at most this many times as wide as on either side.
+const LONGEST_MITRE: f64 = 1.6;
+
+/// The outline of a band along `axis`, with its full width at each point, all in metres, on the page. At a point that
+/// stands twice the width steps from one to the other.
+pub(super) fn ribbon(axis: &[Point], widths: &[f64], camera: &Camera) -> Outline {
+    let points = 0..axis.len().min(widths.len());
+    if axis.iter().all(|p| same(*p, axis[0])) {
+        return Outline::default();
+    }
+    let side = |sign: f64| {
+        let at = move |i: usize| camera.place(axis[i] + aside(axis, i) * (0.5 * sign * widths[i]));
+        points.clone().map(at)
+    };
+    Outline::ring(side(1.0).chain(side(-1.0).rev()))
+}
+
+fn same(a: Point, b: Point) -> bool {
+    (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
+}
+
+/// The direction across the band at point `i`, longer at a corner, so that the band keeps its width on both sides.
+fn aside(axis: &[Point], i: usize) -> Vector {
+    let apart = |p: &&Point| !same(**p, axis[i]);
+    let across = |along: Vector| quarter_turn(along / along.norm());
+    let before = axis[..i].iter().rev().find(apart);
+    let behind = axis[i..].iter().find(apart);
+    match (
+        before.map(|p| across(axis[i] - p)),
+        behind.map(|p| across(p - axis[i])),
+    ) {
+        (Some(before), Some(behind)) => {
+            let sum = before + behind;
+            let half = 0.5 * sum.norm();
+            if half < 1e-9 {
+                return before;
+            }
+            sum / sum.norm() * (1.0 / half).min(LONGEST_MITRE)
+        }
+        (before, behind) => before.or(behind).unwrap_or_else(Vector::zeros),
+    }
+}

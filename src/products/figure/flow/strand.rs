@@ -1,0 +1,326 @@
+//! [`strands`]: how the forces of a frame run through its blocks, as strands with exact widths at their ends.
+//!
+//! In each block a strand joins a point where force enters to a point where it leaves. Where the true lines of action meet
+//! in or near the block, [`line`](super::line) has the strands. Elsewhere every force that enters is shared among the
+//! forces that leave, in proportion to their amounts. All strands of a force together are as wide as the force.
+
+use super::line::{self, Pressed};
+use crate::analysis::{Failure, FrameAnalysis};
+use crate::figure::bearing::{self, bearings};
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+
+/// A force whose component along gravity is below this share of it enters or leaves by its direction across gravity.
+const ACROSS: f64 = 1e-6;
+/// A curve that is not a true line has this many pieces.
+const PIECES: usize = 12;
+/// A curve follows the direction of its force for this share of its way along that direction.
+const STRAIGHT: f64 = 0.2;
+
+/// The origin of a force on a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Origin {
+    /// Another body, through the contact of this number.
+    Contact(usize),
+    /// A robot.
+    Robot(RobotId),
+    /// A load.
+    Load,
+    /// The weight of the block.
+    Weight,
+    /// The failure of this number: what would have to stick.
+    Missing(usize),
+}
+
+/// A force on a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Acting {
+    pub origin: Origin,
+    /// A point of its line of action, metres: where it enters or leaves the block.
+    pub at: Point,
+    /// The force on the block, N.
+    pub force: Vector,
+}
+
+/// What a strand shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum StrandKind {
+    /// Force that the block passes on.
+    Carried,
+    /// The weight of the block, on its way to the forces that carry it.
+    Weight,
+    /// Force that comes from or goes to a place where something is missing.
+    Missing,
+}
+
+/// A line of force through a block.
+#[derive(Clone, Debug)]
+pub(crate) struct Strand {
+    /// The block it runs through.
+    pub on: BlockId,
+    pub kind: StrandKind,
+    pub from: Origin,
+    pub to: Origin,
+    /// Its axis, metres, from where the force enters to where it leaves.
+    pub axis: Vec<Point>,
+    /// Its width at each point of the axis, N. A point that stands twice has the widths on either side.
+    pub widths: Vec<f64>,
+    /// Whether it runs along true lines of action; otherwise it is schematic.
+    pub exact: bool,
+}
+
+/// The strands of a frame, block by block in placing order; an axis is moved aside by `metres_per_newton`, so that the
+/// strands of a force lie side by side.
+pub(crate) fn strands(
+    scene: &Scene,
+    frame: &Frame,
+    found: &FrameAnalysis,
+    metres_per_newton: f64,
+) -> Vec<Strand> {
+    let acting = acting(scene, frame, found);
+    let mut all = Vec::new();
+    for id in &frame.placed {
+        let forces = &acting[id.0];
+        let sharing = Sharing {
+            on: *id,
+            down: scene.down(),
+            metres_per_newton,
+        };
+        match true_lines(scene, *id, forces) {
+            Some(exact) => all.extend(exact),
+            None => all.extend(sharing.strands(forces)),
+        }
+    }
+    all
+}
+
+/// Every force on each block, by its number.
+fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting>> {
+    let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
+    let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
+        if let BodyId::Block(block) = body {
+            acting[block.0].push(Acting { origin, at, force });
+        }
+    };
+    for (number, bearing) in bearings(scene, found).iter().enumerate() {
+        let contact = &found.contacts[number];
+        let (at, force) = (contact.resultant.at, contact.resultant.force);
+        if bearing.is_some() {
+            for body in contact.interface.bodies {
+                let sign = if body == contact.resultant.on {
+                    1.0
+                } else {
+                    -1.0
+                };
+                act(body, Origin::Contact(number), at, force * sign);
+            }
+        }
+    }
+    for robot in &found.robots {
+        let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
+        if robot.force.norm() > noise {
+            let on = BodyId::Block(robot.block);
+            act(on, Origin::Robot(robot.robot), robot.at, robot.force);
+        }
+    }
+    for (number, failure) in found.failures.iter().enumerate() {
+        for (body, force) in missing(failure) {
+            act(body, Origin::Missing(number), failure.at(), force);
+        }
+    }
+    for load in scene.loads.iter().filter(|l| l.force.norm() > 0.0) {
+        act(BodyId::Block(load.block), Origin::Load, load.at, load.force);
+    }
+    for id in &frame.placed {
+        let block = &scene.blocks[id.0];
+        if block.weight > 0.0 {
+            let weight = scene.down() * block.weight;
+            act(BodyId::Block(*id), Origin::Weight, block.centroid, weight);
+        }
+    }
+    acting
+}
+
+/// The missing force of a failure on each body that it acts on.
+fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
+    match *failure {
+        Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
+            vec![(bodies[0], force), (bodies[1], -force)]
+        }
+        Failure::RobotForce { block, force, .. } => vec![(BodyId::Block(block), force)],
+        Failure::RobotTorque { .. } => Vec::new(),
+    }
+}
+
+/// The strands along true lines of action: of a block between two bodies, with its weight and its loads.
+fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Strand>> {
+    let presses = |f: &&Acting| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
+    let given = |f: &&Acting| matches!(f.origin, Origin::Load | Origin::Weight);
+    let turned = |load: &crate::scene::Load| load.block == on && load.torque != 0.0;
+    let pressing: Vec<&Acting> = forces.iter().filter(presses).collect();
+    let [one, other] = pressing[..] else {
+        return None;
+    };
+    // The path runs the way of the weights.
+    let along = |f: &Acting| f.force.dot(&scene.down());
+    let (first, second) = match along(one) < along(other) {
+        true => (other, one),
+        false => (one, other),
+    };
+    let loads: Vec<Pressed> = forces.iter().filter(given).map(pressed).collect();
+    if loads.len() + 2 != forces.len() || scene.loads.iter().any(turned) {
+        return None;
+    }
+    let polygon = &scene.blocks[on.0].body.polygon;
+    let path = line::path(polygon, pressed(first), pressed(second), &loads)?;
+    let strand = |kind, from, to, axis: Vec<Point>, widths: Vec<f64>| Strand {
+        on,
+        kind,
+        from,
+        to,
+        axis,
+        widths,
+        exact: true,
+    };
+    let pieces = path.corners.windows(2).zip(&path.amounts);
+    let (mut axis, mut widths) = (Vec::new(), Vec::new());
+    for (ends, amount) in pieces {
+        axis.extend_from_slice(ends);
+        widths.extend([*amount; 2]);
+    }
+    let (from, to) = (first.origin, second.origin);
+    let through = strand(StrandKind::Carried, from, to, axis, widths);
+    let joins = path.joins.into_iter().map(|(load, corner)| {
+        let given = forces.iter().filter(given).nth(load);
+        let origin = given.map_or(Origin::Weight, |f| f.origin);
+        let kind = match origin {
+            Origin::Weight => StrandKind::Weight,
+            _ => StrandKind::Carried,
+        };
+        let amount = loads[load].force.norm();
+        let ends = vec![loads[load].at, corner];
+        strand(kind, origin, second.origin, ends, vec![amount; 2])
+    });
+    Some(joins.chain([through]).collect())
+}
+
+fn pressed(acting: &Acting) -> Pressed {
+    Pressed {
+        at: acting.at,
+        force: acting.force,
+    }
+}
+
+/// How the forces on a block are shared.
+struct Sharing {
+    on: BlockId,
+    /// The direction of gravity.
+    down: Vector,
+    metres_per_newton: f64,
+}
+
+impl Sharing {
+    /// Whether a force enters the block: it acts along gravity, and leaves where it acts against it.
+    fn enters(&self, acting: &Acting) -> bool {
+        let along = acting.force.dot(&self.down);
+        if along.abs() > ACROSS * acting.force.norm() {
+            return along > 0.0;
+        }
+        acting.force.dot(&quarter_turn(self.down)) > 0.0
+    }
+
+    /// A strand for each force that enters and each force that leaves.
+    fn strands(&self, forces: &[Acting]) -> Vec<Strand> {
+        let (ins, outs): (Vec<&Acting>, Vec<&Acting>) = forces.iter().partition(|f| self.enters(f));
+        let sum = |side: &[&Acting]| side.iter().map(|f| f.force.norm()).sum::<f64>();
+        let (entering, leaving) = (sum(&ins), sum(&outs));
+        if ins.is_empty() || outs.is_empty() {
+            return Vec::new();
+        }
+        let mut strands = Vec::new();
+        for from in &ins {
+            for to in &outs {
+                let (start, end) = (from.force.norm(), to.force.norm());
+                let widths = [start * end / leaving, end * start / entering];
+                // What enters flows along its force; what leaves flows against the force that carries it.
+                let first = self.end(from.at, from.force, &outs, to, leaving);
+                let last = self.end(to.at, -to.force, &ins, from, entering);
+                strands.push(self.strand(from, to, [first, last], widths));
+            }
+        }
+        strands
+    }
+
+    /// Where the strand of `force` to or from `partner` ends, and its direction there: beside the strands of the other
+    /// `partners`, in their order across the force.
+    fn end(
+        &self,
+        at: Point,
+        force: Vector,
+        partners: &[&Acting],
+        partner: &Acting,
+        sum: f64,
+    ) -> (Point, Vector) {
+        let (along, width) = (force / force.norm(), force.norm());
+        let aside = quarter_turn(along);
+        let place = |p: &Acting| (p.at - at).dot(&aside);
+        let share = |p: &Acting| p.force.norm() / sum;
+        let own = place(partner);
+        let mut before = 0.0;
+        for other in partners {
+            let earlier = place(other) < own;
+            let alike =
+                place(other) == own && core::ptr::from_ref(*other) < core::ptr::from_ref(partner);
+            if earlier || alike {
+                before += share(other);
+            }
+        }
+        let middle = width * (before + 0.5 * share(partner) - 0.5);
+        (at + aside * (middle * self.metres_per_newton), along)
+    }
+
+    fn strand(
+        &self,
+        from: &Acting,
+        to: &Acting,
+        ends: [(Point, Vector); 2],
+        widths: [f64; 2],
+    ) -> Strand {
+        let missing = |f: &Acting| matches!(f.origin, Origin::Missing(_));
+        let kind = match from.origin {
+            _ if missing(from) || missing(to) => StrandKind::Missing,
+            Origin::Weight => StrandKind::Weight,
+            _ => StrandKind::Carried,
+        };
+        let axis = curve(ends);
+        let last = (axis.len() - 1) as f64;
+        let width = |i: usize| widths[0] + (widths[1] - widths[0]) * i as f64 / last;
+        Strand {
+            on: self.on,
+            kind,
+            from: from.origin,
+            to: to.origin,
+            widths: (0..axis.len()).map(width).collect(),
+            axis,
+            exact: false,
+        }
+    }
+}
+
+/// A curve between two points that leaves the first and reaches the second in these directions, as far as that leads
+/// forward.
+fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
+    let chord = b - a;
+    let handle = |along: Vector| STRAIGHT * chord.dot(&along).max(0.0);
+    let (p, q) = (a + along_a * handle(along_a), b - along_b * handle(along_b));
+    let at = |i: usize| {
+        let t = i as f64 / PIECES as f64;
+        let s = 1.0 - t;
+        let sum = a.coords * (s * s * s)
+            + p.coords * (3.0 * s * s * t)
+            + q.coords * (3.0 * s * t * t)
+            + b.coords * (t * t * t);
+        Point::from(sum)
+    };
+    (0..=PIECES).map(at).collect()
+}

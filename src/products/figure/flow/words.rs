@@ -1,0 +1,76 @@
+//! Force flow in words: titles of bands and joints, and the line below the verdict.
+
+use super::largest_contact;
+use super::strand::{Origin, Strand};
+use crate::analysis::{Contact, FrameAnalysis};
+use crate::figure::context::FigureContext;
+use crate::figure::description;
+use crate::figure::limit;
+use crate::figure::verdict;
+use crate::figure::words::quantity;
+use crate::scene::{BodyId, Scene};
+
+/// Forces that differ by less than this share are equally large.
+const ALIKE: f64 = 1e-3;
+
+/// What a band shows.
+pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
+    let on = &scene.blocks[strand.on.0].id;
+    let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), "N");
+    let name = |origin| name(scene, found, BodyId::Block(strand.on), origin);
+    format!(
+        "In block {on}: {} from {}, {} to {}",
+        amount(strand.widths.first()),
+        name(strand.from),
+        amount(strand.widths.last()),
+        name(strand.to)
+    )
+}
+
+/// The origin of a force on a body.
+fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
+    let other = |[a, b]: [BodyId; 2]| description::named(scene, if a == on { b } else { a });
+    match origin {
+        Origin::Contact(number) => other(found.contacts[number].interface.bodies),
+        Origin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        Origin::Load => "a load".to_owned(),
+        Origin::Weight => "its weight".to_owned(),
+        Origin::Missing(_) => "a missing force".to_owned(),
+    }
+}
+
+/// The resultant of a joint.
+pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
+    let pair = description::pair(scene, contact.interface.bodies);
+    let amount = quantity(contact.resultant.force.norm(), "N");
+    format!("Between {pair}: {amount}")
+}
+
+/// The line below the verdict: why the frame does not stand, and its largest force.
+pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
+    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let why = verdict::reason(scene, found);
+    let parts = [why, largest(scene, found), limit::sentence(context, frame)];
+    let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
+    parts.join("; ")
+}
+
+/// The largest force of a joint; empty where no joint has a force.
+fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
+    let Some(contact) = largest_contact(found) else {
+        return String::new();
+    };
+    let most = contact.resultant.force.norm();
+    let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - ALIKE) * most;
+    let joints = found.contacts.iter().filter(alike).count();
+    let pair = description::pair(scene, contact.interface.bodies);
+    let others = match joints - 1 {
+        0 => String::new(),
+        1 => " and at one other joint".to_owned(),
+        n => format!(" and at {n} other joints"),
+    };
+    format!(
+        "largest contact force {} between {pair}{others}",
+        quantity(most, "N")
+    )
+}

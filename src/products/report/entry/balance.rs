@@ -1,0 +1,285 @@
+//! [`whole`] and [`of_block`]: tables of forces that balance, for recalculation by hand: the whole structure with its
+//! reactions, and one block cut free.
+
+use super::unit::Column;
+use super::{Grid, TableCell};
+use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
+use crate::geometry::{Point, Vector, cross};
+use crate::scene::{BlockId, BodyId, Load, Scene};
+use crate::text::line;
+use crate::wording::failure::named;
+
+/// More reactions than this are added up for each part of the ground.
+const MAX_REACTIONS: usize = 8;
+/// More loads than this are added up.
+const MAX_LOADS: usize = 6;
+
+/// Torques below this share of a force, in metres, are rounding of the solver.
+const TORQUE_TOL: f64 = 1e-9;
+
+/// A force in a table of forces.
+struct Force {
+    what: String,
+    /// The point where it acts; `None` for a sum of forces.
+    at: Option<Point>,
+    force: Vector,
+    /// The moment about the point of reference, N·m, anticlockwise positive.
+    moment: f64,
+}
+
+impl Force {
+    fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64, about: Point) -> Force {
+        let mut what = what.into();
+        // Smaller torques are rounding of the solver.
+        if torque.abs() > TORQUE_TOL * (1.0 + force.norm()) {
+            let stated = Column::new([torque], "N·m").with_unit(torque);
+            what.push_str(&format!(", and a torque of {stated}"));
+        }
+        Force {
+            what,
+            at: Some(at),
+            force,
+            moment: cross(at - about, force) + torque,
+        }
+    }
+
+    /// Several forces as one row.
+    fn sum(what: impl Into<String>, forces: &[Force]) -> Force {
+        Force {
+            what: what.into(),
+            at: None,
+            force: forces.iter().map(|f| f.force).sum(),
+            moment: forces.iter().map(|f| f.moment).sum(),
+        }
+    }
+}
+
+/// The forces that act on the whole structure of a frame from outside, and their sum.
+pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let about = Point::origin();
+    let supported: Vec<BlockId> = scene.frames[number]
+        .placed
+        .iter()
+        .copied()
+        .filter(|block| !found.unsupported.contains(block))
+        .collect();
+    let mut forces = reactions(scene, found, about);
+    forces.extend(robots(scene, found, None, about));
+    forces.extend(missing(scene, found, &supported, about));
+    let weights: Vec<(Point, f64)> = supported
+        .iter()
+        .map(|id| (scene.blocks[id.0].centroid, scene.blocks[id.0].weight))
+        .collect();
+    let weight: f64 = weights.iter().map(|w| w.1).sum();
+    if weight > 0.0 {
+        let middle: Vector = weights.iter().map(|(at, w)| at.coords * (w / weight)).sum();
+        let what = format!("weight of {} blocks", weights.len());
+        let what = if weights.len() == 1 {
+            "weight of the block".to_owned()
+        } else {
+            what
+        };
+        let force = scene.down() * weight;
+        forces.push(Force::new(what, Point::from(middle), force, 0.0, about));
+    }
+    let loads = scene.loads.iter().filter(|l| supported.contains(&l.block));
+    forces.extend(listed_loads(scene, loads, about));
+    table("Reactions, weights and loads", &forces, "the origin")
+}
+
+/// The forces on one block, and their sum; moments are about its centroid.
+pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let own = &scene.blocks[block.0];
+    let about = own.centroid;
+    let mut forces = vec![Force::new(
+        "weight",
+        about,
+        scene.down() * own.weight,
+        0.0,
+        about,
+    )];
+    let loads = scene.loads.iter().filter(|l| l.block == block);
+    forces.extend(listed_loads(scene, loads, about));
+    let body = BodyId::Block(block);
+    for contact in &found.contacts {
+        let [a, b] = contact.interface.bodies;
+        let other = match body {
+            body if body == a => b,
+            body if body == b => a,
+            _ => continue,
+        };
+        let from = format!("from {}", line(&named(scene, other)));
+        forces.push(Force::new(
+            from,
+            contact.resultant.at,
+            force_on(contact, body),
+            0.0,
+            about,
+        ));
+    }
+    forces.extend(robots(scene, found, Some(block), about));
+    forces.extend(missing(scene, found, &[block], about));
+    let caption = format!("Block {} cut free", line(&own.id));
+    table(&caption, &forces, "its centroid")
+}
+
+/// The force of an interface on one of its bodies, N.
+fn force_on(contact: &Contact, body: BodyId) -> Vector {
+    match contact.resultant.on == body {
+        true => contact.resultant.force,
+        false => -contact.resultant.force,
+    }
+}
+
+/// What the ground gives: joint by joint, or for each part of the ground if there are many joints.
+fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
+    let mut joints: Vec<(usize, Force)> = Vec::new();
+    for contact in &found.contacts {
+        let (ground, block) = match contact.interface.bodies {
+            [BodyId::Ground(ground), BodyId::Block(block)]
+            | [BodyId::Block(block), BodyId::Ground(ground)] => (ground, block),
+            _ => continue,
+        };
+        let what = format!("ground under {}", line(&scene.blocks[block.0].id));
+        let force = force_on(contact, BodyId::Block(block));
+        joints.push((
+            ground,
+            Force::new(what, contact.resultant.at, force, 0.0, about),
+        ));
+    }
+    if joints.len() <= MAX_REACTIONS {
+        return joints.into_iter().map(|joint| joint.1).collect();
+    }
+    let parts = 0..scene.ground.len();
+    let summed = parts.filter_map(|part| {
+        let (own, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut joints)
+            .into_iter()
+            .partition(|j| j.0 == part);
+        joints = rest;
+        let own: Vec<Force> = own.into_iter().map(|joint| joint.1).collect();
+        let what = format!("ground, part {}, {} joints", part + 1, own.len());
+        (!own.is_empty()).then(|| Force::sum(what, &own))
+    });
+    summed.collect()
+}
+
+/// What robots give; with a block, only to this block.
+fn robots(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    block: Option<BlockId>,
+    about: Point,
+) -> Vec<Force> {
+    let holding = found
+        .robots
+        .iter()
+        .filter(|r| block.is_none_or(|b| b == r.block));
+    let force = |r: &crate::analysis::RobotForce| {
+        let what = format!("robot {}", line(&scene.robots[r.robot.0].id));
+        Force::new(what, r.at, r.force, r.torque, about)
+    };
+    holding.map(force).collect()
+}
+
+/// The missing forces that act on these blocks from outside of them.
+fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
+    let mut forces = Vec::new();
+    for failure in &found.failures {
+        let on = blocks
+            .iter()
+            .filter_map(|block| failure.on(BodyId::Block(*block)));
+        let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), (g, u)| (f + g, t + u));
+        if force.norm() > 0.0 || torque != 0.0 {
+            let what = match failure.robot() {
+                Some(robot) => format!("missing, robot {}", line(&scene.robots[robot.0].id)),
+                None => "missing, would have to stick".to_owned(),
+            };
+            forces.push(Force::new(what, failure.at(), force, torque, about));
+        }
+    }
+    if forces.len() > MAX_REACTIONS {
+        let what = format!("missing, at {} points", forces.len());
+        return vec![Force::sum(what, &forces)];
+    }
+    forces
+}
+
+fn listed_loads<'l>(
+    scene: &Scene,
+    loads: impl Iterator<Item = &'l Load>,
+    about: Point,
+) -> Vec<Force> {
+    let force = |load: &Load| {
+        let what = format!("load on {}", line(&scene.blocks[load.block.0].id));
+        Force::new(what, load.at, load.force, load.torque, about)
+    };
+    let forces: Vec<Force> = loads.map(force).collect();
+    if forces.len() > MAX_LOADS {
+        return vec![Force::sum(format!("{} loads", forces.len()), &forces)];
+    }
+    forces
+}
+
+fn table(caption: &str, forces: &[Force], about: &str) -> Grid {
+    let newtons = forces.iter().flat_map(|f| [f.force.x, f.force.y]);
+    let newtons = Column::new(newtons, "N");
+    let moments = Column::new(forces.iter().map(|f| f.moment), "N·m");
+    let places = forces.iter().filter_map(|f| f.at);
+    let metres = Column::metres(places.flat_map(|p| [p.x, p.y]));
+    let caption = format!("{caption}; moments about {about}");
+    let mut grid = Grid::new(
+        caption,
+        &[
+            "force".to_owned(),
+            "#x, m".to_owned(),
+            "#y, m".to_owned(),
+            newtons.head("right"),
+            newtons.head("up"),
+            moments.head("moment"),
+        ],
+    );
+    let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
+    for force in forces {
+        let cells = [
+            force.what.clone(),
+            place(force.at.map(|p| p.x)),
+            place(force.at.map(|p| p.y)),
+            newtons.write(force.force.x),
+            newtons.write(force.force.y),
+            moments.write(force.moment),
+        ];
+        grid.add("", cells);
+    }
+    let sum = Force::sum("sum", forces);
+    let words = [
+        newtons.write(sum.force.x),
+        newtons.write(sum.force.y),
+        moments.write(sum.moment),
+    ];
+    let words = ["sum", "", ""].map(str::to_owned).into_iter().chain(words);
+    grid.add("", words.map(|w| TableCell::strong_if(true, w)));
+    grid.has_sum = true;
+    grid
+}
+
+/// What the sums of both tables say.
+pub(super) fn check_words(found: &FrameAnalysis) -> String {
+    let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
+    let words = match found.verdict {
+        Verdict::Stable => {
+            "The sums are zero in the printed digits: weights, loads and reactions balance."
+        }
+        Verdict::Unstable if found.failures.is_empty() => {
+            "The structure falls: the sums are what is missing for a balance."
+        }
+        Verdict::Unstable => {
+            "The sums are zero only with the missing forces, which neither contacts nor robots can give."
+        }
+        Verdict::Undecided => {
+            "No balance is proved: the sums are what the best forces found leave over."
+        }
+    };
+    format!("{words} {formula}")
+}

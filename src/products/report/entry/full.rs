@@ -1,0 +1,97 @@
+//! [`appendix`]: everything else that is known of a frame, for a full report.
+
+use super::cost::cost;
+use super::joints::Ranking;
+use super::sheet::empty;
+use super::{Chart, Grid, ReportOptions, Section, SheetPart};
+use crate::analysis::{Analysis, FrameAnalysis};
+use crate::chart::{self, Bars};
+use crate::scene::Scene;
+use crate::text::line;
+use crate::wording::number::prefixed;
+use crate::wording::{failure, proof};
+
+/// With fewer joints, a table shows more than a chart.
+const MIN_CHART_JOINTS: usize = 8;
+
+/// The appendix on a frame: all joints, all failures, effects with their cost, the proof in numbers, charts.
+pub(super) fn appendix(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let mut section = empty(scene, number, found.verdict);
+    section.title = format!("Appendix {}", section.title).trim_end().to_owned();
+    let grids = [
+        Ranking::new(scene, found).table(true),
+        failures(scene, found),
+        cost(found, wanted.timing),
+        proved(found),
+    ];
+    section.parts = vec![SheetPart::NewPage];
+    section.parts.extend(grids.map(SheetPart::Table));
+    section.parts.push(SheetPart::Charts(charts(found)));
+    section
+}
+
+fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("What fails", &["what", "#missing"]);
+    for what in failure::unsupported(scene, found, usize::MAX) {
+        grid.add("", [line(&what), "all of it".to_owned()]);
+    }
+    for (number, failed) in found.failures.iter().enumerate() {
+        let cells = [
+            line(&failure::sentence(scene, failed)),
+            failure::amount_with_unit(failed),
+        ];
+        grid.add(format!("f{number}"), cells);
+    }
+    grid
+}
+
+fn proved(found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("The proof in numbers", &["what", "#how much"]);
+    for (what, much) in proof::numbers(found.proof) {
+        grid.add("", [what.to_owned(), much]);
+    }
+    grid
+}
+
+fn charts(found: &FrameAnalysis) -> Vec<Chart> {
+    if found.contacts.len() < MIN_CHART_JOINTS {
+        return Vec::new();
+    }
+    let sizes = || found.contacts.iter().map(|c| c.resultant.force.norm());
+    let (unit, factor) = prefixed(sizes().fold(0.0, f64::max), "N");
+    let forces: Vec<f64> = sizes().map(|size| size * factor).collect();
+    let loaded = found
+        .contacts
+        .iter()
+        .filter(|c| c.resultant.force.norm() > 0.0);
+    let used: Vec<f64> = loaded.map(|c| 100.0 * c.friction_used).collect();
+    let kinds = [
+        (
+            "Number of joints by force",
+            format!("force at a joint, {unit}"),
+            Bars::counted(&forces, None),
+        ),
+        (
+            "Number of loaded joints by share of friction used",
+            "friction used, %".to_owned(),
+            Bars::counted(&used, Some(100.0)),
+        ),
+    ];
+    let drawn = kinds.into_iter().filter_map(|(caption, x, bars)| {
+        let chart = Bars {
+            title: caption.to_owned(),
+            x,
+            y: "joints".to_owned(),
+            ..bars
+        };
+        // Without any force there is no chart.
+        let svg = chart::bars(&chart).ok()?;
+        Some(Chart {
+            caption: caption.to_owned(),
+            svg,
+            wide: false,
+        })
+    });
+    drawn.collect()
+}

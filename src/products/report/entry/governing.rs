@@ -1,0 +1,40 @@
+//! [`governing`]: the step of a scene that governs, and its margin in words.
+
+use super::bullet;
+use crate::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::scene::Scene;
+use crate::text::line;
+use crate::wording::headline::headline;
+use crate::wording::margin::stated;
+
+/// The step that governs: the first that falls, else the first undecided one, else the one with the least margin.
+pub(super) fn governing(analysis: &Analysis) -> usize {
+    let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
+    let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));
+    first.unwrap_or_else(|| {
+        let reserve = |number: &usize| {
+            let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
+            bars.first().map_or(1.0, |bar| bar.reserve)
+        };
+        // Of equal margins the last step governs: it has the most blocks.
+        let steps = (0..analysis.frames.len()).rev();
+        steps
+            .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))
+            .unwrap_or(0)
+    })
+}
+
+/// The margin that matters most as a sentence; empty where none was computed.
+pub(super) fn headline_words(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
+    let placed = &scene.frames[number].placed;
+    let loads = scene
+        .loads
+        .iter()
+        .filter(|l| placed.contains(&l.block))
+        .count();
+    let margins = stated(scene, found);
+    let first = margins.first();
+    first.map_or(String::new(), |margin| {
+        line(&headline(margin, found.verdict, loads))
+    })
+}

@@ -1,0 +1,254 @@
+//! What a frame is computed from: [`materials`], [`loads`], [`robots`] and [`facts`].
+
+use super::Grid;
+use super::unit::Column;
+use crate::geometry::Vector;
+use crate::scene::{BlockId, Limits, Scene};
+use crate::text::line;
+use crate::wording::number::{counted, digits, place, tenths};
+
+/// A table lists at most this many loads, robots or pairs of materials.
+const MAX_ROWS: usize = 12;
+
+/// The lowest and the highest of some values.
+#[derive(Clone, Copy)]
+struct Range(f64, f64);
+
+impl Range {
+    fn add(range: Option<Range>, value: f64) -> Option<Range> {
+        Some(match range {
+            None => Range(value, value),
+            Some(Range(low, high)) => Range(low.min(value), high.max(value)),
+        })
+    }
+
+    fn words(range: Option<Range>) -> String {
+        match range.map(|Range(low, high)| (digits(low), digits(high))) {
+            None => "–".to_owned(),
+            Some((low, high)) if low == high => low,
+            Some((low, high)) => format!("{low} to {high}"),
+        }
+    }
+}
+
+/// The blocks of a frame by their material.
+pub(super) fn materials(scene: &Scene, number: usize) -> Grid {
+    let mut groups: Vec<(Option<usize>, Vec<BlockId>)> = Vec::new();
+    for block in &scene.frames[number].placed {
+        let material = scene.blocks[block.0].body.material;
+        match groups.iter_mut().find(|g| g.0 == material) {
+            Some((_, blocks)) => blocks.push(*block),
+            None => groups.push((material, vec![*block])),
+        }
+    }
+    let weight = |blocks: &[BlockId]| -> f64 {
+        let weights = blocks.iter().map(|id| scene.blocks[id.0].weight);
+        weights.sum()
+    };
+    let newtons = Column::new(groups.iter().map(|g| weight(&g.1)), "N");
+    let mut grid = Grid::new(
+        "",
+        &[
+            "material".to_owned(),
+            "#blocks".to_owned(),
+            "#density, kg/m³".to_owned(),
+            "#friction μ".to_owned(),
+            newtons.head("weight"),
+        ],
+    );
+    for (material, blocks) in &groups {
+        let name = match material {
+            Some(material) => line(&scene.materials[*material].name),
+            None => "unnamed".to_owned(),
+        };
+        let densities = blocks.iter().filter_map(|id| density(scene, *id));
+        let frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
+        let cells = [
+            name,
+            blocks.len().to_string(),
+            Range::words(densities.fold(None, Range::add)),
+            Range::words(frictions.fold(None, Range::add)),
+            newtons.write(weight(blocks)),
+        ];
+        grid.add("", cells);
+    }
+    grid
+}
+
+/// The density that follows from the weight of a block, kg/m³; `None` without gravity or thickness.
+fn density(scene: &Scene, block: BlockId) -> Option<f64> {
+    let own = &scene.blocks[block.0];
+    let volume = own.body.polygon.area() * scene.thickness;
+    let density = own.weight / (scene.gravity.norm() * volume);
+    // Solver noise does not enter here; rounding in the last digits does.
+    density
+        .is_finite()
+        .then(|| format!("{density:.6e}").parse().unwrap_or(density))
+}
+
+/// The loads of a frame, one row each.
+pub(super) fn loads(scene: &Scene, number: usize) -> Grid {
+    let placed = &scene.frames[number].placed;
+    let loads: Vec<_> = scene
+        .loads
+        .iter()
+        .filter(|l| placed.contains(&l.block))
+        .collect();
+    let newtons = Column::new(loads.iter().map(|l| l.force.norm()), "N");
+    let torques = Column::new(loads.iter().map(|l| l.torque), "N·m");
+    let metres = Column::metres(loads.iter().flat_map(|l| [l.at.x, l.at.y]));
+    let turns = loads.iter().any(|l| l.torque != 0.0);
+    let mut heads = vec![
+        "load on".to_owned(),
+        "#x, m".to_owned(),
+        "#y, m".to_owned(),
+        newtons.head("force"),
+        "direction".to_owned(),
+    ];
+    heads.extend(turns.then(|| torques.head("torque")));
+    let mut grid = Grid::new("", &heads);
+    for load in loads.iter().take(MAX_ROWS) {
+        let mut cells = vec![
+            line(&scene.blocks[load.block.0].id),
+            metres.write(load.at.x),
+            metres.write(load.at.y),
+            newtons.write(load.force.norm()),
+            direction(load.force),
+        ];
+        cells.extend(turns.then(|| torques.write(load.torque)));
+        grid.add("", cells);
+    }
+    if loads.len() > MAX_ROWS {
+        let rest = &loads[MAX_ROWS..];
+        let sum: Vector = rest.iter().map(|l| l.force).sum();
+        let what = format!("{} more, together", rest.len());
+        let mut cells = vec![
+            what,
+            "–".into(),
+            "–".into(),
+            newtons.write(sum.norm()),
+            direction(sum),
+        ];
+        cells.extend(turns.then(|| torques.write(rest.iter().map(|l| l.torque).sum())));
+        grid.add("", cells);
+    }
+    grid
+}
+
+/// The direction of a force in words: `downwards`, `to the right`, `down and right, 30° from the vertical`.
+fn direction(force: Vector) -> String {
+    let negligible = 1e-9 * force.norm();
+    let across = match force.x {
+        x if x > negligible => Some("right"),
+        x if x < -negligible => Some("left"),
+        _ => None,
+    };
+    let along = match force.y {
+        y if y > negligible => Some("up"),
+        y if y < -negligible => Some("down"),
+        _ => None,
+    };
+    match (across, along) {
+        (None, None) => "–".to_owned(),
+        (None, Some(along)) => format!("{along}wards"),
+        (Some(across), None) => format!("to the {across}"),
+        (Some(across), Some(along)) => {
+            let angle = libm::atan2(force.x.abs(), force.y.abs()).to_degrees();
+            format!("{along} and {across}, {angle:.1}° from the vertical")
+        }
+    }
+}
+
+/// The robots that hold a block of a frame, with their limits.
+pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
+    let holds = &scene.frames[number].holds;
+    let mut grid = Grid::new(
+        "",
+        &[
+            "robot",
+            "holds",
+            "at",
+            "limits: horizontal, vertical, torque",
+        ],
+    );
+    for hold in holds.iter().take(MAX_ROWS) {
+        let robot = &scene.robots[hold.robot.0];
+        let cells = [
+            line(&robot.id),
+            line(&scene.blocks[hold.block.0].id),
+            place(hold.at),
+            limits(robot.limits),
+        ];
+        grid.add("", cells);
+    }
+    if holds.len() > MAX_ROWS {
+        let more = format!("{} more", holds.len() - MAX_ROWS);
+        grid.add("", [more, String::new(), String::new(), String::new()]);
+    }
+    grid
+}
+
+fn limits(limits: Limits) -> String {
+    let limit = |value: f64, unit: &str| match value {
+        value if value.is_finite() => {
+            let column = Column::new([value], unit);
+            format!(
+                "{} {}",
+                digits(column.write(value).parse().unwrap_or(value)),
+                column.unit
+            )
+        }
+        _ => "none".to_owned(),
+    };
+    let parts = [
+        limit(limits.fx, "N"),
+        limit(limits.fy, "N"),
+        limit(limits.torque, "N·m"),
+    ];
+    parts.join(", ")
+}
+
+/// The other inputs, one row each.
+pub(super) fn facts(scene: &Scene) -> Grid {
+    let mut grid = Grid::new("", &["input", "value"]);
+    let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);
+    let gravity = match scene.gravity.norm() {
+        0.0 => "none".to_owned(),
+        g => format!("{} m/s² {}", digits(g), direction(scene.gravity)),
+    };
+    add("gravity", gravity);
+    add("thickness", format!("{} m", digits(scene.thickness)));
+    add(
+        "joints",
+        "dry: no tension, no cohesion; rigid blocks".to_owned(),
+    );
+    let frictions = scene.ground.iter().map(|g| g.body.friction);
+    let friction = Range::words(frictions.fold(None, Range::add));
+    let ground = match scene.ground.len() {
+        0 => "none".to_owned(),
+        parts => format!("{}, fixed; friction μ {friction}", counted(parts, "part")),
+    };
+    add("ground", ground);
+    for (pair, friction) in scene.friction_pairs.iter().take(MAX_ROWS) {
+        let [a, b] = pair.map(|i| line(&scene.materials[i].name));
+        add(&format!("μ of {a} on {b}"), digits(*friction));
+    }
+    let kernel = match scene.kernel {
+        0.0 => "0: forces may act up to the ends of joints".to_owned(),
+        kernel => format!(
+            "{}: forces stay in the middle {} of each joint",
+            digits(kernel),
+            tenths(1.0 - kernel)
+        ),
+    };
+    add("safety kernel", kernel);
+    if scene.corner_contacts {
+        add("corners", "corners that touch carry force".to_owned());
+    }
+    if scene.healed.corners > 0 {
+        let moved = scene.tolerance_words().unwrap_or_default();
+        add("tolerance", line(&moved));
+    }
+    add("units", "m, N or kN as in each head, degrees".to_owned());
+    grid
+}

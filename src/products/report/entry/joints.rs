@@ -1,0 +1,283 @@
+//! [`Ranking`]: the joints of a frame, nearest to opening or sliding first, and the robots with their limits.
+
+use super::unit::Column;
+use super::{Grid, HoverTarget, TableCell, touch};
+use crate::analysis::{Contact, Failure, FrameAnalysis, Verdict};
+use crate::interface::ContactKind;
+use crate::scene::{BlockId, BodyId, Scene};
+use crate::text::line;
+use crate::wording::failure;
+use crate::wording::number::percent;
+
+/// A sheet lists at most this many joints.
+const MAX_JOINTS: usize = 12;
+/// Forces below this share of the largest one are rounding of the solver.
+const FORCE_TOL: f64 = 1e-9;
+/// From this utilisation a cell is emphasised.
+const NEARLY_USED: f64 = 0.8;
+/// Figures with more joints than this get no hover targets: the page would become too large.
+const MAX_HOVER_TARGETS: usize = 3000;
+
+/// A joint that carries force, and how much of it is used.
+struct Used {
+    /// The number of the contact in the frame.
+    contact: usize,
+    /// The distance of the resultant from the middle, m, and its share of the largest distance; `None` for a corner.
+    off_middle: Option<(f64, f64)>,
+    /// The larger share of both limits, 0 … 1.
+    share: f64,
+}
+
+/// The joints of a frame that carry force, the most used first.
+pub(super) struct Ranking<'a> {
+    scene: &'a Scene,
+    found: &'a FrameAnalysis,
+    used: Vec<Used>,
+}
+
+impl<'a> Ranking<'a> {
+    pub fn new(scene: &'a Scene, found: &'a FrameAnalysis) -> Ranking<'a> {
+        let largest = found.contacts.iter().map(size).fold(0.0, f64::max);
+        let mut used: Vec<Used> = Vec::new();
+        for (number, contact) in found.contacts.iter().enumerate() {
+            if size(contact) <= FORCE_TOL * largest {
+                continue;
+            }
+            let off_middle = off_middle(contact, scene.kernel);
+            let share = off_middle
+                .map_or(0.0, |off| off.1)
+                .max(contact.friction_used);
+            used.push(Used {
+                contact: number,
+                off_middle,
+                share,
+            });
+        }
+        // Equal shares by force: the larger force governs. Shares are compared in whole thousandths, free of solver noise.
+        let key = |u: &Used| (1e3 * u.share).round();
+        used.sort_by(|a, b| {
+            let force = |u: &Used| size(&found.contacts[u.contact]);
+            key(b)
+                .total_cmp(&key(a))
+                .then(force(b).total_cmp(&force(a)))
+        });
+        Ranking { scene, found, used }
+    }
+
+    /// The block that is cut free: at the largest failure, else at the most used joint. Of two blocks the heavier one.
+    pub fn block(&self) -> Option<BlockId> {
+        let bodies = match failure::by_amount(self.found).first() {
+            Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
+            Some(Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. }) => {
+                return Some(*block);
+            }
+            None => {
+                self.found.contacts[self.used.first()?.contact]
+                    .interface
+                    .bodies
+            }
+        };
+        let blocks = bodies.iter().filter_map(|body| match body {
+            BodyId::Block(block) => Some(*block),
+            BodyId::Ground(_) => None,
+        });
+        blocks.max_by(|a, b| {
+            let weight = |id: &BlockId| self.scene.blocks[id.0].weight;
+            weight(a).total_cmp(&weight(b)).then(b.0.cmp(&a.0))
+        })
+    }
+
+    /// The most used joint in words: `v13 / v12 (100 % of its half width)`.
+    pub fn governing(&self) -> Option<String> {
+        let first = self.used.first()?;
+        let contact = &self.found.contacts[first.contact];
+        let why = match first.off_middle {
+            Some((_, share)) if share >= contact.friction_used => {
+                format!("opening {}", percent(share))
+            }
+            _ => format!("sliding {}", percent(contact.friction_used)),
+        };
+        Some(format!("{}: {why}", name(self.scene, contact)))
+    }
+
+    /// The table of the most used joints, or of all joints.
+    pub fn table(&self, all: bool) -> Grid {
+        let shown: &[Used] = match all {
+            true => &self.used,
+            false => &self.used[..self.used.len().min(MAX_JOINTS)],
+        };
+        let contacts = || shown.iter().map(|u| &self.found.contacts[u.contact]);
+        let newtons = Column::new(contacts().flat_map(|c| [normal(c), c.friction_force]), "N");
+        let metres = Column::metres(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
+        let offs = shown.iter().filter_map(|u| u.off_middle);
+        let offs = Column::metres(offs.map(|off| off.0));
+        let mut grid = Grid::new(
+            if all {
+                "All joints that carry force"
+            } else {
+                ""
+            },
+            &[
+                "joint".to_owned(),
+                "#x, m".to_owned(),
+                "#y, m".to_owned(),
+                newtons.head("normal N"),
+                newtons.head("friction T"),
+                "#e, m".to_owned(),
+                "#opening".to_owned(),
+                "#sliding".to_owned(),
+            ],
+        );
+        for used in shown {
+            let contact = &self.found.contacts[used.contact];
+            let at = contact.resultant.at;
+            let (off, opening) = match used.off_middle {
+                Some((off, share)) => (offs.write(off), share),
+                None => ("corner".to_owned(), 0.0),
+            };
+            let share = |share: f64| TableCell::strong_if(share >= NEARLY_USED, percent(share));
+            let cells = [
+                name(self.scene, contact).into(),
+                metres.write(at.x).into(),
+                metres.write(at.y).into(),
+                newtons.write(normal(contact)).into(),
+                newtons.write(contact.friction_force).into(),
+                off.into(),
+                share(opening),
+                share(contact.friction_used),
+            ];
+            grid.add(format!("i{}", used.contact), cells);
+        }
+        grid
+    }
+
+    /// What the columns mean, and how many joints are left out.
+    pub fn words(&self) -> String {
+        let count = self.found.contacts.len();
+        let shown = self.used.len().min(MAX_JOINTS);
+        let kernel = match self.scene.kernel {
+            0.0 => "",
+            _ => " × (1 − kernel)",
+        };
+        let added = match self.found.verdict {
+            Verdict::Stable => "",
+            Verdict::Unstable => " The forces include those that are missing.",
+            Verdict::Undecided => " These forces are not proved.",
+        };
+        format!(
+            "{shown} of {count} joints, nearest to opening or sliding first. x, y: where the resultant acts; e: its distance from the middle. \
+             Opening = 2 e / \
+             (length of the joint{kernel}); sliding = |T| / (μ N). At 100 % the joint opens or slides.{added}"
+        )
+    }
+
+    /// The hover targets of the joints, robots and failures in a figure.
+    pub fn touches(&self) -> Vec<HoverTarget> {
+        if self.found.contacts.len() > MAX_HOVER_TARGETS {
+            return Vec::new();
+        }
+        let newtons = Column::new(self.found.contacts.iter().map(normal), "N");
+        let joints = self.used.iter().map(|used| {
+            let contact = &self.found.contacts[used.contact];
+            let mut words = format!(
+                "{}: normal force {}, friction force {}, sliding {}",
+                name(self.scene, contact),
+                newtons.with_unit(normal(contact)),
+                newtons.with_unit(contact.friction_force.abs()),
+                percent(contact.friction_used)
+            );
+            if let Some((_, share)) = used.off_middle {
+                words.push_str(&format!(", opening {}", percent(share)));
+            }
+            HoverTarget {
+                mark: format!("i{}", used.contact),
+                words,
+                ends: contact.interface.ends,
+            }
+        });
+        let robots = self.found.robots.iter().enumerate().map(|(number, robot)| {
+            let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
+            touch::target(format!("r{number}"), &words, robot.at)
+        });
+        let failures = self
+            .found
+            .failures
+            .iter()
+            .enumerate()
+            .map(|(number, failed)| {
+                let words = format!("Failure: {}", failure::sentence(self.scene, failed));
+                touch::target(format!("f{number}"), &words, failed.at())
+            });
+        joints.chain(robots).chain(failures).collect()
+    }
+}
+
+fn size(contact: &Contact) -> f64 {
+    contact.resultant.force.norm()
+}
+
+fn normal(contact: &Contact) -> f64 {
+    contact.normal_forces[0] + contact.normal_forces[1]
+}
+
+/// A joint by its two bodies: `v3 / ground`.
+pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
+    let [a, b] = contact.interface.bodies.map(|body| scene.name(body));
+    line(&format!("{a} / {b}"))
+}
+
+/// The distance of a resultant from the middle of its joint, m, and its share of the largest distance allowed.
+fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
+    let interface = &contact.interface;
+    let half = 0.5 * interface.length() * (1.0 - kernel);
+    if interface.kind == ContactKind::Corner || interface.length() <= 0.0 {
+        return None;
+    }
+    let off = (contact.resultant.at - interface.middle())
+        .dot(&interface.tangent())
+        .abs();
+    // With a kernel of 1 the only place is the middle.
+    let share = if half > 0.0 {
+        (off / half).min(1.0)
+    } else {
+        1.0
+    };
+    Some((off, share))
+}
+
+/// The robots of a frame with what they give and the largest share of a limit that is used.
+pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
+    let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
+    let newtons = Column::new(forces, "N");
+    let torques = Column::new(found.robots.iter().map(|r| r.torque), "N·m");
+    let mut grid = Grid::new(
+        "Robots",
+        &[
+            "robot".to_owned(),
+            "holds".to_owned(),
+            newtons.head("to the right"),
+            newtons.head("up"),
+            torques.head("torque"),
+            "#limit used".to_owned(),
+        ],
+    );
+    for (number, robot) in found.robots.iter().enumerate() {
+        let limits = scene.robots[robot.robot.0].limits;
+        let limits = [limits.fx, limits.fy, limits.torque];
+        let is_limited = limits.iter().any(|l| l.is_finite() && *l > 0.0);
+        let used = match is_limited {
+            true => percent(robot.limit_used),
+            false => "no limit".to_owned(),
+        };
+        let cells = [
+            line(&scene.robots[robot.robot.0].id),
+            line(&scene.blocks[robot.block.0].id),
+            newtons.write(robot.force.x),
+            newtons.write(robot.force.y),
+            torques.write(robot.torque),
+            used,
+        ];
+        grid.add(format!("r{number}"), cells);
+    }
+    grid
+}

@@ -1,0 +1,92 @@
+//! [`SheetPart`]: what a page of a report consists of, without markup. The writers for HTML, Markdown and PDF know parts and
+//! nothing else of a report, so that their contents agree.
+
+use std::borrow::Cow;
+
+use super::{Grid, HoverTarget, MarginBar};
+use crate::analysis::Verdict;
+use crate::drawing::Drawing;
+
+/// A part of a page.
+#[derive(Clone, Debug)]
+pub enum SheetPart {
+    /// The verdict with the headline margin.
+    Badge(Box<Badge>),
+    /// The heading of the parts that follow.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// A paragraph in small letters.
+    Note(String),
+    /// Figures beside each other.
+    Figures(Vec<Figure>),
+    /// A table; it is left out where it has no rows.
+    Table(Grid),
+    /// Parts in columns beside each other.
+    Columns(Vec<Vec<SheetPart>>),
+    /// Charts beside each other.
+    Charts(Vec<Chart>),
+    /// What follows begins on a new page in print.
+    NewPage,
+}
+
+/// The verdict with the headline margin.
+#[derive(Clone, Debug)]
+pub struct Badge {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The margin that matters most, as a sentence; empty where no margin was computed.
+    pub headline: String,
+    /// The same margin as a bar.
+    pub bar: Option<MarginBar>,
+    /// The verdict with its reasons.
+    pub sentence: String,
+}
+
+/// Parts about one step, or about the whole scene.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The letter of the step; empty for a scene of one step and for the whole scene.
+    pub letter: String,
+    /// The heading; empty where the heading of the scene suffices.
+    pub title: String,
+    /// The verdict of the step.
+    pub verdict: Verdict,
+    /// Its content.
+    pub parts: Vec<SheetPart>,
+}
+
+/// A figure with its caption.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The caption.
+    pub caption: String,
+    /// The figure.
+    pub drawing: Drawing,
+    /// The same for a dark page, if the page follows the reader's system.
+    pub dark: Option<Drawing>,
+    /// Its parts that are highlighted together with the rows of tables.
+    pub touches: Vec<HoverTarget>,
+}
+
+/// A chart as an SVG document, with its caption.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// The caption.
+    pub caption: String,
+    /// The SVG.
+    pub svg: String,
+    /// Whether it takes the whole width of a page.
+    pub wide: bool,
+}
+
+impl Chart {
+    /// The SVG with the namespace that a file needs.
+    pub(crate) fn document(&self) -> Cow<'_, str> {
+        if self.svg.contains("xmlns=") {
+            return Cow::Borrowed(&self.svg);
+        }
+        let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
+        Cow::Owned(self.svg.replacen("<svg", head, 1))
+    }
+}

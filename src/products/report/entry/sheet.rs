@@ -1,0 +1,307 @@
+//! [`sheet`]: the two pages of one frame: verdict, pictures and inputs first; then joints, balance, margins and assumptions.
+
+use super::governing::headline_words;
+use super::joints::{Ranking, robots};
+use super::{
+    Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs,
+    story,
+};
+use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::drawing::Drawing;
+use crate::figure::{self, Kind, Options};
+use crate::scene::Scene;
+use crate::text::line;
+use crate::wording::number::letter;
+use crate::wording::verdict::plain;
+use crate::wording::{proof, verdict};
+
+/// Width of a figure, in pixels: half a page, so that its labels are legible in print and on a phone.
+const WIDTH: f64 = 440.0;
+
+/// The options for figures in a report: the page shows titles and verdicts next to them.
+pub(super) fn options(wanted: &ReportOptions) -> Options {
+    Options {
+        theme: wanted.theme.clone(),
+        titles: false,
+        captions: false,
+        verdicts: false,
+        width: Some(WIDTH),
+        ..Options::default()
+    }
+}
+
+/// A section without content.
+pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
+    let several = scene.frames.len() > 1;
+    let title = line(&scene.frames[number].title);
+    Section {
+        letter: if several {
+            letter(number)
+        } else {
+            String::new()
+        },
+        title: match title.is_empty() && several {
+            true => format!("Step {}", number + 1),
+            false => title,
+        },
+        verdict,
+        parts: Vec::new(),
+    }
+}
+
+/// The sheet of a frame.
+pub(super) fn sheet(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let ranking = Ranking::new(scene, found);
+    let mut section = empty(scene, number, found.verdict);
+    let parts = &mut section.parts;
+    parts.push(SheetPart::Badge(Box::new(badge(scene, number, found))));
+    parts.push(SheetPart::Figures(figures(
+        analysis, number, wanted, &ranking,
+    )));
+    parts.extend(told(analysis, number));
+    parts.push(given(scene, number));
+    if scene.frames.len() == 1 {
+        parts.push(SheetPart::NewPage);
+    }
+    parts.push(SheetPart::Heading("Governing joints".to_owned()));
+    parts.push(SheetPart::Table(ranking.table(false)));
+    parts.push(SheetPart::Note(ranking.words()));
+    parts.push(SheetPart::Table(robots(scene, found)));
+    parts.push(SheetPart::Heading(
+        "Balance, to be recalculated by hand".to_owned(),
+    ));
+    parts.push(SheetPart::Table(balance::whole(analysis, number)));
+    if let Some(block) = ranking.block() {
+        parts.push(SheetPart::Table(balance::of_block(analysis, number, block)));
+    }
+    parts.push(SheetPart::Note(balance::check_words(found)));
+    parts.extend(margins(scene, found));
+    parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
+    parts.push(SheetPart::Text(assumptions(scene, found)));
+    parts.push(SheetPart::Text(proof::sentence(found.proof)));
+    parts.extend(remarks(found).into_iter().map(SheetPart::Note));
+    section
+}
+
+/// Other steps that fall, beside each other: how each begins to fall, and why.
+pub(super) fn others(
+    analysis: &Analysis,
+    numbers: &[usize],
+    wanted: &ReportOptions,
+) -> Vec<SheetPart> {
+    let scene = &analysis.scene;
+    let column = |number: &usize| {
+        let found = &analysis.frames[*number];
+        let own = empty(scene, *number, found.verdict);
+        let mut figures = figures(analysis, *number, wanted, &Ranking::new(scene, found));
+        figures.truncate(1);
+        figures.iter_mut().for_each(|figure| figure.touches.clear());
+        vec![
+            SheetPart::Heading(format!(
+                "({}) {}: {}",
+                own.letter,
+                own.title,
+                plain(own.verdict)
+            )),
+            SheetPart::Figures(figures),
+            SheetPart::Note(line(&verdict::sentence(scene, found))),
+        ]
+    };
+    let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
+    columns
+        .chunks(2)
+        .map(|pair| SheetPart::Columns(pair.to_vec()))
+        .collect()
+}
+
+fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
+    Badge {
+        verdict: found.verdict,
+        headline: headline_words(scene, number, found),
+        bar: bullet::margin_bars(scene, found).into_iter().next(),
+        sentence: line(&verdict::sentence(scene, found)),
+    }
+}
+
+/// The governing pictures: the collapse and the forces where it falls; else the force flow and how it would fall.
+fn figures(
+    analysis: &Analysis,
+    number: usize,
+    wanted: &ReportOptions,
+    ranking: &Ranking<'_>,
+) -> Vec<Figure> {
+    let found = &analysis.frames[number];
+    let options = options(wanted);
+    let dark = wanted.dark.as_ref().map(|theme| Options {
+        theme: theme.clone(),
+        ..options.clone()
+    });
+    let drawn = |kind: Kind, change: &dyn Fn(&mut Options)| -> Option<(Drawing, Option<Drawing>)> {
+        let one = |options: &Options| {
+            let mut options = options.clone();
+            change(&mut options);
+            figure::panels_of(analysis, kind, &options, &[number])
+                .into_iter()
+                .next()
+        };
+        Some((one(&options)?, dark.as_ref().and_then(one)))
+    };
+    let mut figures = Vec::new();
+    let mut add = |caption: &str, drawn: Option<(Drawing, Option<Drawing>)>| {
+        if let Some((drawing, dark)) = drawn {
+            let touches = match figures.is_empty() {
+                true => ranking.touches(),
+                false => Vec::new(),
+            };
+            figures.push(Figure {
+                caption: caption.to_owned(),
+                drawing,
+                dark,
+                touches,
+            });
+        }
+    };
+    let same: &dyn Fn(&mut Options) = &|_| {};
+    match found.verdict {
+        Verdict::Unstable => {
+            if !found.mechanism.is_empty() {
+                let words = "How it begins to fall. Dashed: the blocks before they move.";
+                add(words, drawn(Kind::Mechanism, same));
+            }
+            let words = match found.failures.is_empty() {
+                true => "The forces on every block.",
+                false => "The forces on every block; what is missing has the colour of failures.",
+            };
+            add(words, drawn(Kind::Forces, same));
+        }
+        _ => {
+            let (kind, words) =
+                match found.contacts.is_empty() || found.verdict == Verdict::Undecided {
+                    true => (Kind::Forces, "The forces on every block."),
+                    false => (Kind::Flow, "How the forces run from joint to joint."),
+                };
+            add(words, drawn(kind, same));
+            if let Some(toward) = story::toward(found) {
+                let words = "How it would fall, just beyond its margin.";
+                add(
+                    words,
+                    drawn(Kind::Margin, &|options| options.toward = toward),
+                );
+            }
+        }
+    }
+    figures
+}
+
+/// The story of the frame.
+fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let column = |heading: &str, words: Vec<String>| {
+        let words = words.into_iter().map(SheetPart::Text);
+        [SheetPart::Heading(heading.to_owned())]
+            .into_iter()
+            .chain(words)
+            .collect::<Vec<_>>()
+    };
+    let first: Vec<String> = story::fails_first(analysis, number).into_iter().collect();
+    let take = story::would_take(scene, found);
+    let take = match take.is_empty() {
+        true => take,
+        false => vec![take.join(" ")],
+    };
+    let heading = match found.verdict {
+        Verdict::Unstable => "Where it fails",
+        _ => "Where it would fail first",
+    };
+    let mut columns = Vec::new();
+    if !first.is_empty() {
+        columns.push(column(heading, first));
+    }
+    if !take.is_empty() {
+        columns.push(column("What it would take", take));
+    }
+    match columns.is_empty() {
+        true => Vec::new(),
+        false => vec![SheetPart::Columns(columns)],
+    }
+}
+
+/// The inputs of a frame.
+fn given(scene: &Scene, number: usize) -> SheetPart {
+    let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
+        true => Vec::new(),
+        false => vec![
+            SheetPart::Heading(heading.to_owned()),
+            SheetPart::Table(grid),
+        ],
+    };
+    let mut left = titled("Materials", inputs::materials(scene, number));
+    left.extend(titled("Loads", inputs::loads(scene, number)));
+    left.extend(titled("Robots", inputs::robots(scene, number)));
+    SheetPart::Columns(vec![
+        left,
+        titled("Supports and settings", inputs::facts(scene)),
+    ])
+}
+
+fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
+    let mut grid = Grid::new("", &["margin", "bar", "in words"]);
+    for bar in bullet::margin_bars(scene, found) {
+        let words = bar.words.clone();
+        grid.add(
+            "",
+            [
+                TableCell::from(bar.name.clone()),
+                TableCell::bar(bar),
+                words.into(),
+            ],
+        );
+    }
+    if grid.lines.is_empty() {
+        return Vec::new();
+    }
+    let notes = found
+        .margins
+        .iter()
+        .flat_map(|margins| &margins.intervals.notes);
+    let mut parts = vec![
+        SheetPart::Heading("Margins".to_owned()),
+        SheetPart::Table(grid),
+    ];
+    parts.push(SheetPart::Note(bullet::SHAPES.to_owned()));
+    parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
+    parts
+}
+
+fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
+    let frames = match scene.frames.len() {
+        1 => "settlement, time, impact, earthquakes and the way it is built",
+        _ => "settlement, time, impact and earthquakes",
+    };
+    let least = match (found.verdict, found.least_force) {
+        (Verdict::Stable, true) => {
+            " Other balances of forces may exist; the one shown has the least sum of forces."
+        }
+        (Verdict::Stable, false) => {
+            " Other balances of forces may exist; it was not proved that the one shown has the least sum of forces."
+        }
+        _ => "",
+    };
+    format!(
+        "Rigid blocks in one plane, at rest, laid dry: joints press and rub, and never pull; friction follows Coulomb's law \
+         with one coefficient μ. Not considered: the strength of the stone, {frames}.{least}"
+    )
+}
+
+/// What a reader must know about the results of a frame.
+fn remarks(found: &FrameAnalysis) -> Vec<String> {
+    let wedging = found
+        .effects
+        .iter()
+        .find(|e| e.effect == EffectName::Wedging && e.simulated)
+        .filter(|_| found.only_by_wedging != Some(false));
+    let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
+    let notices = found.notices.iter().map(|n| format!("Note: {}.", line(n)));
+    wedging.into_iter().chain(notices).collect()
+}

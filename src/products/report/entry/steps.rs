@@ -1,0 +1,82 @@
+//! [`sections`]: a table of all steps, and sheets for the steps that fall or govern.
+
+use super::governing::{governing, headline_words};
+use super::joints::Ranking;
+use super::row::thumbnail;
+use super::sheet::{empty, others, sheet};
+use super::{Grid, ReportOptions, Section, SheetPart, TableCell, full};
+use crate::analysis::{Analysis, Verdict};
+use crate::text::line;
+use crate::wording::number::letter;
+use crate::wording::verdict::plain;
+
+/// Besides the governing step, at most this many steps that fall are drawn.
+const MAX_FALLING: usize = 4;
+
+/// The sections of a scene.
+pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Section> {
+    let count = analysis.frames.len();
+    let mut sections = Vec::new();
+    let governing = governing(analysis);
+    let mut first = sheet(analysis, governing, wanted);
+    if count > 1 {
+        first.title = format!("{} (the step that governs)", first.title);
+        let mut overview = empty(&analysis.scene, governing, analysis.verdict());
+        (overview.letter, overview.title) = (String::new(), "Steps".to_owned());
+        overview.parts = vec![SheetPart::Table(table(analysis))];
+        sections.push(overview);
+    }
+    sections.push(first);
+    let falling =
+        (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
+    let falling: Vec<usize> = falling
+        .take(if wanted.full { count } else { MAX_FALLING })
+        .collect();
+    if !falling.is_empty() {
+        let mut section = empty(&analysis.scene, governing, analysis.verdict());
+        (section.letter, section.title) =
+            (String::new(), "Other steps that do not stand".to_owned());
+        section.parts = others(analysis, &falling, wanted);
+        sections.push(section);
+    }
+    if wanted.full {
+        sections.extend((0..count).map(|number| full::appendix(analysis, number, wanted)));
+    }
+    sections
+}
+
+fn table(analysis: &Analysis) -> Grid {
+    let scene = &analysis.scene;
+    let mut grid = Grid::new(
+        "",
+        &[
+            "picture",
+            "step",
+            "verdict",
+            "headline margin",
+            "governing joint",
+        ],
+    );
+    for (number, found) in analysis.frames.iter().enumerate() {
+        let title = match scene.frames[number].title.as_str() {
+            "" => format!("Step {}", number + 1),
+            title => line(title),
+        };
+        let headline = match headline_words(scene, number, found) {
+            words if words.is_empty() => "–".to_owned(),
+            words => words,
+        };
+        let governing = Ranking::new(scene, found).governing();
+        grid.add(
+            "",
+            [
+                TableCell::picture(thumbnail(scene, &scene.frames[number].placed)),
+                format!("({}) {title}", letter(number)).into(),
+                TableCell::strong_if(found.verdict != Verdict::Stable, plain(found.verdict)),
+                headline.into(),
+                governing.unwrap_or_else(|| "–".to_owned()).into(),
+            ],
+        );
+    }
+    grid
+}

@@ -1,0 +1,110 @@
+//! [`Head`]: what stands above the scenes of a report, and what all writers share.
+
+use super::entry::Row;
+use crate::analysis::Verdict;
+use crate::output::pdf::PdfError;
+use crate::output::svg::OutlineError;
+use crate::scene::Problem;
+use crate::text;
+
+/// A file to write: its name, with `/` between folders, and its content.
+pub type OutputFile = (String, Vec<u8>);
+
+/// What stands above the scenes of a report.
+pub(super) struct Head<'r> {
+    /// The title of the page.
+    pub title: &'r str,
+    /// How many scenes stand and fall, without a full stop.
+    pub summary: String,
+    /// More sentences.
+    pub notes: &'r [String],
+    /// The files that are not valid scenes.
+    pub refused: &'r [Refused],
+    /// The rows of the table of all scenes.
+    pub rows: Vec<&'r Row>,
+    /// Whether each scene is a comparison of two.
+    pub compares: bool,
+    /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
+    pub dark: Option<bool>,
+}
+
+/// What “stands” means, for the first page of a report.
+pub(super) const MEANING: &str = "“Stands” says that a balance of forces exists: for rigid blocks, laid dry (no mortar, no cohesion), at rest. A balance \
+     that lives on wedging counts. Nothing here moves in time: no impact, no earthquake.";
+
+/// A file that is not a valid scene, with its problems.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// The path as given by the user.
+    pub name: String,
+    /// The problems of the scene. A file that cannot be read has one problem without a place.
+    pub problems: Vec<Problem>,
+}
+
+impl Refused {
+    /// The problems, one line each: place, message and remedy.
+    pub fn lines(&self) -> Vec<String> {
+        let described = self.problems.iter().map(|problem| {
+            let place = match (problem.line, problem.path.as_str()) {
+                (0, "") => String::new(),
+                (0, path) => format!("{path}: "),
+                (line, "") => format!("line {line}, column {}: ", problem.column),
+                (line, path) => format!("line {line}, column {}, {path}: ", problem.column),
+            };
+            let help = if problem.help.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", problem.help)
+            };
+            text::line(&format!("{place}{}{help}", problem.message))
+        });
+        described.collect()
+    }
+}
+
+/// An error while writing a report.
+#[derive(Debug, thiserror::Error)]
+#[error("the report could not be written: {0}")]
+pub struct ReportError(String);
+
+impl From<PdfError> for ReportError {
+    fn from(error: PdfError) -> ReportError {
+        ReportError(error.to_string())
+    }
+}
+
+impl From<OutlineError> for ReportError {
+    fn from(error: OutlineError) -> ReportError {
+        ReportError(error.to_string())
+    }
+}
+
+/// A piece of a file's name made of a title.
+pub(super) fn slug(title: &str) -> String {
+    let mut slug = String::new();
+    for c in title.chars() {
+        match c.to_ascii_lowercase() {
+            c if c.is_ascii_alphanumeric() => slug.push(c),
+            _ if !slug.ends_with('-') && !slug.is_empty() => slug.push('-'),
+            _ => {}
+        }
+        if slug.len() >= 40 {
+            break;
+        }
+    }
+    let slug = slug.trim_end_matches('-');
+    if slug.is_empty() {
+        "scene".into()
+    } else {
+        slug.into()
+    }
+}
+
+/// The mark of a verdict.
+pub(super) fn sign(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "✓",
+        Verdict::Unstable => "✗",
+        Verdict::Undecided => "?",
+    }
+}

@@ -1,0 +1,60 @@
+//! A margin as a bar.
+
+use maud::{Markup, html};
+
+use crate::report::entry::{BarEnd, MarginBar};
+use crate::wording::margin::Position;
+
+/// Width and height of a bar.
+const BAR: (f64, f64) = (220.0, 20.0);
+/// The scale ends this far from the bar's ends: marks and arrows there stay inside.
+const INSET: f64 = 7.0;
+
+/// A bar from the lower to the upper end of the interval, on a scale. Shapes tell what colours tell: a stroke at an end that
+/// was found, a dashed one where it was not confirmed, an arrow where there is no end; a disc for a present value inside, a
+/// cross for one outside, a ring where neither was shown.
+pub(super) fn bar(bullet: &MarginBar) -> Markup {
+    let (width, height) = BAR;
+    let at = |value: f64| {
+        let room = width - 2.0 * INSET;
+        let x = ((INSET + room * bullet.share(value)) * 10.0).round() / 10.0;
+        if x.is_finite() { x } else { 0.0 }
+    };
+    let end = |end: BarEnd, at: f64, outward: f64| {
+        html! {
+            @match end {
+                BarEnd::Domain => {}
+                BarEnd::Edge => line.edge x1=(at) y1="2" x2=(at) y2="18" {},
+                BarEnd::Unconfirmed => line.edge.unconfirmed x1=(at) y1="2" x2=(at) y2="18" {},
+                BarEnd::Open => path.open d=(format!("M{at} 3l{} 7l{} 7z", outward * INSET, -outward * INSET)) {},
+            }
+        }
+    };
+    html! {
+        svg.bar viewBox=(format!("0 0 {width} {height}")) width=(width) height=(height) role="img"
+            aria-label=(format!("{}: {}", bullet.name, bullet.words)) {
+            rect.all x=(INSET) y="8.5" width=(width - 2.0 * INSET) height="3" {}
+            @if let Some((from, to)) = bullet.safe {
+                rect.safe x=(at(from)) y="6" width=(((at(to) - at(from)) * 10.0).round() / 10.0) height="8" {}
+                (end(bullet.ends.0, at(from), -1.0))
+                (end(bullet.ends.1, at(to), 1.0))
+            }
+            @if let Some((least, most)) = bullet.now {
+                @if least < most { line.between x1=(at(least)) y1="10" x2=(at(most)) y2="10" {} }
+                (now(bullet.position, at(least)))
+                @if least < most { (now(bullet.position, at(most))) }
+            }
+        }
+    }
+}
+
+/// The mark of the present value.
+fn now(position: Position, at: f64) -> Markup {
+    html! {
+        @match position {
+            Position::Inside => circle.now cx=(at) cy="10" r="4.5" {},
+            Position::Outside => path.now.outside d=(format!("M{} 5l10 10m0 -10l-10 10", at - 5.0)) {},
+            Position::Unknown => circle.now.unknown cx=(at) cy="10" r="4" {},
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! A scene's part of a page.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::bar::bar;
+use super::{path, thumbnail, verdict, verdicts};
+use crate::chart;
+use crate::drawing::Drawing;
+use crate::output::svg::{self, Options};
+use crate::report::entry::{
+    Badge, Chart, Entry, Figure, Grid, HoverTarget, Section, SheetPart, TableCell, touched,
+};
+use crate::wording::verdict::plain;
+
+/// Tables of more lines are folded.
+const LONG: usize = 24;
+
+/// A scene as a part of a page that unfolds.
+pub(crate) fn section(entry: &Entry, number: usize) -> String {
+    let row = &entry.row;
+    let body = html! {
+        div.scene-body {
+            @if !entry.details.is_empty() { p.details { @for detail in &entry.details { bdi { (detail) } " " } } }
+            @for (place, section) in entry.sections.iter().enumerate() {
+                (self::step(section, (number, place + 1)))
+            }
+            p.small { (entry.origin) }
+            (again(entry, number))
+        }
+    };
+    html! {
+        details.scene id=(format!("scene-{number}")) data-verdict=(plain(row.verdict)) {
+            summary {
+                (thumbnail(&row.thumbnail))
+                h2 { bdi { (row.title) } }
+                " "
+                (verdicts(row))
+                span.file { (path(&row.name)) }
+            }
+            noscript { (body) }
+        }
+    }
+    .into_string()
+}
+
+fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
+    let id = format!("scene-{number}-step-{place}");
+    let label = format!("{} {}", section.letter, section.title);
+    let label = if label.trim().is_empty() {
+        "Sheet"
+    } else {
+        label.trim()
+    };
+    let mut writer = Writer {
+        mark: format!("s{number}x{place}x"),
+        figures: 0,
+    };
+    html! {
+        section.step id=(id) aria-label=(label) {
+            @if !section.title.is_empty() {
+                h3 {
+                    @if !section.letter.is_empty() { "(" (section.letter) ") " }
+                    bdi { (section.title) }
+                    @if !section.letter.is_empty() { " " (verdict(section.verdict)) }
+                }
+            }
+            (writer.parts(&section.parts))
+        }
+    }
+}
+
+/// Writes the parts of a section and numbers its figures.
+struct Writer {
+    mark: String,
+    figures: usize,
+}
+
+impl Writer {
+    fn parts(&mut self, parts: &[SheetPart]) -> Markup {
+        html! { @for part in parts { (self.part(part)) } }
+    }
+
+    fn part(&mut self, part: &SheetPart) -> Markup {
+        html! {
+            @match part {
+                SheetPart::Badge(of) => (badge(of)),
+                SheetPart::Heading(words) => h4 { bdi dir="ltr" { (words) } },
+                // Our sentences run from the left, whatever script the first name in them is of.
+                SheetPart::Text(words) => p.text { bdi dir="ltr" { (words) } },
+                SheetPart::Note(words) => p.small { bdi dir="ltr" { (words) } },
+                SheetPart::Figures(figures) => div.plates { @for figure in figures { (self.plate(figure)) } },
+                SheetPart::Table(of) => (grid(of)),
+                SheetPart::Columns(columns) => div.columns { @for parts in columns { div { (self.parts(parts)) } } },
+                SheetPart::Charts(charts) => div.charts { @for of in charts { (chart(of)) } },
+                SheetPart::NewPage => div.newpage {},
+            }
+        }
+    }
+
+    fn plate(&mut self, figure: &Figure) -> Markup {
+        let mut drawn = |drawing: &Drawing| {
+            self.figures += 1;
+            picture(
+                drawing,
+                &format!("{}{}", self.mark, self.figures),
+                &figure.touches,
+            )
+        };
+        let light = drawn(&figure.drawing);
+        let dark = figure.dark.as_ref().map(drawn);
+        html! {
+            figure.plate {
+                @match dark {
+                    Some(dark) => { div.paper.light { (light) } div.paper.dark { (dark) } },
+                    None => div.paper { (light) },
+                }
+                @if !figure.touches.is_empty() {
+                    p.readout aria-hidden="true" { "Point at a joint, a robot or a line of a table." }
+                }
+                figcaption { (figure.caption) }
+            }
+        }
+    }
+}
+
+fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
+    let drawing = touched(drawing, touches);
+    let options = Options {
+        mark: Some(mark.to_owned()),
+        ..Options::default()
+    };
+    // Words by the names of their fonts need no laying out, so that nothing can fail.
+    PreEscaped(svg::write_with(&drawing, &options).unwrap_or_else(|_| svg::write(&drawing)))
+}
+
+fn badge(badge: &Badge) -> Markup {
+    html! {
+        div.badge.(plain(badge.verdict)) {
+            p.word { (verdict(badge.verdict)) }
+            div {
+                @if !badge.headline.is_empty() { p.headline { strong { bdi dir="ltr" { (badge.headline) "." } } } }
+                @if let Some(bar) = &badge.bar { p.small { bdi dir="ltr" { (bar.short()) } } }
+                p.sentence { bdi dir="ltr" { (badge.sentence) } }
+            }
+        }
+    }
+}
+
+fn chart(of: &Chart) -> Markup {
+    if of.wide {
+        return html! {
+            figure.chart.study { div.paper.always { (PreEscaped(&of.svg)) } figcaption { (of.caption) } }
+        };
+    }
+    // In the page's own ink, which may be light on dark.
+    let svg = of
+        .svg
+        .replace(chart::INK, "currentColor")
+        .replace(chart::GRID, "var(--rule)");
+    html! {
+        figure.chart { (PreEscaped(svg)) figcaption { (of.caption) } }
+    }
+}
+
+fn cell(cell: &TableCell) -> Markup {
+    html! {
+        @if let Some(of) = &cell.bar { (bar(of)) }
+        @else if let Some(picture) = &cell.picture { (thumbnail(picture)) }
+        @else if cell.strong { strong { bdi dir="ltr" { (cell.words) } } }
+        @else { bdi dir="ltr" { (cell.words) } }
+    }
+}
+
+fn grid(of: &Grid) -> Markup {
+    if of.lines.is_empty() {
+        return html! {};
+    }
+    let label = match (of.caption.as_str(), of.heads.first()) {
+        ("", Some((head, _))) => format!("Table by {head}"),
+        (caption, _) => caption.to_owned(),
+    };
+    let table = html! {
+        div.wide tabindex="0" role="region" aria-label=(label) {
+            table.sums[of.has_sum].margins[of.heads.iter().any(|h| h.0 == "bar")] {
+                @if !of.caption.is_empty() { caption { (of.caption) } }
+                thead { tr { @for (head, number) in &of.heads { th.number[*number] scope="col" { (head) } } } }
+                tbody {
+                    @for line in &of.lines {
+                        tr data-mark=[(!line.mark.is_empty()).then_some(&line.mark)] {
+                            @for (i, of_cell) in line.cells.iter().enumerate() {
+                                td.number[of.heads.get(i).is_some_and(|h| h.1)] { (cell(of_cell)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    };
+    html! {
+        @if of.lines.len() > LONG {
+            details.long { summary { (label) ": " (of.lines.len()) " lines" } (table) }
+        } @else { (table) }
+    }
+}
+
+fn again(entry: &Entry, number: usize) -> Markup {
+    html! {
+        details.again {
+            summary { "Make it again: commands" @if !entry.source.is_empty() { " and the scene’s file" } }
+            @for (what, command) in &entry.commands {
+                p { "For " (what) ": " code.command { (command) } }
+            }
+            @if !entry.source.is_empty() {
+                p { label for=(format!("source-{number}")) { "The scene’s own JSON, to copy:" } }
+                textarea.source id=(format!("source-{number}")) readonly rows="12" spellcheck="false" {
+                    // A browser drops the first line feed of a text area.
+                    "\n" (entry.source)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! [`Flow`]: places parts on pages from top to bottom.
+
+use super::Page;
+use crate::drawing::text::{width, wrap};
+use crate::drawing::{
+    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
+};
+use crate::output::fonts::Fonts;
+use crate::output::pdf::{self, Role};
+use crate::report::entry::{Chart, Figure, SheetPart};
+use crate::text::line;
+
+/// Width and height of A4 in pixels, 96 per inch.
+pub(super) const PAGE: (f64, f64) = (793.7, 1122.5);
+/// The margin of a page, 15 mm.
+pub(super) const MARGIN: f64 = 56.7;
+/// The lower end of the text.
+pub(super) const BOTTOM: f64 = PAGE.1 - MARGIN - 8.0;
+/// The font size in pixels: 9 pt.
+pub(super) const TEXT_SIZE: f64 = 12.0;
+/// The font size of tables in pixels: 7.9 pt.
+pub(super) const SMALL: f64 = 10.5;
+/// The line height relative to the font size.
+pub(super) const LINE: f64 = 1.38;
+/// The largest height of a figure.
+const MAX_FIGURE_HEIGHT: f64 = 300.0;
+/// Space between two columns.
+pub(super) const GAP: f64 = 14.0;
+
+/// Places parts on pages from top to bottom.
+pub(super) struct Flow {
+    pub pages: Vec<Page>,
+    /// The number of the current page.
+    current: usize,
+    pub y: f64,
+    /// The left end and the width of the column.
+    pub left: f64,
+    pub room: f64,
+    /// The number of tables so far.
+    pub tables: usize,
+    pub theme: Theme,
+    fonts: Fonts,
+    foot: String,
+    /// Items of the group that is not closed yet.
+    open: Vec<Item>,
+}
+
+impl Flow {
+    /// `foot` is the line at the foot of every page.
+    pub fn new(foot: String) -> Flow {
+        let mut flow = Flow {
+            pages: Vec::new(),
+            current: 0,
+            y: MARGIN,
+            left: MARGIN,
+            room: PAGE.0 - 2.0 * MARGIN,
+            tables: 0,
+            theme: Theme::thesis(),
+            fonts: Fonts::default(),
+            foot,
+            open: Vec::new(),
+        };
+        flow.page();
+        flow
+    }
+
+    /// The current page, which is made if it does not exist.
+    pub fn page(&mut self) -> &mut Page {
+        while self.pages.len() <= self.current {
+            self.pages.push(Page {
+                foot: self.foot.clone(),
+                ..Page::default()
+            });
+        }
+        &mut self.pages[self.current]
+    }
+
+    pub fn new_page(&mut self) {
+        if self.y > MARGIN {
+            self.current += 1;
+            self.y = MARGIN;
+            self.page();
+        }
+    }
+
+    /// Starts a new page if less than `height` is left.
+    pub fn reserve(&mut self, height: f64) {
+        if self.y + height > BOTTOM {
+            self.new_page();
+        }
+    }
+
+    pub fn put(
+        &mut self,
+        words: &str,
+        x: f64,
+        face: Face,
+        size: f64,
+        colour: Colour,
+        anchor: Anchor,
+    ) {
+        let at = PagePoint::new(x, self.y + size);
+        let text = Text::new(at, words, face, size, colour).anchored(anchor);
+        self.open.push(text.into());
+    }
+
+    pub fn add(&mut self, item: impl Into<Item>) {
+        self.open.push(item.into());
+    }
+
+    /// Puts what was added since the last call on the page, with a role.
+    pub fn close(&mut self, role: Role) {
+        let items = std::mem::take(&mut self.open);
+        if items.is_empty() {
+            return;
+        }
+        let page = self.page();
+        page.groups.push(Group {
+            items,
+            ..Group::default()
+        });
+        page.roles.push(role);
+    }
+
+    pub fn rule(&mut self, from: f64, to: f64, y: f64, colour: Colour, width: f64) {
+        let line = Outline::line([PagePoint::new(from, y), PagePoint::new(to, y)]);
+        self.add(Path::stroked(line, Stroke::new(colour, width)));
+        self.close(Role::Artifact);
+    }
+
+    /// Replaces characters that the fonts do not have by their code points.
+    pub fn legible(&self, words: &str) -> String {
+        self.fonts.spelled(&line(words)).into_owned()
+    }
+
+    pub fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour, role: &Role) {
+        let words = self.legible(words);
+        for row in wrap(&words, face, size, self.room) {
+            if self.y + LINE * size > BOTTOM {
+                self.close(role.clone());
+                self.new_page();
+            }
+            self.put(&row, self.left, face, size, colour, Anchor::Start);
+            self.y += LINE * size;
+        }
+        self.close(role.clone());
+    }
+
+    /// A heading of a level from 1; those of scenes and steps become bookmarks.
+    pub fn heading(&mut self, words: &str, size: f64, level: u8) {
+        self.reserve(6.0 * size);
+        self.y += if self.y > MARGIN { 0.5 * size } else { 0.0 };
+        if level < 4 {
+            let (words, y) = (self.legible(words), self.y);
+            self.page().bookmarks.push((level, words, y));
+        }
+        let role = Role::Heading(level, self.legible(words));
+        self.words(words, Face::SerifBold, size, self.theme.ink, &role);
+        if level == 4 {
+            let (left, right, y) = (self.left, self.left + self.room, self.y);
+            self.rule(left, right, y, self.theme.ink, 0.8);
+        }
+        self.y += 0.3 * size;
+    }
+
+    /// The title of a scene with project, author and date on the right.
+    pub fn title(&mut self, words: &str, details: &[String]) {
+        let (top, room) = (self.y, self.room);
+        let details: Vec<String> = details.iter().map(|d| self.legible(d)).collect();
+        let wide = details
+            .iter()
+            .map(|d| width(d, Face::Sans, SMALL))
+            .fold(0.0, f64::max);
+        for detail in &details {
+            let x = self.left + room;
+            self.put(detail, x, Face::Sans, SMALL, self.theme.faint, Anchor::End);
+            self.close(Role::Paragraph);
+            self.y += LINE * SMALL;
+        }
+        let end = self.y;
+        self.y = top;
+        self.room = (room - wide.min(0.5 * room) - GAP).max(0.4 * room);
+        self.heading(words, 20.0, 2);
+        self.room = room;
+        self.y = self.y.max(end);
+    }
+
+    pub fn paragraph(&mut self, words: &str) {
+        self.words(
+            words,
+            Face::Sans,
+            TEXT_SIZE,
+            self.theme.ink,
+            &Role::Paragraph,
+        );
+        self.y += 0.4 * TEXT_SIZE;
+    }
+
+    pub fn strong(&mut self, words: &str) {
+        self.words(
+            words,
+            Face::SansBold,
+            TEXT_SIZE,
+            self.theme.ink,
+            &Role::Paragraph,
+        );
+    }
+
+    pub fn note(&mut self, words: &str) {
+        self.words(words, Face::Sans, SMALL, self.theme.faint, &Role::Paragraph);
+        self.y += 0.4 * TEXT_SIZE;
+    }
+
+    /// Figures beside each other, each with its caption.
+    pub fn figures(&mut self, figures: &[Figure]) {
+        let across = figures.len().max(1) as f64;
+        let wide = (self.room - GAP * (across - 1.0)) / across;
+        let scales: Vec<f64> = figures.iter().map(|f| fitted(&f.drawing, wide)).collect();
+        let heights = figures
+            .iter()
+            .zip(&scales)
+            .map(|(f, scale)| scale * f.drawing.height);
+        let high = heights.fold(0.0, f64::max);
+        self.reserve(high + 4.0 * SMALL);
+        let (top, left) = (self.y, self.left);
+        let mut end = top;
+        for (number, (figure, scale)) in figures.iter().zip(scales).enumerate() {
+            let x = left + number as f64 * (wide + GAP);
+            let inset = (wide - scale * figure.drawing.width) / 2.0;
+            let down = high - scale * figure.drawing.height;
+            let at = PagePoint::new(x + inset, top + down);
+            self.page()
+                .figures
+                .push((figure.drawing.clone(), at, scale));
+            self.y = top + high + 2.0;
+            end = f64::max(end, self.caption(&figure.caption, x, wide));
+        }
+        self.y = end + 0.4 * TEXT_SIZE;
+    }
+
+    /// A caption below a picture; returns its lower end.
+    fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
+        let words = self.legible(words);
+        for row in wrap(&words, Face::Sans, SMALL, wide) {
+            self.put(&row, x, Face::Sans, SMALL, self.theme.faint, Anchor::Start);
+            self.y += LINE * SMALL;
+        }
+        self.close(Role::Paragraph);
+        self.y
+    }
+
+    /// Charts in rows of two, wide ones alone.
+    pub fn charts(&mut self, charts: &[Chart]) {
+        let across = if charts.iter().any(|c| c.wide) { 1 } else { 2 };
+        let wide = (self.room - GAP * (across - 1) as f64) / across as f64;
+        for row in charts.chunks(across) {
+            let sized = row.iter().filter_map(|chart| {
+                let svg = chart.document().into_owned();
+                let (width, height) = pdf::svg_size(&svg)?;
+                let scale = (wide / width).min(1.0);
+                Some((chart, svg, scale, scale * height))
+            });
+            let sized: Vec<_> = sized.collect();
+            let high = sized.iter().map(|s| s.3).fold(0.0, f64::max);
+            self.reserve(high + 4.0 * SMALL);
+            let (top, left) = (self.y, self.left);
+            let mut end = top;
+            for (place, (chart, svg, scale, _)) in sized.into_iter().enumerate() {
+                let x = left + place as f64 * (wide + GAP);
+                let shows = self.legible(&chart.caption);
+                let picture = (svg, shows, PagePoint::new(x, top), scale);
+                self.page().charts.push(picture);
+                self.y = top + high + 4.0;
+                end = f64::max(end, self.caption(&chart.caption, x, wide));
+            }
+            self.y = end + 0.6 * TEXT_SIZE;
+        }
+    }
+
+    /// Parts in columns beside each other.
+    pub fn columns(&mut self, columns: &[Vec<SheetPart>], parts: &dyn Fn(&mut Flow, &[SheetPart])) {
+        let (left, room) = (self.left, self.room);
+        let across = columns.len().max(1) as f64;
+        let wide = (room - GAP * (across - 1.0)) / across;
+        self.reserve(120.0);
+        let start = (self.current, self.y);
+        let mut end = start;
+        for (number, column) in columns.iter().enumerate() {
+            (self.current, self.y) = start;
+            (self.left, self.room) = (left + number as f64 * (wide + GAP), wide);
+            parts(self, column);
+            if (self.current, self.y) > end {
+                end = (self.current, self.y);
+            }
+        }
+        (self.current, self.y) = end;
+        (self.left, self.room) = (left, room);
+    }
+}
+
+/// The scale at which a figure fits into a width.
+fn fitted(drawing: &Drawing, wide: f64) -> f64 {
+    (wide / drawing.width)
+        .min(MAX_FIGURE_HEIGHT / drawing.height)
+        .min(1.0)
+}

@@ -1,0 +1,202 @@
+//! Writes a report as PDF: A4 pages with figures, links, bookmarks and tagged text.
+//!
+//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing whose groups have roles, such as heading or cell
+//! of a table, with figures at positions on it. Tables break between rows and repeat their heads. Figures are scaled down to
+//! fit, and never cut.
+
+mod badge;
+mod bar;
+mod flow;
+mod table;
+
+use super::entry::{Entry, SheetPart, overview};
+use super::head::{Head, MEANING, ReportError};
+use crate::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Theme};
+use crate::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
+use crate::text::line;
+use crate::wording::verdict::plain;
+use flow::{Flow, MARGIN, PAGE, SMALL};
+
+/// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Page {
+    groups: Vec<Group>,
+    roles: Vec<Role>,
+    figures: Vec<(Drawing, PagePoint, f64)>,
+    /// Charts and small pictures as SVG, with their descriptions.
+    charts: Vec<(String, String, PagePoint, f64)>,
+    /// Where a link lies, and the scene it leads to, counted from 1.
+    links: Vec<(PageRect, usize, String)>,
+    /// Headings for the list of bookmarks: level, title, height on the page.
+    bookmarks: Vec<(u8, String, f64)>,
+    /// The line at the foot of the page.
+    foot: String,
+}
+
+/// The pages before the scenes. `numbers` are the pages on which the scenes begin, counted from 1.
+pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
+    let mut flow = Flow::new(String::new());
+    flow.heading(head.title, 24.0, 1);
+    flow.paragraph(&format!("{}.", head.summary));
+    flow.note(MEANING);
+    for note in head.notes {
+        flow.note(note);
+    }
+    if !head.refused.is_empty() {
+        flow.heading("Files that are no scenes", 16.0, 2);
+        for file in head.refused {
+            flow.strong(&file.name);
+            for line in file.lines() {
+                flow.paragraph(&line);
+            }
+        }
+    }
+    if head.rows.len() > 1 {
+        flow.heading("Contents", 16.0, 2);
+        flow.grid(&overview(&head.rows, head.compares, Some(numbers)));
+    }
+    flow.pages
+}
+
+/// The pages of a scene.
+pub(super) fn section(entry: &Entry) -> Vec<Page> {
+    let mut flow = Flow::new(format!("{}, {}", entry.origin, line(&entry.row.name)));
+    let row = &entry.row;
+    let title = format!("{}: {}", row.title, plain(row.verdict));
+    flow.title(&title, &entry.details);
+    for (number, section) in entry.sections.iter().enumerate() {
+        match (section.letter.as_str(), section.title.as_str()) {
+            ("", "") => {}
+            ("", title) => flow.heading(title, 16.0, 3),
+            (letter, title) => {
+                // An appendix or a comparison of a step begins on a new page unless its pictures still fit.
+                if number > 1 {
+                    flow.reserve(420.0);
+                }
+                let words = format!("({letter}) {title}: {}", plain(section.verdict));
+                flow.heading(&words, 16.0, 3);
+            }
+        }
+        parts(&mut flow, &section.parts);
+    }
+    flow.pages
+}
+
+fn parts(flow: &mut Flow, parts: &[SheetPart]) {
+    for part in parts {
+        match part {
+            SheetPart::Badge(badge) => flow.badge(badge),
+            SheetPart::Heading(words) => flow.heading(words, 13.0, 4),
+            SheetPart::Text(words) => flow.paragraph(words),
+            SheetPart::Note(words) => flow.note(words),
+            SheetPart::Figures(figures) => flow.figures(figures),
+            SheetPart::Table(grid) => flow.grid(grid),
+            SheetPart::Columns(columns) => flow.columns(columns, &self::parts),
+            SheetPart::Charts(charts) => flow.charts(charts),
+            SheetPart::NewPage => flow.new_page(),
+        }
+    }
+}
+
+/// Numbers the pages and writes them as PDF. `starts` are the pages on which the scenes begin, counted from 0.
+pub(super) fn written(
+    pages: &mut [Page],
+    title: &str,
+    description: &str,
+    starts: &[usize],
+) -> Result<Vec<u8>, ReportError> {
+    let count = pages.len();
+    let title = line(title);
+    let mut words = Vec::with_capacity(count);
+    for (number, page) in pages.iter_mut().enumerate() {
+        words.push(drawing(page, (number, count), &title));
+    }
+    let mut sheets = Vec::with_capacity(count);
+    for (page, words) in pages.iter().zip(&words) {
+        sheets.push(sheet(page, words, starts));
+    }
+    let bookmarks: Vec<Bookmark> = pages
+        .iter()
+        .enumerate()
+        .flat_map(|(number, page)| {
+            page.bookmarks
+                .iter()
+                .map(move |(level, title, y)| Bookmark {
+                    level: *level,
+                    title: title.clone(),
+                    page: number,
+                    y: *y,
+                })
+        })
+        .collect();
+    let heading = Heading {
+        title: &title,
+        description,
+    };
+    Ok(pdf::write_sheets(&sheets, &heading, &bookmarks)?)
+}
+
+/// The text of a page with its foot.
+fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Drawing {
+    let theme = Theme::thesis();
+    let y = PAGE.1 - MARGIN + 12.0;
+    let at = |x: f64| PagePoint::new(x, y);
+    let words = format!("{} of {count}", number + 1);
+    let words = Text::new(at(PAGE.0 - MARGIN), words, Face::Sans, SMALL, theme.faint);
+    let origin = Text::new(
+        at(MARGIN),
+        page.foot.clone(),
+        Face::Sans,
+        SMALL,
+        theme.faint,
+    );
+    page.roles.push(Role::Artifact);
+    let mut groups = std::mem::take(&mut page.groups);
+    groups.push(
+        Group::default()
+            .with(origin)
+            .with(words.anchored(Anchor::End)),
+    );
+    for (number, group) in groups.iter_mut().enumerate() {
+        group.id = Some(format!("e{number}"));
+    }
+    Drawing {
+        width: PAGE.0,
+        height: PAGE.1,
+        title: title.to_owned(),
+        description: String::new(),
+        background: None,
+        items: groups.into_iter().map(Into::into).collect(),
+    }
+}
+
+fn sheet<'p>(page: &'p Page, words: &'p Drawing, starts: &[usize]) -> Sheet<'p> {
+    let mut parts = vec![Inset {
+        content: Content::Tagged(words, &page.roles),
+        at: PagePoint::new(0.0, 0.0),
+        scale: 1.0,
+    }];
+    parts.extend(page.figures.iter().map(|(drawing, at, scale)| Inset {
+        content: Content::Drawing(drawing),
+        at: *at,
+        scale: *scale,
+    }));
+    parts.extend(page.charts.iter().map(|(svg, shows, at, scale)| Inset {
+        content: Content::Svg(svg, shows),
+        at: *at,
+        scale: *scale,
+    }));
+    let links = page.links.iter().filter_map(|(place, scene, words)| {
+        Some(Link {
+            place: *place,
+            page: *starts.get(scene - 1)?,
+            words: words.clone(),
+        })
+    });
+    Sheet {
+        width: PAGE.0,
+        height: PAGE.1,
+        parts,
+        links: links.collect(),
+    }
+}

@@ -1,0 +1,212 @@
+//! Tables: rows that break between pages and repeat their heads.
+
+use super::bar;
+use super::flow::{BOTTOM, Flow, GAP, LINE, MARGIN, SMALL, TEXT_SIZE};
+use crate::drawing::text::{width, wrap};
+use crate::drawing::{Anchor, Face, PagePoint, PageRect};
+use crate::output::pdf::Role;
+use crate::report::entry::{Grid, TableCell, Thumbnail};
+
+/// A table up to this share of a page stays on one page.
+const UNBROKEN_SHARE: f64 = 0.4;
+/// Width of a bar in a table.
+const BAR: f64 = 160.0;
+/// Width and height of a small picture in a table.
+const PICTURE: (f64, f64) = (64.0, 40.0);
+/// A small picture is drawn for this width.
+const PICTURE_WIDTH: f64 = 96.0;
+
+/// A table as it is laid out.
+struct Layout {
+    number: usize,
+    heads: Vec<(TableCell, bool)>,
+    widths: Vec<f64>,
+}
+
+impl Flow {
+    pub fn grid(&mut self, grid: &Grid) {
+        if grid.lines.is_empty() {
+            return;
+        }
+        let legible = |cell: &TableCell| TableCell {
+            words: self.legible(&cell.words),
+            ..cell.clone()
+        };
+        let rows: Vec<Vec<TableCell>> = grid
+            .lines
+            .iter()
+            .map(|l| l.cells.iter().map(legible).collect())
+            .collect();
+        self.tables += 1;
+        let heads = grid
+            .heads
+            .iter()
+            .map(|h| (TableCell::strong_if(true, self.legible(&h.0)), h.1));
+        let heads: Vec<(TableCell, bool)> = heads.collect();
+        let layout = Layout {
+            number: self.tables,
+            widths: widths(&heads, &rows, self.room),
+            heads,
+        };
+        let head: Vec<TableCell> = layout.heads.iter().map(|h| h.0.clone()).collect();
+        let head_height = layout.height(&head);
+        // A short table stays on one page. A long one keeps at least two rows with its head.
+        let whole: f64 = rows.iter().map(|row| layout.height(row)).sum();
+        let least = if whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
+            whole
+        } else {
+            2.0 * LINE * SMALL
+        };
+        self.reserve(1.5 * TEXT_SIZE + head_height + least);
+        if !grid.caption.is_empty() {
+            self.y += 0.2 * TEXT_SIZE;
+            self.strong(&grid.caption);
+        }
+        self.row(&layout, &head, 0);
+        for (number, row) in rows.iter().enumerate() {
+            if self.y + layout.height(row) > BOTTOM {
+                self.new_page();
+                self.row(&layout, &head, 0);
+            }
+            self.row(&layout, row, number + 1);
+        }
+        self.y += 0.5 * TEXT_SIZE;
+    }
+
+    /// Row 0 is the head.
+    fn row(&mut self, layout: &Layout, row: &[TableCell], number: usize) {
+        let (top, high) = (self.y, layout.height(row));
+        let mut x = self.left;
+        for (column, (cell, wide)) in row.iter().zip(&layout.widths).enumerate() {
+            self.y = top;
+            let is_number = layout.heads.get(column).is_some_and(|h| h.1);
+            self.cell(cell, x, *wide, is_number);
+            self.close(Role::Cell {
+                table: layout.number,
+                row: number,
+                head: number == 0,
+            });
+            x += wide + GAP;
+        }
+        self.y = top + high.min(BOTTOM - MARGIN);
+        let (left, y) = (self.left, self.y - 1.0);
+        let (colour, stroke) = if number == 0 {
+            (self.theme.faint, 1.0)
+        } else {
+            (self.theme.rule, 0.7)
+        };
+        self.rule(left, left + self.room, y, colour, stroke);
+    }
+
+    fn cell(&mut self, cell: &TableCell, x: f64, wide: f64, is_number: bool) {
+        if let Some(of) = &cell.bar {
+            bar::draw(self, of, PagePoint::new(x, self.y), wide);
+            return;
+        }
+        if let Some(picture) = &cell.picture {
+            let at = PagePoint::new(x, self.y + 1.0);
+            let scale = PICTURE.0 / PICTURE_WIDTH;
+            self.page().charts.push((
+                small(picture),
+                "A small picture of the blocks".to_owned(),
+                at,
+                scale,
+            ));
+            return;
+        }
+        let (at, anchor) = match is_number {
+            true => (x + wide, Anchor::End),
+            false => (x, Anchor::Start),
+        };
+        let top = self.y;
+        let face = face(cell);
+        let colour = self.theme.ink;
+        // A cell that would not fit a page loses its end; its whole text is in the other forms of the report.
+        let most = ((BOTTOM - MARGIN) / (LINE * SMALL)) as usize - 4;
+        for part in wrap(&cell.words, face, SMALL, wide).into_iter().take(most) {
+            self.put(&part, at, face, SMALL, colour, anchor);
+            self.y += LINE * SMALL;
+        }
+        if let Some(scene) = cell.scene {
+            let place = PageRect {
+                at: PagePoint::new(x, top),
+                width: wide,
+                height: self.y - top,
+            };
+            self.page().links.push((place, scene, cell.words.clone()));
+        }
+    }
+}
+
+impl Layout {
+    fn height(&self, row: &[TableCell]) -> f64 {
+        let cells = row.iter().zip(&self.widths);
+        let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
+            (Some(_), _) => bar::HEIGHT,
+            (_, Some(_)) => PICTURE.1,
+            _ => LINE * SMALL * wrap(&cell.words, face(cell), SMALL, *wide).len() as f64,
+        });
+        heights.fold(LINE * SMALL, f64::max) + 4.0
+    }
+}
+
+fn face(cell: &TableCell) -> Face {
+    if cell.strong {
+        Face::SansBold
+    } else {
+        Face::Sans
+    }
+}
+
+/// A small picture as a document of its own.
+fn small(picture: &Thumbnail) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"96\" height=\"60\" viewBox=\"0 0 96 60\">\
+         <path d=\"{}\" fill=\"#5b6b74\"/><path d=\"{}\" fill=\"#b9c3cf\" stroke=\"#ffffff\" stroke-width=\"0.6\"/></svg>",
+        picture.ground, picture.blocks
+    )
+}
+
+/// The widths of the columns of a table: the width of their text if there is space, otherwise the widest are narrowed.
+fn widths(heads: &[(TableCell, bool)], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
+    let longest = |words: &str| {
+        let parts = words.split_whitespace();
+        parts
+            .map(|w| width(w, Face::SansBold, SMALL))
+            .fold(0.0, f64::max)
+    };
+    let cell_width = |cell: &TableCell| match (&cell.bar, &cell.picture) {
+        (Some(_), _) => BAR,
+        (_, Some(_)) => PICTURE.0,
+        _ => width(&cell.words, face(cell), SMALL),
+    };
+    let wide = |column: usize| {
+        let own = rows.iter().filter_map(|row| row.get(column));
+        let own = own.map(cell_width).fold(0.0, f64::max);
+        // A head breaks at its spaces and widens its column only by its longest word.
+        let head = &heads[column].0.words;
+        own.max(longest(head))
+            .max(width(head, Face::SansBold, SMALL).min(60.0))
+            + 2.0
+    };
+    let mut widths: Vec<f64> = (0..heads.len()).map(wide).collect();
+    let room = space - GAP * heads.len().saturating_sub(1) as f64;
+    loop {
+        let sum: f64 = widths.iter().sum();
+        if sum <= room {
+            return widths;
+        }
+        let most = widths.iter().copied().fold(0.0, f64::max);
+        let narrower = widths.iter().copied().filter(|w| *w < most);
+        let next = narrower.fold(20.0, f64::max);
+        let count = widths.iter().filter(|w| **w >= most).count() as f64;
+        let to = next.max(most - (sum - room) / count);
+        if to >= most {
+            // All are as narrow as they may be.
+            return widths;
+        }
+        for wide in widths.iter_mut().filter(|w| **w >= most) {
+            *wide = to;
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! [`Filter`]: which scenes `--only` selects.
+
+use super::setting::matches_pattern;
+
+/// The filter of `--only`.
+pub(super) enum Filter<'f> {
+    /// Everything.
+    All,
+    /// The scene with this name, and its references.
+    Exactly(&'f str),
+    /// Names that match a pattern with `*`.
+    Pattern(&'f str),
+    /// Names that contain this.
+    Containing(&'f str),
+}
+
+impl<'f> Filter<'f> {
+    /// The filter that `only` asks for; an exact name counts before a part of one.
+    pub(super) fn new(
+        only: Option<&'f str>,
+        mut names: impl Iterator<Item = String>,
+    ) -> Filter<'f> {
+        match only {
+            None => Filter::All,
+            Some(filter) if names.any(|name| name == filter) => Filter::Exactly(filter),
+            Some(filter) if filter.contains('*') => Filter::Pattern(filter),
+            Some(filter) => Filter::Containing(filter),
+        }
+    }
+
+    /// Whether it selects a name.
+    pub(super) fn selects(&self, name: &str) -> bool {
+        match self {
+            Filter::All => true,
+            // The names of its references have one more suffix.
+            Filter::Exactly(scene) => name
+                .strip_prefix(scene)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+            Filter::Pattern(pattern) => matches_pattern(pattern, name),
+            Filter::Containing(part) => name.contains(part),
+        }
+    }
+}

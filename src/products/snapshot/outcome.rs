@@ -1,0 +1,261 @@
+//! [`CheckOutcome`]: which references do not match, in words, and the new contents for them.
+
+use std::path::{Path, PathBuf};
+
+use super::discovery::shown;
+use super::layer::Layer;
+use super::store;
+use crate::output::file::WriteError;
+use crate::scene::{Problem, SceneError};
+
+/// A message lists at most this many changes of one file and counts the rest.
+const MAX_LISTED_CHANGES: usize = 12;
+
+/// The folders of the files, sorted, each once.
+pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
+    let folders = files.into_iter().filter_map(|f| f.parent());
+    let mut folders: Vec<PathBuf> = folders
+        .map(|f| {
+            if f.as_os_str().is_empty() {
+                Path::new(".")
+            } else {
+                f
+            }
+        })
+        .map(Path::to_owned)
+        .collect();
+    folders.sort();
+    folders.dedup();
+    folders
+}
+
+/// Why a reference does not match.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum State {
+    /// The reference does not exist.
+    Missing,
+    /// The result differs from the reference.
+    Changed,
+    /// The reference cannot be read.
+    Unreadable,
+    /// The result matches, but the reference file is larger than the settings allow.
+    TooLarge,
+}
+
+/// A reference that does not match.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The layer.
+    pub layer: Layer,
+    /// The path of the reference.
+    pub file: PathBuf,
+    /// Why it does not match.
+    pub state: State,
+    /// The changes in words, most important first.
+    pub words: Vec<String>,
+    /// The new content of the reference; empty if there is none.
+    pub fresh: Vec<u8>,
+    /// The present content of the reference; `None` if it is missing.
+    pub expected: Option<Vec<u8>>,
+    /// A PNG that shows the differing pixels.
+    pub difference: Option<Vec<u8>>,
+}
+
+/// A scene or figure with the references that do not match.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// Its name in messages.
+    pub name: String,
+    /// The path of the scene; `None` for a figure from a test.
+    pub scene: Option<PathBuf>,
+    /// All its references.
+    pub references: Vec<PathBuf>,
+    /// The references that do not match.
+    pub findings: Vec<Finding>,
+}
+
+/// The result of a check.
+#[derive(Clone, Debug, Default)]
+pub struct CheckOutcome {
+    /// All scenes, sorted by name.
+    pub snapshots: Vec<Snapshot>,
+    /// References without a scene, each with the reason and remedy.
+    pub orphans: Vec<(PathBuf, String)>,
+    /// Scenes on which the program failed by its own fault.
+    pub faults: Vec<(PathBuf, SceneError)>,
+}
+
+/// Where new content is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acceptance {
+    /// Next to the references as `.new.*`, for review.
+    Propose,
+    /// In place of the references.
+    Accept,
+}
+
+impl Snapshot {
+    /// Whether all references match.
+    pub fn matches(&self) -> bool {
+        self.findings.is_empty()
+    }
+
+    /// The folders of its references.
+    pub fn folders(&self) -> Vec<PathBuf> {
+        folders(&self.references)
+    }
+
+    /// A description of the findings, line by line.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for finding in &self.findings {
+            let what = match finding.state {
+                State::Missing => "new",
+                State::Changed => "changed",
+                State::Unreadable => "unreadable",
+                State::TooLarge => "large",
+            };
+            let head = format!("{} {what}, {}", finding.layer.name(), shown(&finding.file));
+            match finding.words.as_slice() {
+                [one] => lines.push(format!("  {head}: {one}")),
+                several => {
+                    lines.push(format!("  {head}:"));
+                    lines.extend(
+                        several
+                            .iter()
+                            .take(MAX_LISTED_CHANGES)
+                            .map(|w| format!("    {w}")),
+                    );
+                    if several.len() > MAX_LISTED_CHANGES {
+                        lines.push(format!(
+                            "    … and {} more",
+                            several.len() - MAX_LISTED_CHANGES
+                        ));
+                    }
+                }
+            }
+        }
+        lines
+    }
+
+    /// The new contents that can be written as references.
+    fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
+        fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
+    }
+
+    /// Writes the new contents next to the references or in their place, and deletes `.new.*` and `.diff.png` files that are
+    /// out of date.
+    ///
+    /// # Errors
+    /// The file that could not be written. The references of this snapshot are then unchanged.
+    pub fn store(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
+        if acceptance == Acceptance::Accept {
+            store::write(&self.acceptable())?;
+            self.findings.retain(|f| f.fresh.is_empty());
+        }
+        let mut beside = Vec::new();
+        for finding in self.findings.iter().filter(|f| !f.fresh.is_empty()) {
+            beside.push((store::new_file(&finding.file), finding.fresh.clone()));
+            if let Some(difference) = &finding.difference {
+                beside.push((store::difference_file(&finding.file), difference.clone()));
+            }
+        }
+        let kept = |path: &Path| beside.iter().any(|(b, _)| b == path);
+        for reference in &self.references {
+            for stale in [
+                store::new_file(reference),
+                store::difference_file(reference),
+            ] {
+                if !kept(&stale) {
+                    store::remove(&stale);
+                }
+            }
+        }
+        store::write(&beside)
+    }
+}
+
+impl CheckOutcome {
+    /// Whether all references match and have a scene, and no check failed.
+    pub fn matches(&self) -> bool {
+        self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
+    }
+
+    /// References without a scene, and scenes on which the program failed, each with a message.
+    pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
+        let orphans = self.orphans.iter().map(|(path, words)| {
+            let words = format!("a reference without a scene: {words}");
+            (path.as_path(), words)
+        });
+        let faults = self.faults.iter().map(|(path, fault)| {
+            let of = |p: &Problem| format!("{}; {}", p.message, p.help);
+            let words: Vec<String> = fault.list.iter().map(of).collect();
+            (path.as_path(), words.join("; "))
+        });
+        orphans.chain(faults)
+    }
+
+    /// The snapshots with findings.
+    pub fn failing(&self) -> impl Iterator<Item = &Snapshot> {
+        self.snapshots.iter().filter(|s| !s.matches())
+    }
+
+    /// A description of all findings, line by line; empty if everything matches.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for snapshot in self.failing() {
+            lines.push(snapshot.name.clone());
+            lines.extend(snapshot.lines());
+        }
+        for (path, words) in self.others() {
+            lines.push(format!("{}: {words}", shown(path)));
+        }
+        lines
+    }
+
+    /// The counts in one line.
+    pub fn summary(&self) -> String {
+        let all = self.snapshots.len();
+        let failing = self.failing().count();
+        let plural = if all == 1 { "" } else { "s" };
+        let mut words = format!("{all} snapshot{plural}: {} hold", all - failing);
+        if failing > 0 {
+            let is = |state| move |s: &&Snapshot| s.findings.iter().any(|f| f.state == state);
+            let new = self
+                .failing()
+                .filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
+            let new = new.count();
+            let broken = self.failing().filter(is(State::Unreadable)).count();
+            words.push_str(&format!(", {} changed, {new} new", failing - new));
+            if broken > 0 {
+                words.push_str(&format!(", {broken} with unreadable references"));
+            }
+        }
+        match self.orphans.len() {
+            0 => {}
+            n => words.push_str(&format!(", {n} references without a scene")),
+        }
+        match self.faults.len() {
+            0 => {}
+            1 => words.push_str(", 1 scene on which the program failed"),
+            n => words.push_str(&format!(", {n} scenes on which the program failed")),
+        }
+        words
+    }
+
+    /// Calls [`Snapshot::store`] for all snapshots. An error in one does not stop the others.
+    ///
+    /// # Errors
+    /// All files that could not be written.
+    pub fn store(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
+        let stored = self.snapshots.iter_mut().map(|s| s.store(acceptance));
+        let failed: Vec<WriteError> = stored.filter_map(Result::err).collect();
+        if failed.is_empty() {
+            Ok(())
+        } else {
+            Err(failed)
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! [`headline`]: the margin that matters most, as one sentence.
+
+use super::margin::{Parameter, StatedMargin, confirmed};
+use super::number::three;
+use crate::analysis::{End, Interval, Verdict};
+
+/// The margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33 of its load`.
+/// `loads` is the number of loads of the frame.
+pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> String {
+    let load = if loads == 1 { "load" } else { "loads" };
+    match (verdict, margin.parameter) {
+        (Verdict::Undecided, _) => "It is undecided whether it stands".to_owned(),
+        (Verdict::Stable, Parameter::LoadFactor) => carries(margin, load),
+        (Verdict::Unstable, Parameter::LoadFactor) => lacks(margin, load),
+        (Verdict::Stable, _) => reserve(margin),
+        (Verdict::Unstable, _) => falls(margin),
+    }
+}
+
+/// An upper end in words: `2.40`, `at least 2.40` where the end is not confirmed; `None` without an end.
+fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
+    let end = end?;
+    let value = write(confirmed(end)?);
+    Some(match end {
+        End::Unconfirmed { .. } => format!("at least {value}"),
+        _ => value,
+    })
+}
+
+fn carries(margin: &StatedMargin<'_>, load: &str) -> String {
+    match end(margin.interval.high(), &three) {
+        Some(value) => format!("It carries {value} times its {load}"),
+        None if matches!(margin.interval, Interval::Undecided) => {
+            format!("It carries its {load}; how much more, no proof shows")
+        }
+        None => format!("It carries its {load}, however often they are multiplied"),
+    }
+}
+
+fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
+    if matches!(margin.interval, Interval::Undecided) {
+        return format!("It falls; no proof shows which part of its {load} it carries");
+    }
+    let low = margin.interval.low().and_then(confirmed);
+    match (low, end(margin.interval.high(), &three)) {
+        (Some(low), _) if low > 1.0 => {
+            format!("It falls: it needs {} times its {load}", three(low))
+        }
+        (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
+        _ => format!("It falls, whatever the factor on its {load}"),
+    }
+}
+
+/// The nearest end of a margin other than that of the loads, of a structure that stands.
+fn reserve(margin: &StatedMargin<'_>) -> String {
+    let nearest = || {
+        let ends = [
+            (margin.interval.low(), "left"),
+            (margin.interval.high(), "right"),
+        ];
+        let known = ends
+            .into_iter()
+            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side)));
+        known.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    match margin.parameter {
+        Parameter::Tilt => match nearest() {
+            Some((angle, side)) => {
+                format!(
+                    "It stands until gravity turns {}° to the {side}",
+                    three(angle)
+                )
+            }
+            None => "It stands however gravity turns".to_owned(),
+        },
+        Parameter::HorizontalLoad => match nearest() {
+            Some((share, side)) => format!(
+                "It stands until {} of its weight pushes it to the {side}",
+                three(share)
+            ),
+            None => "It stands under any horizontal push".to_owned(),
+        },
+        Parameter::Friction => match margin.interval.low().and_then(confirmed) {
+            Some(least) if least > 0.0 => {
+                format!(
+                    "It stands down to a friction coefficient of {}",
+                    three(least)
+                )
+            }
+            _ => "It stands even without friction".to_owned(),
+        },
+        Parameter::Kernel => match end(margin.interval.high(), &three) {
+            Some(most) => format!("It stands up to a safety kernel of {most}"),
+            None => "It stands at every safety kernel".to_owned(),
+        },
+        _ => format!("{}: {}", margin.name, margin.sentence()),
+    }
+}
+
+fn falls(margin: &StatedMargin<'_>) -> String {
+    let low = margin.interval.low().and_then(confirmed);
+    match (margin.parameter, low) {
+        (Parameter::Friction, Some(least)) if least > 0.0 => format!(
+            "It falls: it would stand with a friction coefficient of {}",
+            three(least)
+        ),
+        (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty) => {
+            "It falls, whatever the friction".to_owned()
+        }
+        _ => "It falls".to_owned(),
+    }
+}

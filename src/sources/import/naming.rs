@@ -1,0 +1,126 @@
+//! [`Naming`]: what the names in a drawing make of its elements.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+use super::draft::Role;
+
+/// Words that usually name the ground, in lower case. They count only in a drawing that names no ground otherwise.
+const GROUND_WORDS: [&str; 21] = [
+    "abutment",
+    "abutments",
+    "bedrock",
+    "boden",
+    "earth",
+    "footing",
+    "footings",
+    "foundation",
+    "foundations",
+    "fundament",
+    "pier base",
+    "pier bases",
+    "soil",
+    "sol",
+    "springing",
+    "suelo",
+    "support",
+    "supports",
+    "terrain",
+    "terreno",
+    "widerlager",
+];
+/// The largest number of names that are kept for messages.
+const MAX_KEPT: usize = 1000;
+
+/// What the names in a drawing make of its elements.
+#[derive(Debug, Default)]
+pub(super) struct Naming<'o> {
+    /// Layers and elements that the user calls ground.
+    pub(super) ground: &'o [String],
+    /// Whether words such as "abutment" make an element ground.
+    pub(super) guess: bool,
+    /// The names that became ground because of `ground` or a guess, and all names.
+    made_ground: RefCell<BTreeSet<String>>,
+    seen: RefCell<BTreeSet<String>>,
+}
+
+impl<'o> Naming<'o> {
+    pub(super) fn new(ground: &'o [String], guess: bool) -> Naming<'o> {
+        Naming {
+            ground,
+            guess,
+            ..Naming::default()
+        }
+    }
+
+    /// The role that a name asks for; `None` if the name says nothing.
+    pub(super) fn role(&self, name: &str) -> Option<Role> {
+        let name = name.trim();
+        keep(&self.seen, name);
+        if self.ground.iter().any(|g| same(g, name)) || (self.guess && is_ground_word(name)) {
+            keep(&self.made_ground, name);
+            return Some(Role::Ground);
+        }
+        Role::from_name(name)
+    }
+
+    /// The names that became ground because the user or a guess says so, in alphabetical order.
+    pub(super) fn made_ground(&self) -> Vec<String> {
+        self.made_ground.borrow().iter().cloned().collect()
+    }
+
+    /// The names of the drawing, in alphabetical order.
+    pub(super) fn seen(&self) -> Vec<String> {
+        self.seen.borrow().iter().cloned().collect()
+    }
+
+    /// The layers given by the user that the drawing does not have.
+    pub(super) fn missing(&self) -> Vec<&'o String> {
+        let made = self.made_ground.borrow();
+        let is_missing = |wanted: &&String| !made.iter().any(|name| same(wanted, name));
+        self.ground.iter().filter(is_missing).collect()
+    }
+}
+
+fn keep(names: &RefCell<BTreeSet<String>>, name: &str) {
+    let mut names = names.borrow_mut();
+    if !name.is_empty() && names.len() < MAX_KEPT && !names.contains(name) {
+        names.insert(name.to_owned());
+    }
+}
+
+/// Whether two names are equal in upper or lower case.
+fn same(a: &str, b: &str) -> bool {
+    a.trim().to_lowercase() == b.trim().to_lowercase()
+}
+
+/// Whether a name is a word for the ground, possibly with a number or a side after it: `Abutments`, `support_2`.
+fn is_ground_word(name: &str) -> bool {
+    let name = name.to_lowercase();
+    GROUND_WORDS.iter().any(|word| {
+        name.strip_prefix(word)
+            .is_some_and(|rest| !rest.starts_with(char::is_alphabetic))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_for_the_ground_are_guessed_if_asked() {
+        let guess = Naming::new(&[], true);
+        for name in ["Abutments", "support_2", "Pier base left", "SOL", "Boden"] {
+            assert_eq!(guess.role(name), Some(Role::Ground), "{name}");
+        }
+        for name in ["solid", "supporting", "pier", "stone", ""] {
+            assert_eq!(guess.role(name), None, "{name}");
+        }
+        assert_eq!(guess.made_ground().len(), 5);
+        assert_eq!(Naming::default().role("Abutments"), None);
+        let layers = ["Pfeiler".to_owned(), "Felsen".to_owned()];
+        let given = Naming::new(&layers, false);
+        assert_eq!(given.role("pfeiler "), Some(Role::Ground));
+        assert_eq!(given.missing(), [&layers[1]]);
+    }
+}

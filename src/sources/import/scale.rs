@@ -1,0 +1,53 @@
+//! [`Scale`]: how many metres a unit of the drawing is.
+
+use super::scene_file::six_digits;
+
+/// What the user says about the size of the drawing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Scale {
+    /// Metres per unit of the drawing.
+    pub(super) metres: Option<f64>,
+    /// Real lengths divided by drawn lengths: 50 for a drawing at 1:50.
+    pub(super) ratio: Option<f64>,
+}
+
+impl Scale {
+    /// Metres per unit, and the sentence that says why. `stated` is the unit that the drawing states, with the reason.
+    ///
+    /// # Errors
+    /// A ratio does not say what a unit of the drawing is.
+    pub(super) fn of(
+        self,
+        stated: Option<(f64, String)>,
+        silent: &str,
+    ) -> Result<(f64, String), String> {
+        let ratio = self.ratio.unwrap_or(1.0);
+        let drawn_at = self.ratio.map_or(String::new(), |ratio| {
+            format!(" and the drawing is at 1:{}", six_digits(ratio))
+        });
+        let unit = |metres: f64| format!("a unit of the drawing is {} m", six_digits(metres));
+        match (self.metres, stated) {
+            (Some(metres), _) => {
+                let metres = metres * ratio;
+                Ok((metres, format!("{} (as given)", unit(metres))))
+            }
+            (None, Some((metres, reason))) => {
+                let metres = metres * ratio;
+                Ok((
+                    metres,
+                    format!("{}, because {reason}{drawn_at}", unit(metres)),
+                ))
+            }
+            (None, None) if self.ratio.is_some() => Err(format!(
+                "a scale of 1:{} needs the unit of the drawing, because {silent}; add --unit mm, cm, m, in or ft",
+                six_digits(ratio)
+            )),
+            (None, None) => Ok((
+                1.0,
+                format!(
+                    "a unit of the drawing is 1 m, because {silent}; --unit or --scale sets another unit"
+                ),
+            )),
+        }
+    }
+}

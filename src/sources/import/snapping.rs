@@ -1,0 +1,71 @@
+//! Snaps the bodies of a drawing together, so that blocks that were drawn side by side touch.
+
+use super::Snapped;
+use super::draft::{Draft, Role};
+use super::name::Names;
+use super::outline::Outlines;
+use crate::geometry::snap::{self, Rings};
+use crate::geometry::{Bounds, Tolerance};
+
+/// More bodies than this share one remark.
+const MAX_LISTED_BODIES: usize = 12;
+
+impl Outlines {
+    /// Snaps edges and corners within `gap` together, and returns the bodies that moved.
+    pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
+        if !(gap > 0.0) {
+            return Vec::new();
+        }
+        let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
+        let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
+        let outcome = snap::snapped(
+            &rings,
+            snap::Gaps::new(&gaps),
+            &fixed,
+            0.5 * self.tolerance() / gap,
+        );
+        self.remark_kept(draft, &outcome.kept);
+        let described = |moved: &snap::Moved| Snapped {
+            body: names.bodies[moved.body].clone(),
+            element: self.bodies[moved.body].element.clone(),
+            corners: moved.corners,
+            distance: moved.distance,
+            to: moved.to.iter().map(|b| names.bodies[*b].clone()).collect(),
+        };
+        let snapped = outcome.moved.iter().map(described).collect();
+        for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies.into_owned()) {
+            body.rings = rings;
+        }
+        snapped
+    }
+
+    /// Remarks on the bodies that were left as drawn.
+    fn remark_kept(&self, draft: &mut Draft, kept: &[usize]) {
+        if kept.len() > MAX_LISTED_BODIES {
+            let message = format!(
+                "{} bodies would change their shape or overlap their neighbours more if they were snapped; left as drawn",
+                kept.len()
+            );
+            let help = "draw them closer to their neighbours, or use another --gap";
+            draft.remark("", message, help);
+            return;
+        }
+        for body in kept {
+            draft.remark(
+                &self.bodies[*body].element,
+                "it would change its shape or overlap its neighbours more if it were snapped; left as drawn",
+                "draw it closer to its neighbours, or use a smaller --gap",
+            );
+        }
+    }
+
+    /// The depth of an overlap that a scene of these blocks tolerates, in metres.
+    fn tolerance(&self) -> f64 {
+        let boxes = self.boxes(Role::Block);
+        let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        let all = boxes.into_iter().reduce(Bounds::union);
+        Tolerance::new(all.map_or(0.0, Bounds::diagonal), typical).gap
+    }
+}

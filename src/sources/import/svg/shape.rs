@@ -1,0 +1,102 @@
+//! Shapes become parts of the draft.
+
+use roxmltree::Node;
+use svgtypes::{TransformListParser, TransformListToken};
+
+use super::context::Context;
+use super::remark::RemarkKind;
+use super::style::Fill;
+use super::walk::Walk;
+use super::{element, name};
+use crate::import::affine::Affine;
+use crate::import::draft::{Form, Part, Role, Values};
+use crate::import::limit::MAX_BODIES;
+
+impl<'a, 'd> Walk<'a, 'd> {
+    /// Adds a shape to the draft.
+    pub(super) fn shape(&mut self, node: Node<'a, 'd>, around: &Context) {
+        if !around.style.visible {
+            self.skip(node, around, "it is hidden");
+            return;
+        }
+        let subpaths = match element::subpaths(node, around.viewport) {
+            Ok(subpaths) => subpaths,
+            Err(why) => {
+                let why = format!("{why}; left out");
+                self.remark(RemarkKind::BrokenOutline, node, around, &why, "");
+                return;
+            }
+        };
+        let fill = self.fill(node, around);
+        if self.draft.parts.len() >= MAX_BODIES {
+            self.more += 1;
+            return;
+        }
+        let mapped = subpaths.iter().map(|t| t.mapped(&around.map)).collect();
+        let part = Part {
+            kind: around.kind.unwrap_or(Role::Block),
+            name: shape_name(node, around),
+            element: self.element_label(node, around),
+            form: Form::Subpaths(mapped, around.style.rule),
+            fill,
+            values: Values::default(),
+        };
+        self.draft.parts.push(part);
+    }
+
+    /// The colour of a shape, if it has one that a material can have.
+    fn fill(&mut self, node: Node<'a, 'd>, around: &Context) -> Option<[u8; 3]> {
+        let (kind, why, help) = match around.style.fill {
+            Fill::Colour(fill) => return Some(fill),
+            Fill::Unspecified | Fill::None => return None,
+            Fill::Paint => (
+                RemarkKind::Gradient,
+                "a gradient or pattern cannot become a material; the fill is not imported",
+                "use one colour",
+            ),
+            Fill::Unknown => (
+                RemarkKind::BadFill,
+                "its fill is not a valid colour; it is not imported",
+                "write it as #rrggbb",
+            ),
+        };
+        self.remark(kind, node, around, why, help);
+        None
+    }
+
+    /// The `transform` of an element.
+    pub(super) fn transform(&mut self, node: Node<'a, 'd>, around: &Context) -> Affine {
+        let mut map = Affine::IDENTITY;
+        for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
+            let Ok(token) = token else {
+                let why =
+                    "its transform cannot be read completely; the part before the error is used";
+                self.remark(RemarkKind::BadTransform, node, around, why, "");
+                break;
+            };
+            map = map.after(&match token {
+                TransformListToken::Matrix { a, b, c, d, e, f } => Affine([a, b, c, d, e, f]),
+                TransformListToken::Translate { tx, ty } => Affine::translation(tx, ty),
+                TransformListToken::Scale { sx, sy } => Affine::scale(sx, sy),
+                TransformListToken::Rotate { angle } => Affine::rotation(angle),
+                TransformListToken::SkewX { angle } => {
+                    Affine([1.0, 0.0, libm::tan(angle.to_radians()), 1.0, 0.0, 0.0])
+                }
+                TransformListToken::SkewY { angle } => {
+                    Affine([1.0, libm::tan(angle.to_radians()), 0.0, 1.0, 0.0, 0.0])
+                }
+            });
+        }
+        map
+    }
+}
+
+/// The name of a shape: that of its copy, its own, that of its group, or its id.
+fn shape_name(node: Node<'_, '_>, around: &Context) -> String {
+    let copied = around.copy.as_ref().and_then(|c| c.name.clone());
+    copied
+        .or_else(|| name::user_name(node))
+        .or_else(|| around.group.clone())
+        .or_else(|| name::any_name(node))
+        .unwrap_or_default()
+}

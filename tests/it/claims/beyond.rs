@@ -1,0 +1,201 @@
+//! What a result says of how a frame begins to move just beyond each end of its margins.
+
+use drystone::analysis::Options;
+use serde_json::{Value, json};
+
+use super::{Told, cross, dot, less, list, number, pair, told, told_with};
+use crate::structure::{arch, harmonic, on_slope, scene, wall};
+
+/// How fast a motion moves a point of a body; the ground and what is not listed rest.
+fn velocity(motions: &Value, body: &str, centroid: [f64; 2], at: [f64; 2]) -> [f64; 2] {
+    let own = list(motions).iter().find(|m| m["block"] == body);
+    own.map_or([0.0; 2], |m| {
+        let ([u, v], spin, arm) = (pair(&m["velocity"]), number(&m["spin"]), less(at, centroid));
+        [u - spin * arm[1], v + spin * arm[0]]
+    })
+}
+
+/// The power of gravity, loads and robots along a motion, and the worst power that a force of 1 N at a contact takes against it.
+fn power_and_worst(changed: &Value, motions: &Value) -> (f64, f64) {
+    let scene = scene(changed);
+    let centroid = |name: &str| {
+        let block = scene.blocks().iter().find(|block| block.id == name);
+        block.map_or([0.0; 2], |block| [block.centroid.x, block.centroid.y])
+    };
+    let speed = |name: &str, at: [f64; 2]| velocity(motions, name, centroid(name), at);
+    let down = [scene.down().x, scene.down().y];
+    let mut power = 0.0;
+    for block in scene.blocks() {
+        let at = centroid(&block.id);
+        power += block.weight * dot(down, speed(&block.id, at));
+    }
+    let spin = |name: &Value| {
+        let own = list(motions).iter().find(|m| m["block"] == *name);
+        own.map_or(0.0, |m| number(&m["spin"]))
+    };
+    for load in list(&changed["loads"]) {
+        let name = load["block"].as_str().expect("a name");
+        let at = load.get("at").map_or_else(|| centroid(name), pair);
+        power += dot(pair(&load["force"]), speed(name, at));
+        power += load["torque"].as_f64().unwrap_or(0.0) * spin(&load["block"]);
+    }
+    for robot in list(&changed["robots"]) {
+        let name = robot["holds"].as_str().expect("a name");
+        let at = robot.get("at").map_or_else(|| centroid(name), pair);
+        let ([x, y], limits) = (speed(name, at), &robot["limits"]);
+        power -= number(&limits["fx"]) * x.abs() + number(&limits["fy"]) * y.abs();
+        power -= number(&limits["torque"]) * spin(&robot["holds"]).abs();
+    }
+    let mut worst = 0.0_f64;
+    for interface in list(&told(changed).json["frames"][0]["interfaces"]) {
+        let normal = pair(&interface["normal"]);
+        let [a, b] = [0, 1].map(|k| interface["bodies"][k].as_str().expect("a name"));
+        for at in list(&interface["application_points"]) {
+            let apart = less(speed(a, pair(at)), speed(b, pair(at)));
+            let slides = number(&interface["mu"]) * cross(normal, apart).abs();
+            worst = worst.max(slides - dot(apart, normal));
+        }
+    }
+    (power, worst)
+}
+
+/// A scene whose margins are looked at, and how many motions beyond their ends were found to do work.
+struct Beyond {
+    told: Told,
+    seen: usize,
+}
+
+impl Beyond {
+    /// The motion beyond an end does work in the scene that is changed by a little more, and no contact can stop it.
+    fn holds(&mut self, motions: &Value, end: &Value, change: &dyn Fn(f64) -> Value, sign: f64) {
+        let Some(at) = end.as_f64().filter(|at| at.abs() > 1e-6) else {
+            // There is nothing below 0, and nothing beyond what has no end.
+            assert!(list(motions).is_empty(), "{end}: {motions}");
+            return;
+        };
+        let changed = change(at + sign * 1e-3 * at.abs());
+        let (power, worst) = power_and_worst(&changed, motions);
+        assert!(power > 0.0, "{power} beyond {at}: {motions} {changed}");
+        assert!(worst < 1e-5, "{worst} beyond {at}: {motions} {changed}");
+        self.seen += 1;
+    }
+
+    fn with(&self, key: &str, value: Value) -> Value {
+        let mut changed = self.told.file.clone();
+        changed[key] = value;
+        changed
+    }
+
+    fn turned(&self, degrees: f64) -> Value {
+        let angle = degrees.to_radians();
+        self.with("gravity", json!([libm::sin(angle), -libm::cos(angle)]))
+    }
+
+    fn pushed(&self, share: f64) -> Value {
+        let scene = scene(&self.told.file);
+        let mut loads = list(&self.told.file["loads"]).to_vec();
+        for block in scene.blocks() {
+            let at = [block.centroid.x, block.centroid.y];
+            let push = [share * block.weight, 0.0];
+            loads.push(json!({ "block": block.id, "force": push, "at": at }));
+        }
+        self.with("loads", json!(loads))
+    }
+
+    fn loaded(&self, factor: f64) -> Value {
+        let mut changed = self.told.file.clone();
+        for load in changed["loads"].as_array_mut().into_iter().flatten() {
+            for axis in 0..2 {
+                load["force"][axis] = json!(number(&load["force"][axis]) * factor);
+            }
+        }
+        changed
+    }
+
+    fn checked(&mut self) {
+        let margins = self.told.json["frames"][0]["margins"].clone();
+        let beyond = &margins["mechanisms"];
+        let file = self.told.file.clone();
+        let this = Beyond {
+            told: told(&file),
+            seen: 0,
+        };
+        let friction = |mu: f64| this.with("friction", json!(mu));
+        self.holds(&beyond["friction"], &margins["friction"], &friction, -1.0);
+        let kernel = |kernel: f64| this.with("kernel", json!(kernel));
+        self.holds(&beyond["kernel"], &margins["kernel"], &kernel, 1.0);
+        let loaded = |factor: f64| this.loaded(factor);
+        self.holds(
+            &beyond["load_factor"],
+            &margins["load_factor"],
+            &loaded,
+            1.0,
+        );
+        let turned = |degrees: f64| this.turned(degrees);
+        let pushed = |share: f64| this.pushed(share);
+        let changes: [(&str, &dyn Fn(f64) -> Value); 3] = [
+            ("tilt", &turned),
+            ("horizontal_load", &pushed),
+            ("load_factor", &loaded),
+        ];
+        for (key, change) in changes {
+            for (side, way) in [("left", -1.0), ("right", 1.0)] {
+                if let Some(at) = margins[key][side].as_f64() {
+                    self.holds(&beyond[key][side], &json!(way * at), change, way);
+                }
+            }
+            for (k, way) in [-1.0, 1.0].into_iter().enumerate() {
+                let both = &beyond["intervals"][key];
+                if both.is_array() {
+                    let end = &margins["intervals"][key][k];
+                    self.holds(&both[k], end, change, way);
+                }
+            }
+        }
+        for (name, robot) in margins["robots"].as_object().expect("an object") {
+            for key in ["fx", "fy", "torque"] {
+                let limited = |limit: f64| {
+                    let mut changed = file.clone();
+                    changed["robots"][0]["limits"][key] = json!(limit);
+                    changed
+                };
+                let motions = &beyond["robots"][name][key];
+                self.holds(motions, &robot[key], &limited, -1.0);
+            }
+        }
+        // Loads and limits that do not turn leave other tilts at which a frame may stand; a note says so.
+        let is_noted = list(&margins["notes"])
+            .iter()
+            .any(|note| note.as_str().is_some_and(|note| note.starts_with("tilt:")));
+        let is_cone = file["loads"].is_null() && file["robots"].is_null();
+        let has_tilt = margins["intervals"]["tilt"].is_array();
+        assert_eq!(is_noted, has_tilt && !is_cone, "{margins}");
+    }
+}
+
+/// The motions that a result lists beyond the ends of its margins, in scenes that are changed a thousandth beyond.
+#[test]
+fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
+    let mut pushed = wall(3, 2);
+    pushed["loads"] = json!([{ "block": "4", "force": [1.0, 0.0], "at": [1.0, 0.75] }]);
+    let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
+    held["robots"] =
+        json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
+    let options = Options::default().margins(true);
+    let mut seen = 0;
+    for file in [
+        arch(11, 0.3, 0.7),
+        wall(4, 3),
+        harmonic(4, 0.9),
+        pushed,
+        held,
+    ] {
+        let mut beyond = Beyond {
+            told: told_with(&file, &options),
+            seen: 0,
+        };
+        beyond.checked();
+        seen += beyond.seen;
+    }
+    assert!(seen >= 25, "{seen}");
+}

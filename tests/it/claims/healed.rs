@@ -1,0 +1,86 @@
+//! What a result says of the scene as a whole: version, title, and what healing moved.
+
+use drystone::Scene;
+use serde_json::{Value, json};
+
+use super::{less, list, number, pair, told};
+use crate::structure::wall;
+
+/// A wall turned about the origin, its coordinates written with four decimals.
+fn turned(degrees: f64) -> Value {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    let mut file = wall(4, 3);
+    for bodies in ["ground", "blocks"] {
+        for body in file[bodies].as_array_mut().expect("a list") {
+            for corner in body["polygon"].as_array_mut().expect("corners") {
+                let [x, y] = pair(corner);
+                let at = [cos * x - sin * y, sin * x + cos * y];
+                let written = at.map(|v| format!("{v:.4}").parse::<f64>().expect("a number"));
+                *corner = json!(written);
+            }
+        }
+    }
+    file["gravity"] = json!([sin, -cos]);
+    file
+}
+
+/// How far each corner of a file lies from the nearest corner of the same body of its scene, metres.
+fn moves(file: &Value) -> Vec<f64> {
+    let scene = Scene::from_json(&file.to_string()).expect("sound");
+    let blocks = scene.blocks().iter().map(|block| &block.body);
+    let ground = scene.ground().iter().map(|ground| &ground.body);
+    let bodies: Vec<_> = ground.chain(blocks).collect();
+    let written = list(&file["ground"]).iter().chain(list(&file["blocks"]));
+    let mut moves = Vec::new();
+    for (body, written) in bodies.into_iter().zip(written) {
+        for corner in list(&written["polygon"]) {
+            let distances = body.polygon.outline().iter().map(|at| {
+                let [x, y] = less(pair(corner), [at.x, at.y]);
+                libm::hypot(x, y)
+            });
+            moves.push(distances.fold(f64::INFINITY, f64::min));
+        }
+    }
+    moves
+}
+
+/// Four decimals leave corners up to 7·10⁻⁵ m off what they touch. The result counts the corners that healing moved.
+#[test]
+fn what_healing_moved_is_counted_and_measured() {
+    let mut seen = 0;
+    for degrees in [3.0, 17.3, 24.0] {
+        let mut file = turned(degrees);
+        file["title"] = json!("a wall");
+        let json = told(&file).json;
+        assert_eq!(json["drystone"], env!("CARGO_PKG_VERSION"));
+        assert_eq!(json["scene"], "a wall");
+        let tolerance = &json["contact_tolerance"];
+        // Rounding by half of the last digit, both bodies, and their diagonals: one and a half digits.
+        let gap = 1.5e-4;
+        assert_eq!(
+            (&tolerance["from"], &tolerance["digits"]),
+            (&json!("decimals"), &json!(4))
+        );
+        for key in ["gap", "healed_within"] {
+            let is_near = (number(&tolerance[key]) - gap).abs() < 1e-12;
+            assert!(is_near, "{key}: {tolerance}");
+        }
+        let moves = moves(&file);
+        let moved = moves.iter().filter(|by| **by > 1e-6 * gap);
+        assert_eq!(
+            tolerance["moved_corners"],
+            json!(moved.count()),
+            "{degrees}°"
+        );
+        let largest = moves.iter().fold(0.0_f64, |most, by| most.max(*by));
+        let stated = number(&tolerance["largest_move"]);
+        assert!((stated - largest).abs() < 1e-12, "{stated} of {largest} m");
+        assert!(stated <= gap);
+        seen += usize::from(stated > 0.0);
+    }
+    assert_eq!(seen, 3);
+    // Upright, every corner lies on what it touches.
+    let tolerance = &told(&turned(0.0)).json["contact_tolerance"];
+    let moved = (&tolerance["moved_corners"], &tolerance["largest_move"]);
+    assert_eq!(moved, (&json!(0), &json!(0.0)));
+}

@@ -1,0 +1,120 @@
+//! A sheet recalculated from its printed numbers alone: forces and moments of the whole structure and of one block.
+
+use super::{FALLS, Folder, STANDS};
+
+/// A row of a balance: the values as they are printed, and half a unit of their last digits.
+struct Row {
+    name: String,
+    values: Vec<Option<(f64, f64)>>,
+}
+
+fn number(words: &str) -> Option<(f64, f64)> {
+    let words = words.trim_matches('*').replace('−', "-");
+    let value: f64 = words.parse().ok()?;
+    let decimals = words.split_once('.').map_or(0, |(_, rest)| rest.len());
+    Some((value, 0.5 * libm::pow(10.0, -(decimals as f64))))
+}
+
+/// The balances of a page of Markdown: their captions, heads and rows.
+fn balances(page: &str) -> Vec<(String, String, Vec<Row>)> {
+    let mut found = Vec::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        if !(line.starts_with("**") && line.contains("; moments about ")) {
+            continue;
+        }
+        let mut table = lines.by_ref().skip(1).take_while(|l| l.starts_with('|'));
+        let head = table.next().expect("a head").to_owned();
+        let rows = table.skip(1).map(|row| {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            Row {
+                name: cells[0].trim_matches('*').to_owned(),
+                values: cells[1..].iter().map(|c| number(c)).collect(),
+            }
+        });
+        found.push((line.to_owned(), head, rows.collect()));
+    }
+    found
+}
+
+/// Newtons or newton metres for each unit of a column.
+fn factor(head: &str, column: usize) -> f64 {
+    let cells: Vec<&str> = head.trim_matches('|').split('|').collect();
+    match cells[column + 1].trim().rsplit(", ").next() {
+        Some(unit) if unit.starts_with('k') => 1e3,
+        Some(unit) if unit.starts_with('M') => 1e6,
+        Some(unit) if unit.starts_with('m') && unit.len() > 1 => 1e-3,
+        Some(unit) if unit.starts_with('µ') => 1e-6,
+        _ => 1.0,
+    }
+}
+
+fn check((caption, head, rows): &(String, String, Vec<Row>)) {
+    let (sum, forces) = rows.split_last().expect("rows");
+    assert_eq!(sum.name, "sum", "{caption}");
+    for column in 2..5 {
+        let printed = forces.iter().filter_map(|row| row.values[column]);
+        let (total, slack) = printed.fold((0.0, 0.0), |(t, s), (v, half)| (t + v, s + half));
+        assert!(
+            total.abs() <= slack + 1e-9,
+            "{caption}: {head}: column {column} sums to {total}"
+        );
+        let (stated, half) = sum.values[column].expect("a sum");
+        assert!(
+            stated.abs() <= half,
+            "{caption}: the printed sum is {stated}"
+        );
+    }
+    // The first row of a block cut free is its weight, at its centroid.
+    let about = match caption.contains("its centroid") {
+        true => [forces[0].values[0], forces[0].values[1]].map(|v| v.expect("a place").0),
+        false => [0.0, 0.0],
+    };
+    let (force, moment) = (factor(head, 2), factor(head, 4));
+    for row in forces {
+        // A torque adds to the moment of its force.
+        if row.name.contains("torque") {
+            continue;
+        }
+        let [Some(x), Some(y), Some(right), Some(up), Some(stated)] = row.values[..] else {
+            continue;
+        };
+        let (dx, dy) = (x.0 - about[0], y.0 - about[1]);
+        let (fx, fy) = (force * right.0, force * up.0);
+        let expected = dx * fy - dy * fx;
+        // Each printed number is off by at most half a unit of its last digit, the centroid likewise.
+        let slack = 2.0 * x.1 * fy.abs()
+            + 2.0 * y.1 * fx.abs()
+            + force * (dx.abs() * up.1 + dy.abs() * right.1)
+            + moment * stated.1;
+        let off = (expected - moment * stated.0).abs();
+        assert!(
+            off <= 1.01 * slack + 1e-9,
+            "{caption}: {}: {expected} is printed as {}",
+            row.name,
+            stated.0
+        );
+    }
+}
+
+#[test]
+fn the_printed_forces_balance_and_their_moments_follow_from_them() {
+    let arch = include_str!("../intervals/archmech.json");
+    let plank = include_str!("../intervals/plank.json");
+    let starter = include_str!("../../../assets/starter.json");
+    let folder = Folder::new(&[
+        ("in/a.json", STANDS),
+        ("in/b.json", FALLS),
+        ("in/c.json", arch),
+        ("in/d.json", plank),
+        ("in/e.json", starter),
+    ]);
+    folder.done("report in -o r.md");
+    let balances = balances(&folder.text("r.md"));
+    assert!(
+        balances.len() >= 9,
+        "two for nearly each of five scenes: {}",
+        balances.len()
+    );
+    balances.iter().for_each(check);
+}
