@@ -1,0 +1,250 @@
+"""Two robots build an arch: an environment for Gymnasium, and how fast it runs.
+
+    python examples/gym_arch.py --voussoirs 13 --seconds 5
+
+An action is a number: a robot places one of the voussoirs and holds it, or it releases what it holds. Reward: 1 for each
+voussoir that is placed and stands, 10 for the finished arch that stands alone, and -1 for a fall or an action that is not
+possible. A fall ends the episode. `solver="highs"` decides each step with a linear program of scipy instead of drystone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import random
+import time
+
+import drystone as ds
+
+try:
+    import gymnasium
+    from gymnasium.spaces import Discrete, MultiBinary
+
+    Base = gymnasium.Env
+except ImportError:
+    Base = object
+
+FRICTION = 0.7
+FORCE = 400.0
+"""What each robot can give in each direction, N."""
+TORQUE = 200.0
+"""The torque that each robot can give, N·m."""
+
+
+def voussoirs(count: int, span: float = 4.0, thickness: float = 0.6) -> list[list[tuple[float, float]]]:
+    """Outlines of the voussoirs of a half circle, from the left, metres."""
+    inner, outer = span / 2, span / 2 + thickness
+
+    def at(radius: float, number: int) -> tuple[float, float]:
+        angle = math.pi * (1 - number / count)
+        # The springings lie on the ground exactly.
+        height = 0.0 if number in (0, count) else radius * math.sin(angle)
+        return (radius * math.cos(angle), height)
+
+    return [[at(inner, n), at(outer, n), at(outer, n + 1), at(inner, n + 1)] for n in range(count)]
+
+
+class DrystoneSolver:
+    """A session of drystone."""
+
+    def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
+        self.outlines = outlines
+        scene = ds.Scene(friction=FRICTION, density=100, contact_tolerance=1e-6)
+        scene.ground([(-9, -1), (9, -1), (9, 0), (-9, 0)])
+        for robot in ("left", "right"):
+            scene.robot(robot, limits={"force": FORCE, "torque": TORQUE})
+        self.start = ds.Session(scene, verdict_only=True)
+        self.reset()
+
+    def reset(self) -> None:
+        self.session = self.start.copy()
+
+    def place(self, robot: str, number: int) -> bool:
+        self.session.place(str(number), self.outlines[number])
+        return self.session.hold(robot, str(number)) == "stable"
+
+    def release(self, robot: str) -> bool:
+        return self.session.release(robot) == "stable"
+
+
+class HighsSolver:
+    """The same question as a linear program for HiGHS. Joints are known here, which drystone finds itself."""
+
+    def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
+        import numpy
+        from scipy.optimize import linprog
+
+        self.numpy, self.linprog = numpy, linprog
+        self.outlines = outlines
+        self.centres, self.weights = [], []
+        for outline in outlines:
+            pairs = list(zip(outline, outline[1:] + outline[:1]))
+            cross = [a[0] * b[1] - b[0] * a[1] for a, b in pairs]
+            area = sum(cross) / 2
+            centre = [sum((a[k] + b[k]) * c for (a, b), c in zip(pairs, cross)) / (6 * area) for k in (0, 1)]
+            self.centres.append(centre)
+            self.weights.append(abs(area) * 100 * 9.81)
+        self.reset()
+
+    def reset(self) -> None:
+        self.placed: set[int] = set()
+        self.held: dict[str, int] = {}
+
+    def place(self, robot: str, number: int) -> bool:
+        self.placed.add(number)
+        self.held[robot] = number
+        return self.stands()
+
+    def release(self, robot: str) -> bool:
+        del self.held[robot]
+        return self.stands()
+
+    def stands(self) -> bool:
+        numpy = self.numpy
+        rows = {number: 3 * row for row, number in enumerate(sorted(self.placed))}
+        columns, limits = [], []
+
+        def column(parts: list[tuple[int, tuple[float, float], tuple[float, float]]], limit: tuple[float | None, float | None]) -> None:
+            one = numpy.zeros(3 * len(rows))
+            for number, force, at in parts:
+                if number in rows:
+                    x, y = at[0] - self.centres[number][0], at[1] - self.centres[number][1]
+                    one[rows[number] : rows[number] + 3] += (*force, x * force[1] - y * force[0])
+            columns.append(one)
+            limits.append(limit)
+
+        for joint in range(len(self.outlines) + 1):
+            before, after = joint - 1, joint
+            ends = self.outlines[after][:2] if after < len(self.outlines) else self.outlines[before][2:]
+            inner_side = [number for number in (before, after) if 0 <= number < len(self.outlines)]
+            if not all(number in rows for number in inner_side):
+                continue
+            (ax, ay), (bx, by) = ends
+            length = math.hypot(bx - ax, by - ay)
+            along = ((bx - ax) / length, (by - ay) / length)
+            normal = (-along[1], along[0])
+            inside = after if after < len(self.outlines) else before
+            centre = self.centres[inside]
+            if (centre[0] - ax) * normal[0] + (centre[1] - ay) * normal[1] < 0:
+                normal = (-normal[0], -normal[1])
+            other = before if inside == after else after
+            for at in ends:
+                for side in (-1, 1):
+                    force = tuple(normal[k] + side * FRICTION * along[k] for k in (0, 1))
+                    against = (-force[0], -force[1])
+                    column([(inside, force, at), (other, against, at)], (0, None))
+        for number in self.held.values():
+            at = self.centres[number]
+            column([(number, (1, 0), at)], (-FORCE, FORCE))
+            column([(number, (0, 1), at)], (-FORCE, FORCE))
+            couple = numpy.zeros(3 * len(rows))
+            couple[rows[number] + 2] = 1
+            columns.append(couple)
+            limits.append((-TORQUE, TORQUE))
+        if not columns:
+            return not rows
+        load = numpy.zeros(3 * len(rows))
+        for number, row in rows.items():
+            load[row + 1] = self.weights[number]
+        solved = self.linprog(
+            numpy.zeros(len(columns)), A_eq=numpy.array(columns).T, b_eq=load, bounds=limits, method="highs"
+        )
+        return solved.status == 0
+
+
+class ArchEnv(Base):
+    """The environment."""
+
+    metadata = {"render_modes": ["svg"]}
+
+    def __init__(self, count: int = 13, solver: str = "drystone") -> None:
+        self.count = count
+        outlines = voussoirs(count)
+        self.solver = DrystoneSolver(outlines) if solver == "drystone" else HighsSolver(outlines)
+        self.robots = ("left", "right")
+        if Base is not object:
+            self.action_space = Discrete(2 * count + 2)
+            self.observation_space = MultiBinary(3 * count)
+        self.render_mode = "svg"
+
+    def reset(self, *, seed=None, options=None):
+        if Base is not object:
+            super().reset(seed=seed)
+        self.solver.reset()
+        self.placed: set[int] = set()
+        self.held: dict[str, int] = {}
+        return self._observation(), {}
+
+    def actions(self) -> list[int]:
+        """The actions that are possible: a block is placed next to another or to the ground, by a robot with free hands."""
+        free = [n for n in range(self.count) if n not in self.placed and self._reachable(n)]
+        actions = [r * self.count + n for r in (0, 1) if self.robots[r] not in self.held for n in free]
+        return actions + [2 * self.count + r for r in (0, 1) if self.robots[r] in self.held]
+
+    def step(self, action):
+        if action not in self.actions():
+            return self._observation(), -1.0, False, False, {}
+        if action >= 2 * self.count:
+            robot = self.robots[action - 2 * self.count]
+            del self.held[robot]
+            stands, reward = self.solver.release(robot), 0.0
+        else:
+            robot, number = self.robots[action // self.count], int(action % self.count)
+            self.placed.add(number)
+            self.held[robot] = number
+            stands, reward = self.solver.place(robot, number), 1.0
+        if not stands:
+            return self._observation(), -1.0, True, False, {}
+        if len(self.placed) == self.count and not self.held:
+            return self._observation(), 10.0, True, False, {}
+        return self._observation(), reward, False, False, {}
+
+    def render(self):
+        return self.solver.session._repr_svg_()
+
+    def _reachable(self, number: int) -> bool:
+        return number in (0, self.count - 1) or bool({number - 1, number + 1} & self.placed)
+
+    def _observation(self):
+        held = [self.held.get(robot) for robot in self.robots]
+        values = [int(n in self.placed) for n in range(self.count)]
+        values += [int(n == one) for one in held for n in range(self.count)]
+        if Base is object:
+            return values
+        import numpy
+
+        return numpy.array(values, dtype=numpy.int8)
+
+
+def played(env: ArchEnv, seconds: float, seed: int) -> tuple[int, float, list[float]]:
+    """Random episodes: the number of steps, the seconds that they took, and all rewards."""
+    chance = random.Random(seed)
+    steps, rewards = 0, []
+    env.reset()
+    start = time.perf_counter()
+    while time.perf_counter() - start < seconds:
+        _, reward, done, _, _ = env.step(chance.choice(env.actions()))
+        rewards.append(reward)
+        steps += 1
+        if done:
+            env.reset()
+    return steps, time.perf_counter() - start, rewards
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--voussoirs", type=int, default=13)
+    parser.add_argument("--seconds", type=float, default=5.0, help="for each solver")
+    arguments = parser.parse_args()
+    found = {}
+    for solver in ("drystone", "highs"):
+        steps, seconds, rewards = played(ArchEnv(arguments.voussoirs, solver), arguments.seconds, seed=1)
+        found[solver] = (steps / seconds, rewards)
+        print(f"{solver:9} {steps / seconds:8.0f} steps/s")
+    both = min(len(rewards) for _, rewards in found.values())
+    same = sum(a == b for a, b in zip(found["drystone"][1][:both], found["highs"][1][:both]))
+    print(f"drystone makes {found['drystone'][0] / found['highs'][0]:.1f} times the steps; {same} of {both} rewards agree")
+
+
+if __name__ == "__main__":
+    main()

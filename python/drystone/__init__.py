@@ -1,0 +1,42 @@
+"""Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
+
+>>> import drystone as ds
+>>> scene = ds.Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
+>>> scene = scene.block("a", [(0, 0), (2, 0), (2, 1), (0, 1)], density=2400)
+>>> ds.check(scene).stands
+True
+"""
+
+from ._check import check, check_many
+from ._drystone import __version__, kinds, schema, themes
+from ._errors import DrystoneError, Problem, SceneError
+from ._figure import Figure
+from ._result import Frame, Record, Result, Results, Table
+from ._scene import Scene
+from ._session import Session
+
+
+def figure_kinds() -> dict[str, str]:
+    """The kinds of figures, each with a line of help; ``freebody`` of one block comes in addition."""
+    return dict(kinds())
+
+
+__all__ = [
+    "DrystoneError",
+    "Figure",
+    "Frame",
+    "Problem",
+    "Record",
+    "Result",
+    "Results",
+    "Scene",
+    "SceneError",
+    "Session",
+    "Table",
+    "__version__",
+    "check",
+    "check_many",
+    "figure_kinds",
+    "schema",
+    "themes",
+]

@@ -1,0 +1,115 @@
+"""Figures and animations."""
+
+from __future__ import annotations
+
+import base64
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _drystone
+from ._errors import DrystoneError
+
+_FORMATS = ("svg", "png", "pdf", "tikz")
+
+
+class Figure:
+    """A figure, drawn when it is asked for in a format. In a notebook it shows itself."""
+
+    def __init__(
+        self,
+        analysis: _drystone.Analysis | None,
+        frame: int | None,
+        options: Mapping[str, Any],
+        text: str = "",
+    ) -> None:
+        self._analysis = analysis
+        self._frame = frame
+        self._options = dict(options)
+        self._text = text
+
+    @classmethod
+    def of_analysis(cls, analysis: _drystone.Analysis, frame: int | None, options: Mapping[str, Any]) -> Figure:
+        """The figure of an analysis; options that do not exist are refused at once."""
+        made = cls(analysis, frame, options)
+        words(options)
+        return made
+
+    @classmethod
+    def of_problems(cls, text: str) -> Figure:
+        """The outlines of a scene that is not valid, with its problems marked."""
+        return cls(None, None, {}, text)
+
+    def svg(self) -> str:
+        """The figure as SVG."""
+        return self._bytes("svg", {}).decode()
+
+    def png(self, *, width: int | None = None, scale: float | None = None, dpi: float | None = None) -> bytes:
+        """The figure as PNG: ``width`` in pixels, pixels per unit, or dots per inch with ``width_mm``."""
+        return self._bytes("png", {"width": width, "scale": scale, "dpi": dpi})
+
+    def pdf(self) -> bytes:
+        """The figure as PDF, with its fonts in it."""
+        return self._bytes("pdf", {})
+
+    def tikz(self) -> str:
+        """The figure as TikZ, for LaTeX."""
+        return self._bytes("tikz", {}).decode()
+
+    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
+        """Writes a ``.svg``, ``.png``, ``.pdf`` or ``.tikz`` file."""
+        ending = Path(path).suffix[1:].lower()
+        if ending not in _FORMATS:
+            raise DrystoneError(f"{os.fspath(path)}: a figure is saved as .{', .'.join(_FORMATS)}")
+        Path(path).write_bytes(self._bytes(ending, options))
+
+    def _bytes(self, ending: str, options: Mapping[str, Any]) -> bytes:
+        asked = words({**self._options, **options})
+        if self._analysis is None:
+            return _drystone.sketch(self._text, asked, ending)
+        return self._analysis.figure(asked, ending, self._frame)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def _repr_html_(self) -> str:
+        return html_image(self.svg())
+
+    def __repr__(self) -> str:
+        return f"<Figure: {self._options.get('kind', 'problems')}>"
+
+
+def words(options: Mapping[str, Any]) -> list[str]:
+    """Keyword arguments as the options of ``drystone render``."""
+    made = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            made.append(option)
+        elif isinstance(value, (list, tuple)):
+            made += [f"{option}={one}" for one in value]
+        else:
+            made.append(f"{option}={os.fspath(value) if isinstance(value, os.PathLike) else value}")
+    return made
+
+
+def animate(
+    analysis: _drystone.Analysis,
+    frame: int | None,
+    path: str | os.PathLike[str],
+    options: Mapping[str, Any],
+) -> None:
+    """Writes an animation."""
+    ending = Path(path).suffix.lower()
+    if ending not in (".png", ".gif"):
+        raise DrystoneError(f"{os.fspath(path)}: an animation is a .png or a .gif")
+    Path(path).write_bytes(analysis.figure(words(options), ending[1:], frame))
+
+
+def html_image(svg: str) -> str:
+    """An SVG as an image of its own, so that names within it do not meet those of others on the page."""
+    data = base64.b64encode(svg.encode()).decode()
+    return f'<img alt="Figure" style="max-width:100%" src="data:image/svg+xml;base64,{data}">'

@@ -1,0 +1,84 @@
+"""Outlines and numbers from what people have: lists, numpy arrays, shapely polygons, GeoJSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ._errors import DrystoneError
+
+Point = Any
+"""A place ``[x, y]`` in metres: any sequence of two numbers."""
+
+Outline = Any
+"""Corners in metres: a sequence of ``[x, y]``, an n × 2 array, or anything with ``__geo_interface__``."""
+
+
+def plain(value: object) -> Any:
+    """A value of numpy as one that JSON has; for ``json.dumps(default=plain)``."""
+    for method in ("tolist", "item"):
+        convert = getattr(value, method, None)
+        if convert is not None:
+            return convert()
+    if isinstance(value, Mapping):
+        return dict(value)
+    if isinstance(value, Iterable):
+        return list(value)
+    raise DrystoneError(f"a {type(value).__name__} is no number, text, list or dict of a scene file: {value!r}")
+
+
+def ring(corners: Any) -> list[list[float]]:
+    """Corners as a list of ``[x, y]``, without the last one where it repeats the first."""
+    listed = corners.tolist() if hasattr(corners, "tolist") else corners
+    points = []
+    for corner in listed:
+        try:
+            x, y = corner
+            points.append([float(x), float(y)])
+        except (TypeError, ValueError):
+            raise DrystoneError(
+                f"corner {len(points)} is {corner!r}; a corner is [x, y], two numbers in metres"
+            ) from None
+    if len(points) > 1 and points[0] == points[-1]:
+        points.pop()
+    return points
+
+
+def rings(outline: Any) -> list[list[list[float]]]:
+    """The outer ring of an outline and those of its holes."""
+    geometry = getattr(outline, "__geo_interface__", outline)
+    if not isinstance(geometry, Mapping):
+        return [ring(geometry)]
+    kind = geometry.get("type")
+    if kind == "Feature":
+        return rings(geometry["geometry"])
+    parts = geometry.get("coordinates")
+    if kind == "MultiPolygon" and parts is not None and len(parts) == 1:
+        kind, parts = "Polygon", parts[0]
+    if kind != "Polygon" or not parts:
+        count = "" if kind != "MultiPolygon" or parts is None else f" of {len(parts)} polygons"
+        raise DrystoneError(f"a body has one polygon as its outline, not a {kind}{count}; give one body for each polygon")
+    return [ring(one) for one in parts]
+
+
+def body(outline: Outline | None, holes: Iterable[Outline] | None, keys: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a body that are given, with its outline."""
+    entry: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
+    if outline is not None:
+        outer, *inner = rings(outline)
+        entry["polygon"] = outer
+        if inner:
+            entry["holes"] = inner
+    if holes is not None:
+        entry["holes"] = entry.get("holes", []) + [ring(one) for one in holes]
+    return entry
+
+
+def block(
+    id: str | None,
+    polygon: Outline | None,
+    holes: Iterable[Outline] | None,
+    keys: dict[str, Any],
+) -> dict[str, Any]:
+    """A block of a scene file."""
+    return body(polygon, holes, {"id": None if id is None else str(id), **keys})

@@ -1,0 +1,374 @@
+"""Answers: attributes with the names of the result's keys, and tables."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+from . import _drystone
+from ._errors import DrystoneError, SceneError
+from ._figure import Figure, animate, html_image
+
+if TYPE_CHECKING:
+    import numpy
+
+    from ._scene import Scene
+
+
+class Record(dict[str, Any]):
+    """An object of a result: its keys are attributes, too."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"there is no {name}; there are {', '.join(self)}") from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(key for key in self if key.isidentifier())]
+
+
+class Table:
+    """Rows of a result by column.
+
+    Any library that reads Arrow's ``__arrow_c_stream__`` takes a table as it is: ``pyarrow.table(t)``,
+    ``polars.DataFrame(t)``.
+    """
+
+    def __init__(self, native: _drystone.Table, name: str) -> None:
+        self._native = native
+        self._name = name
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of the columns."""
+        return self._native.names()
+
+    def __len__(self) -> int:
+        return len(self._native)
+
+    def __getitem__(self, column: str) -> numpy.ndarray[Any, Any]:
+        """A column as an array."""
+        import numpy
+
+        for name, (kind, values) in zip(self._native.names(), self._native.columns()):
+            if name == column:
+                return numpy.array(values, dtype=str) if kind == "U" else numpy.frombuffer(values, dtype=kind)
+        raise KeyError(f"there is no column {column}; there are {', '.join(self.columns)}")
+
+    def to_numpy(self) -> numpy.ndarray[Any, Any]:
+        """A structured array with a field for each column."""
+        import numpy
+
+        columns = [(name, self[name]) for name in self.columns]
+        rows = numpy.empty(len(self), dtype=[(name, column.dtype) for name, column in columns])
+        for name, column in columns:
+            rows[name] = column
+        return rows
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame."""
+        import pandas
+
+        return pandas.DataFrame({name: self[name] for name in self.columns})
+
+    def to_dicts(self) -> list[dict[str, Any]]:
+        """A dict for each row; needs no other package."""
+        columns: list[Any] = []
+        for kind, values in self._native.columns():
+            if kind == "U":
+                columns.append(values)
+            else:
+                columns.append(memoryview(values).cast("d" if kind == "f8" else "q"))
+        names = self.columns
+        return [dict(zip(names, row)) for row in zip(*columns)]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray[Any, Any]:
+        rows = self.to_numpy()
+        return rows if dtype is None else rows.astype(dtype)
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return self._native.__arrow_c_stream__(requested_schema)
+
+    def __repr__(self) -> str:
+        rows = len(self)
+        return f"<{self._name}: {rows} {'row' if rows == 1 else 'rows'} of {', '.join(self.columns)}>"
+
+    def _repr_html_(self) -> str:
+        shown = self.to_dicts()[:50]
+        head = "".join(f"<th>{_escaped(name)}</th>" for name in self.columns)
+        body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row.values()) + "</tr>" for row in shown)
+        more = f"<p>… {len(self)} rows in all</p>" if len(self) > len(shown) else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+class _Answer:
+    """What a result and one of its frames share."""
+
+    _native: _drystone.Analysis
+    _frame: int | None
+
+    @property
+    def contacts(self) -> Table:
+        """Where bodies touch, with the forces on ``body_0`` in N."""
+        return self._table("contacts")
+
+    @property
+    def failures(self) -> Table:
+        """What would have to stick for it to stand, in N or N·m."""
+        return self._table("failures")
+
+    @property
+    def blocks(self) -> Table:
+        """The placed blocks: weight in N, area in m², centroid, and how they begin to move where it falls."""
+        return self._table("blocks")
+
+    @property
+    def robots(self) -> Table:
+        """Robots that hold a block, with their forces on it in N and N·m."""
+        return self._table("robots")
+
+    def _table(self, name: str) -> Table:
+        return Table(self._native.table(name, self._frame), name)
+
+    def figure(self, kind: str = "forces", *, theme: str | None = None, width_mm: float | None = None, **options: Any) -> Figure:
+        """A figure; ``drystone.figure_kinds()`` lists the kinds and ``drystone.themes()`` the themes.
+
+        ``width_mm`` is the width in print: 84 is one column of a journal, 174 two. ``options`` are those of
+        ``drystone render``: ``amounts=True``, ``fill="stress"``, ``block="a"``, ``no_title=True``.
+        """
+        return Figure.of_analysis(self._native, self._frame, {"kind": kind, "theme": theme, "width_mm": width_mm, **options})
+
+    def animate(self, path: str | os.PathLike[str], *, seconds: float = 1.0, kind: str = "forces", **options: Any) -> None:
+        """Writes the frames one after the other as a ``.gif`` or an animated ``.png``."""
+        animate(self._native, self._frame, path, {"kind": kind, "animate": seconds, **options})
+
+    def draw(self, ax: Any = None, *, forces: bool = True, labels: bool = True) -> Any:
+        """Draws on an axis of matplotlib, in metres, and returns the axis.
+
+        Blocks are patches and forces are arrows in ``ax.patches``, with ``gid`` "ground", "block:NAME", "force:NAME" and
+        "failure:NAME", so that they can be found and changed.
+        """
+        from ._matplotlib import draw
+
+        frame = self._frame if self._frame is not None else len(self._native.verdicts()) - 1
+        return draw(self._native, frame, ax, forces=forces, labels=labels)
+
+
+class Frame(_Answer):
+    """The answer for one step. Every key of ``frames[]`` of a result is an attribute."""
+
+    def __init__(self, result: Result, number: int) -> None:
+        self._result = result
+        self._native = result._native
+        self._frame = number
+
+    @property
+    def number(self) -> int:
+        """Its number, from 0."""
+        assert self._frame is not None
+        return self._frame
+
+    @property
+    def verdict(self) -> str:
+        """"stable", "unstable" or "undecided"."""
+        return self._native.verdicts()[self.number]
+
+    @property
+    def stands(self) -> bool:
+        """Whether it stands, which is proved."""
+        return self.verdict == "stable"
+
+    @property
+    def margins(self) -> Any:
+        """How far it is from the edge of standing; ``None`` where margins were not asked for."""
+        return self._record().get("margins")
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._record(), name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._record()]
+
+    def __bool__(self) -> bool:
+        raise TypeError("a frame is neither true nor false; ask for .stands")
+
+    def _record(self) -> Record:
+        record: Record = self._result._record()["frames"][self.number]
+        return record
+
+    def __repr__(self) -> str:
+        title = f" {self.title!r}" if self.title else ""
+        return f"<Frame {self.number}{title}: {_WORDS[self.verdict]}>"
+
+    def _repr_html_(self) -> str:
+        return f"<p><b>{_escaped(repr(self)[1:-1])}</b></p>{self.figure()._repr_html_()}"
+
+
+class Result(_Answer):
+    """What was found out about a scene. Every key of ``check --json`` is an attribute."""
+
+    def __init__(self, native: _drystone.Analysis, scene: Scene | None) -> None:
+        self._native = native
+        self._frame = None
+        self._scene = scene
+        self._path = None if scene is None else scene._path
+        self._read: Record | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene. The result of a session has none."""
+        if self._scene is None:
+            raise DrystoneError("a session has no scene file; build a Scene with its blocks and check that")
+        return self._scene
+
+    @property
+    def stands(self) -> bool:
+        """Whether every frame stands, which is proved."""
+        return self._native.stands()
+
+    @property
+    def verdict(self) -> str:
+        """The worst verdict of all frames: "stable", "unstable" or "undecided"."""
+        verdicts = self._native.verdicts()
+        return next((word for word in ("unstable", "undecided") if word in verdicts), "stable")
+
+    @property
+    def frames(self) -> list[Frame]:
+        """A frame for each step, or one for a scene without steps."""
+        return [Frame(self, number) for number in range(len(self._native.verdicts()))]
+
+    @property
+    def margins(self) -> Any:
+        """The margins of the only frame; a scene with several frames has them in ``frames[i].margins``."""
+        frames = self.frames
+        if len(frames) != 1:
+            raise DrystoneError(f"the scene has {len(frames)} frames, each with its margins; ask for frames[i].margins")
+        return frames[0].margins
+
+    def to_json(self, *, timing: bool = True) -> str:
+        """The result as ``drystone check --json`` prints it."""
+        return self._native.to_json(self._path, timing, True)
+
+    def to_dict(self, *, timing: bool = True) -> dict[str, Any]:
+        """The result as ``drystone check --json`` prints it, without solving times where ``timing`` is false."""
+        made: dict[str, Any] = json.loads(self._native.to_json(self._path, timing, False))
+        return made
+
+    def report(self, path: str | os.PathLike[str], *, title: str | None = None, theme: str | None = None) -> None:
+        """Writes a report: ``.html``, ``.pdf``, ``.md`` or ``.json``."""
+        text = self.scene.to_json()
+        self._native.report(os.fspath(path), self._path or "scene.json", text, title, theme)
+
+    def _record(self) -> Record:
+        if self._read is None:
+            self._read = json.loads(self._native.to_json(self._path, True, False), object_hook=Record)
+        return self._read
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._record(), name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._record()]
+
+    def __bool__(self) -> bool:
+        raise TypeError("a result is neither true nor false; ask for .stands")
+
+    def __repr__(self) -> str:
+        verdicts = self._native.verdicts()
+        if len(verdicts) == 1:
+            return f"<Result: {_WORDS[verdicts[0]]}>"
+        return f"<Result: {len(verdicts)} frames, {_counted(verdicts)}>"
+
+    def _repr_svg_(self) -> str:
+        return self.figure().svg()
+
+    def _repr_html_(self) -> str:
+        frames = self.frames
+        rows = "".join(
+            f"<tr><td>{frame.number}</td><td style='text-align:left'>{_escaped(frame.title)}</td>"
+            f"<td>{_WORDS[frame.verdict]}</td><td>{frame.weight:.4g} N</td><td>{frame.total_sticking:.4g} N</td></tr>"
+            for frame in frames
+        )
+        head = "<tr><th>frame</th><th>title</th><th>verdict</th><th>weight</th><th>missing</th></tr>"
+        table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
+        return html_image(self.figure().svg()) + table
+
+
+class Results(Sequence["Result | SceneError"]):
+    """The results of many scenes, in their order."""
+
+    def __init__(self, results: list[Result | SceneError]) -> None:
+        self._results = results
+
+    @overload
+    def __getitem__(self, index: int) -> Result | SceneError: ...
+    @overload
+    def __getitem__(self, index: slice) -> Results: ...
+    def __getitem__(self, index: int | slice) -> Result | SceneError | Results:
+        if isinstance(index, slice):
+            return Results(self._results[index])
+        return self._results[index]
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def __iter__(self) -> Iterator[Result | SceneError]:
+        return iter(self._results)
+
+    @property
+    def verdicts(self) -> list[str]:
+        """The verdict of each scene, "refused" where it is not valid."""
+        return ["refused" if isinstance(one, SceneError) else one.verdict for one in self._results]
+
+    @property
+    def table(self) -> Table:
+        """A row for each frame of each valid scene: verdict, sums and margins."""
+        natives = [None if isinstance(one, SceneError) else one._native for one in self._results]
+        return Table(_drystone.summary(natives), "results")
+
+    def to_pandas(self) -> Any:
+        """The table as a pandas DataFrame."""
+        return self.table.to_pandas()
+
+    def to_numpy(self) -> numpy.ndarray[Any, Any]:
+        """The table as a structured array."""
+        return self.table.to_numpy()
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return self.table.__arrow_c_stream__(requested_schema)
+
+    def __repr__(self) -> str:
+        counts = _counted(self.verdicts)
+        return f"<Results: {len(self)} scenes{': ' if counts else ''}{counts}>"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{_escaped(repr(self)[1:-1])}</p>{self.table._repr_html_()}"
+
+
+_WORDS = {"stable": "stands", "unstable": "falls", "undecided": "undecided"}
+
+
+_PLURALS = {"stable": "stand", "unstable": "fall", "undecided": "undecided", "refused": "not valid"}
+
+
+def _counted(verdicts: list[str]) -> str:
+    """How often each verdict is there, in words."""
+    counts = [(verdicts.count(word), word, plural) for word, plural in _PLURALS.items() if word in verdicts]
+    return ", ".join(f"{count} {_WORDS.get(word, plural) if count == 1 else plural}" for count, word, plural in counts)
+
+
+def _escaped(text: str) -> str:
+    import html
+
+    return html.escape(text)
+
+
+def _cell(value: object) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else _escaped(str(value))

@@ -1,0 +1,348 @@
+"""The builder of scenes: keyword arguments with the names of the scene file's keys."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from . import _drystone, _geometry
+from ._errors import DrystoneError, SceneError
+from ._figure import Figure
+from ._geometry import Outline, Point
+
+
+class Scene:
+    """A structure of blocks, ground and robots, and the steps in which it is built.
+
+    Lengths are in metres, forces in newtons, masses in kilograms, angles in degrees anticlockwise; y points up. The names
+    of arguments are the keys of a scene file. What is not given has the default of the file format. Methods that add
+    something return the scene.
+
+    A scene is checked as a whole when it is used; :meth:`validate` checks it at once.
+
+    >>> scene = Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
+    >>> scene.block("post", [(0, 0), (1, 0), (1, 3), (0, 3)], density=2400)
+    <Scene: 1 block, 1 part of the ground>
+    """
+
+    def __init__(
+        self,
+        title: str | None = None,
+        *,
+        author: str | None = None,
+        project: str | None = None,
+        date: str | None = None,
+        friction: float | None = None,
+        density: float | None = None,
+        thickness: float | None = None,
+        gravity: Point | None = None,
+        kernel: float | None = None,
+        contact_tolerance: float | None = None,
+        corner_contacts: bool | None = None,
+        grid: Mapping[str, Any] | None = None,
+        expect: str | None = None,
+        silence: Sequence[str] | None = None,
+    ) -> None:
+        given = {
+            "title": title,
+            "author": author,
+            "project": project,
+            "date": date,
+            "friction": friction,
+            "density": density,
+            "thickness": thickness,
+            "gravity": gravity,
+            "kernel": kernel,
+            "contact_tolerance": contact_tolerance,
+            "corner_contacts": corner_contacts,
+            "grid": grid,
+            "expect": expect,
+            "silence": silence,
+        }
+        self._file: dict[str, Any] | None = {"drystone": 1}
+        self._file.update((key, value) for key, value in given.items() if value is not None)
+        self._file["blocks"] = []
+        # The text of the scene; where it is a file that somebody wrote, problems have lines.
+        self._text: str | None = None
+        self._located = False
+        self._path: str | None = None
+
+    @classmethod
+    def from_json(cls, text: str) -> Scene:
+        """A scene from the text of a scene file. Problems have lines and columns."""
+        scene = cls()
+        scene._file, scene._text, scene._located = None, text, True
+        return scene
+
+    @classmethod
+    def from_dict(cls, file: Mapping[str, Any]) -> Scene:
+        """A scene from the keys of a scene file; ``drystone: 1`` may be left out."""
+        scene = cls()
+        made = json.loads(_dumps({"drystone": 1, **file}))
+        made.setdefault("blocks", [])
+        scene._file = made
+        return scene
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Scene:
+        """A scene from a scene file."""
+        try:
+            text = Path(path).read_text(encoding="utf-8-sig")
+        except UnicodeDecodeError as error:
+            raise DrystoneError(f"{os.fspath(path)} is no UTF-8 text: {error}; save it as UTF-8") from None
+        scene = cls.from_json(text)
+        scene._path = os.fspath(path)
+        return scene
+
+    @classmethod
+    def from_compas(cls, assembly: Any, *, plane: str = "xz", **keys: Any) -> Scene:
+        """A scene from an assembly of prismatic blocks of ``compas_assembly``.
+
+        The blocks are prisms across ``plane`` ("xz", "yz" or "xy"); their outlines are seen in that plane. Supports
+        become ground. ``keys`` are those of a scene; ``thickness`` is that of the blocks unless it is given.
+        """
+        from ._compas import scene_of
+
+        return scene_of(cls, assembly, plane, keys)
+
+    def ground(
+        self,
+        polygon: Outline | None = None,
+        *,
+        holes: Iterable[Outline] | None = None,
+        cells: Sequence[Sequence[Any]] | None = None,
+        shape: str | None = None,
+        at: Point | None = None,
+        angle: float | None = None,
+        friction: float | None = None,
+        material: str | None = None,
+        fill: str | None = None,
+    ) -> Scene:
+        """Adds a part of the ground: it carries anything and never moves."""
+        keys = _without(locals(), "self", "polygon", "holes")
+        return self._add("ground", _geometry.body(polygon, holes, keys))
+
+    def block(
+        self,
+        id: str | None = None,
+        polygon: Outline | None = None,
+        *,
+        holes: Iterable[Outline] | None = None,
+        cells: Sequence[Sequence[Any]] | None = None,
+        shape: str | None = None,
+        at: Point | None = None,
+        angle: float | None = None,
+        weight: float | None = None,
+        mass: float | None = None,
+        density: float | None = None,
+        friction: float | None = None,
+        material: str | None = None,
+        fill: str | None = None,
+    ) -> Scene:
+        """Adds a rigid block; one of ``polygon``, ``cells`` and ``shape`` says what it is."""
+        keys = _without(locals(), "self", "id", "polygon", "holes")
+        return self._add("blocks", _geometry.block(id, polygon, holes, keys))
+
+    def blocks(self, features: Any, *, id: str = "id", **keys: Any) -> Scene:
+        """Adds a block for each feature of a GeoDataFrame, or of anything whose ``__geo_interface__`` is a FeatureCollection.
+
+        Columns with the name of a key of a block, such as ``density`` or ``fill``, become that key; ``id`` names the
+        column of the names, and where there is none, blocks are numbered. ``keys`` are the same for all blocks.
+        """
+        collection = getattr(features, "__geo_interface__", features)
+        if not isinstance(collection, Mapping) or "features" not in collection:
+            raise DrystoneError("blocks come from a FeatureCollection, such as a GeoDataFrame; one block is added by block()")
+        known = _drystone_keys("BlockEntry") - {"id", "polygon", "holes", "cells"}
+        for feature in collection["features"]:
+            columns = {key: value for key, value in (feature.get("properties") or {}).items() if not _is_missing(value)}
+            own = {key: value for key, value in columns.items() if key in known and key != id}
+            name = columns.get(id)
+            self._add("blocks", _geometry.block(None if name is None else str(name), feature, None, {**keys, **own}))
+        return self
+
+    def shape(
+        self,
+        name: str,
+        polygon: Outline | None = None,
+        *,
+        holes: Iterable[Outline] | None = None,
+        cells: Sequence[Sequence[Any]] | None = None,
+    ) -> Scene:
+        """Adds a shape that bodies use by its name."""
+        return self._name("shapes", name, _geometry.body(polygon, holes, {"cells": cells}))
+
+    def material(
+        self,
+        name: str,
+        *,
+        density: float | None = None,
+        friction: float | None = None,
+        fill: str | None = None,
+    ) -> Scene:
+        """Adds a material that bodies use by its name."""
+        return self._name("materials", name, _without(locals(), "self", "name"))
+
+    def friction_pair(self, first: str, second: str, friction: float) -> Scene:
+        """Sets the friction coefficient between two materials."""
+        return self._add("friction_pairs", {"between": [first, second], "friction": friction})
+
+    def robot(
+        self,
+        id: str | None = None,
+        *,
+        limits: Mapping[str, float] | None = None,
+        holds: str | None = None,
+        at: Point | None = None,
+    ) -> Scene:
+        """Adds a robot. ``limits`` has ``force``, ``fx`` and ``fy`` in N and ``torque`` in N·m."""
+        return self._add("robots", _without(locals(), "self"))
+
+    def load(
+        self,
+        block: str,
+        force: Point | None = None,
+        *,
+        at: Point | None = None,
+        torque: float | None = None,
+    ) -> Scene:
+        """Adds a load on a block: a force in N, a torque in N·m, or both."""
+        return self._add("loads", _without(locals(), "self"))
+
+    def step(
+        self,
+        title: str | None = None,
+        *,
+        release: Sequence[str] | None = None,
+        remove: Sequence[str] | None = None,
+        place: Sequence[str] | None = None,
+        hold: Mapping[str, Any] | None = None,
+        plan: Mapping[str, str] | None = None,
+        expect: str | None = None,
+    ) -> Scene:
+        """Adds a step of the assembly; within it robots release, then blocks are removed, placed and held."""
+        return self._add("steps", _without(locals(), "self"))
+
+    def validate(self) -> Scene:
+        """Checks the scene without analysing it.
+
+        Raises :class:`SceneError` with everything that is wrong.
+        """
+        _drystone.read(self._json(), self._located)
+        return self
+
+    def to_dict(self) -> dict[str, Any]:
+        """The keys of the scene file."""
+        made: dict[str, Any] = json.loads(_dumps(self._loaded()))
+        return made
+
+    def to_json(self) -> str:
+        """The text of the scene file: as it was read, or in the layout of the program."""
+        return self._json() if self._located else _drystone.formatted(self._json())
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the scene file."""
+        Path(path).write_text(self.to_json(), encoding="utf-8")
+
+    def copy(self) -> Scene:
+        """A scene of its own with the same content."""
+        return copy.deepcopy(self)
+
+    def __eq__(self, other: object) -> bool:
+        return self.to_dict() == other.to_dict() if isinstance(other, Scene) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        try:
+            file = self._loaded()
+        except SceneError:
+            return "<Scene: no JSON>"
+        counted = [
+            _counted(file, "blocks", "block", "blocks", always=True),
+            _counted(file, "ground", "part of the ground", "parts of the ground"),
+            _counted(file, "robots", "robot", "robots"),
+            _counted(file, "steps", "step", "steps"),
+        ]
+        title = f" {file['title']!r}" if file.get("title") else ""
+        return f"<Scene{title}: {', '.join(part for part in counted if part)}>"
+
+    def _repr_svg_(self) -> str:
+        """The figure of its forces, or its problems where it has any."""
+        return self._picture().svg()
+
+    def _repr_html_(self) -> str:
+        return self._picture()._repr_html_()
+
+    def _picture(self) -> Figure:
+        from ._check import check
+
+        try:
+            return check(self).figure()
+        except SceneError:
+            return Figure.of_problems(self._json())
+
+    def _json(self) -> str:
+        """The text that is analysed."""
+        if self._text is None:
+            self._text = _dumps(self._file)
+        return self._text
+
+    def _loaded(self) -> dict[str, Any]:
+        """The keys, read from the text where they have not been yet."""
+        if self._file is None:
+            text = self._json()
+            try:
+                self._file = json.loads(text)
+            except ValueError:
+                _drystone.read(text, self._located)
+                raise
+            if not isinstance(self._file, dict):
+                self._file = None
+                _drystone.read(text, self._located)
+        assert self._file is not None
+        return self._file
+
+    def _changed(self) -> dict[str, Any]:
+        file = self._loaded()
+        self._text, self._located = None, False
+        return file
+
+    def _add(self, key: str, entry: dict[str, Any]) -> Scene:
+        given = {name: value for name, value in entry.items() if value is not None}
+        self._changed().setdefault(key, []).append(given)
+        return self
+
+    def _name(self, key: str, name: str, entry: dict[str, Any]) -> Scene:
+        given = {key: value for key, value in entry.items() if value is not None}
+        self._changed().setdefault(key, {})[name] = given
+        return self
+
+
+def _dumps(value: object) -> str:
+    try:
+        return json.dumps(value, default=_geometry.plain, separators=(",", ":"), allow_nan=False)
+    except ValueError as error:
+        raise DrystoneError(f"a number of the scene is infinite or not a number: {error}") from None
+
+
+def _without(names: dict[str, Any], *left_out: str) -> dict[str, Any]:
+    return {name: value for name, value in names.items() if name not in left_out and value is not None}
+
+
+def _is_missing(value: object) -> bool:
+    return value is None or value != value
+
+
+def _counted(file: dict[str, Any], key: str, one: str, several: str, *, always: bool = False) -> str:
+    count = len(file.get(key) or ())
+    return f"{count} {one if count == 1 else several}" if count or always else ""
+
+
+def _drystone_keys(name: str) -> set[str]:
+    """The keys of an object of the scene file, from the schema."""
+    schema = json.loads(_drystone.schema())
+    return set(schema["$defs"][name]["properties"])

@@ -1,0 +1,102 @@
+"""Sessions: a verdict after every step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from . import _drystone, _geometry
+from ._check import AnyScene, Margins, as_scene, asked
+from ._geometry import Outline, Point
+from ._result import Result
+from ._scene import _dumps
+
+
+class Session:
+    """A structure under construction, for planners and training loops.
+
+    It starts with a scene without steps. Each step returns the verdict: "stable", "unstable" or "undecided". A step that is
+    not possible raises :class:`DrystoneError` and changes nothing.
+
+    >>> from drystone import Scene
+    >>> session = Session(Scene().ground([(-9, -1), (9, -1), (9, 0), (-9, 0)]).robot("crane"))
+    >>> session.place("a", [(0, 0), (3, 0), (3, 1), (0, 1)])
+    'stable'
+    >>> session.place("b", [(2, 1), (5, 1), (5, 2), (2, 2)])
+    'unstable'
+    >>> session.hold("crane", "b")
+    'stable'
+    """
+
+    def __init__(self, scene: AnyScene, *, accuracy: str = "standard", verdict_only: bool = False) -> None:
+        start = as_scene(scene)
+        options = asked(False, False, verdict_only, accuracy, None, None, True, start._located)
+        self._native = _drystone.Session(start._json(), options)
+
+    def place(
+        self,
+        id: str | None = None,
+        polygon: Outline | None = None,
+        *,
+        holes: Iterable[Outline] | None = None,
+        **keys: Any,
+    ) -> str:
+        """Places a block; the arguments are those of :meth:`Scene.block`."""
+        return self._native.place(_dumps(_geometry.block(id, polygon, holes, keys)))
+
+    def remove(self, block: str) -> str:
+        """Removes a block and the loads on it."""
+        return self._native.remove(block)
+
+    def hold(self, robot: str, block: str, at: Point | None = None) -> str:
+        """Makes a robot hold a block, at a point in metres or at its centroid."""
+        return self._native.hold(robot, block, None if at is None else (float(at[0]), float(at[1])))
+
+    def release(self, robot: str) -> str:
+        """Makes a robot release its block."""
+        return self._native.release(robot)
+
+    @property
+    def verdict(self) -> str:
+        """The verdict on the placed blocks."""
+        return self._native.verdict
+
+    @property
+    def stands(self) -> bool:
+        """Whether the placed blocks stand, which is proved."""
+        return self._native.verdict == "stable"
+
+    @property
+    def blocks(self) -> list[str]:
+        """The names of the placed blocks, in the order of placing."""
+        return self._native.blocks
+
+    @property
+    def holds(self) -> dict[str, str]:
+        """The robots that hold a block, each with that block."""
+        return dict(self._native.holds)
+
+    def check(self, *, margins: Margins = False, wedging: bool = False) -> Result:
+        """The complete analysis of the placed blocks. It has no scene file."""
+        options = asked(margins, wedging, False, "standard", None, None, True, False)
+        return Result(self._native.analysis(options), None)
+
+    def margins(self, *kinds: str) -> Any:
+        """The margins of the placed blocks, all or those that are named."""
+        return self.check(margins=kinds or True).margins
+
+    def copy(self) -> Session:
+        """A session of its own in the same state, to try steps in."""
+        made = Session.__new__(Session)
+        made._native = self._native.copy()
+        return made
+
+    def __repr__(self) -> str:
+        count = len(self.blocks)
+        return f"<Session: {count} {'block' if count == 1 else 'blocks'}, {self.verdict}>"
+
+    def _repr_svg_(self) -> str:
+        return self.check().figure().svg()
+
+    def _repr_html_(self) -> str:
+        return self.check().figure()._repr_html_()

@@ -1,0 +1,55 @@
+"""The environment and the notebook of the examples."""
+
+import ast
+import importlib.util
+import json
+
+import pytest
+from conftest import ROOT
+
+
+def test_the_environment_builds_an_arch():
+    spec = importlib.util.spec_from_file_location("gym_arch", ROOT / "examples/gym_arch.py")
+    gym_arch = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(gym_arch)
+    env = gym_arch.ArchEnv(5)
+    observation, _ = env.reset()
+    assert sum(observation) == 0
+    # Both robots work inwards from the springings; the keystone joins the halves.
+    total, done = 0.0, False
+    for action in (0, 10, 9, 11, 1, 8, 10, 2):
+        _, reward, done, _, _ = env.step(action)
+        total += reward
+        if done:
+            break
+    assert (total, done) != (0.0, False)
+    assert "<svg" in env.render()
+    assert env.step(99)[1] == -1.0
+    pytest.importorskip("scipy")
+    plays = [gym_arch.played(gym_arch.ArchEnv(7, solver), 0.5, seed=3)[2] for solver in ("drystone", "highs")]
+    count = min(map(len, plays))
+    assert count > 10 and plays[0][:count] == plays[1][:count]
+
+
+def test_the_notebook_runs(tmp_path, monkeypatch):
+    for name in ("numpy", "pandas", "matplotlib"):
+        pytest.importorskip(name)
+    import matplotlib
+
+    matplotlib.use("Agg")
+    monkeypatch.chdir(tmp_path)
+    cells = json.loads((ROOT / "examples/drystone.ipynb").read_text(encoding="utf-8"))["cells"]
+    names, shown = {}, 0
+    for cell in cells:
+        if cell["cell_type"] != "code":
+            continue
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, "cell", "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
+            html = getattr(value, "_repr_html_", None)
+            if html is not None:
+                assert len(html()) > 100
+                shown += 1
+    assert shown >= 4

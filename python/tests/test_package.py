@@ -1,0 +1,109 @@
+"""The package itself: types, documentation, memory, the wheel."""
+
+import doctest
+import importlib
+import os
+import pkgutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import FLOOR, ROOT, brick
+
+import drystone as ds
+
+
+def test_doctests_of_the_package_and_the_page():
+    names = [module.name for module in pkgutil.iter_modules(ds.__path__) if module.name != "__main__"]
+    tried = 0
+    for module in [ds, *(importlib.import_module(f"drystone.{name}") for name in names)]:
+        result = doctest.testmod(module)
+        assert result.failed == 0
+        tried += result.attempted
+    assert tried >= 8
+
+
+def test_the_page_is_true(tmp_path, monkeypatch):
+    pytest.importorskip("numpy")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text((ROOT / "assets/thesis/figure-4.json").read_text(encoding="utf-8"))
+    page = ROOT / "python/README.md"
+    result = doctest.testfile(str(page), module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert result.failed == 0 and result.attempted > 20
+
+
+def test_the_lines_of_the_readme_run(tmp_path, monkeypatch):
+    pytest.importorskip("numpy")
+    monkeypatch.chdir(tmp_path)
+    lines = (ROOT / "README.md").read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
+    names = {}
+    exec(lines, names)
+    assert names["result"].stands and (tmp_path / "figure.pdf").stat().st_size > 1000
+
+
+def test_types():
+    pytest.importorskip("mypy")
+    clean = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", ROOT / "python/drystone"],
+        capture_output=True,
+        text=True,
+    )
+    assert clean.returncode == 0, clean.stdout + clean.stderr
+    stubs = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "drystone._drystone"], capture_output=True, text=True, cwd=ROOT / "python"
+    )
+    assert stubs.returncode == 0, stubs.stdout + stubs.stderr
+
+
+def test_the_package_says_that_it_has_types():
+    assert (Path(ds.__file__).parent / "py.typed").exists()
+    assert (Path(ds.__file__).parent / "_drystone.pyi").exists()
+    assert all(hasattr(ds, name) for name in ds.__all__)
+
+
+def test_one_wheel_serves_every_python():
+    """The module uses the stable interface of Python 3.10, and the wheel says so."""
+    module = Path(ds._drystone.__file__).name
+    if sys.platform == "linux":
+        assert ".abi3." in module
+    wheels = sorted(Path(os.environ.get("DRYSTONE_WHEELS", ROOT / "target/wheels")).glob("drystone-*.whl"))
+    if not wheels:
+        pytest.skip("no wheel was built")
+    for wheel in wheels:
+        assert "-cp310-abi3-" in wheel.name
+        if os.environ.get("DRYSTONE_WHEEL_IS_RELEASED"):
+            assert wheel.stat().st_size <= 12_000_000
+
+
+def resident():
+    """The memory of this process, bytes."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGESIZE")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_nothing_leaks():
+    """Memory does not grow with the number of scenes; DRYSTONE_LEAK_SCENES sets it, 100000 for the full test."""
+    count = int(os.environ.get("DRYSTONE_LEAK_SCENES", "1000"))
+    scene = ds.Scene().ground(FLOOR).block("a", brick(0, 0)).block("b", brick(1, 1))
+    wrong = ds.Scene().block("a", brick(0, 0)).block("b", brick(1, 0))
+    session = ds.Session(ds.Scene().ground(FLOOR).block("a", brick(0, 0)))
+
+    def once():
+        result = ds.check(scene)
+        result.contacts.__arrow_c_stream__()
+        result.to_dict()
+        result.contacts.to_dicts()
+        with pytest.raises(ds.SceneError):
+            ds.check(wrong)
+        session.place("c", brick(1, 1))
+        session.copy().verdict
+        session.remove("c")
+
+    for _ in range(max(200, count // 10)):
+        once()
+    before = resident()
+    for _ in range(count):
+        once()
+    assert resident() - before < 8_000_000 + 20 * count

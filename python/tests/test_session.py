@@ -1,0 +1,63 @@
+"""Sessions."""
+
+import pytest
+from conftest import FLOOR, brick
+
+import drystone as ds
+
+
+@pytest.fixture
+def session():
+    return ds.Session(ds.Scene(friction=0.6).ground(FLOOR).robot("crane"))
+
+
+def test_a_step_gives_a_verdict(session):
+    assert session.place("a", brick(0, 0)) == "stable"
+    assert session.place("b", brick(2, 1)) == "unstable"
+    assert session.hold("crane", "b") == "stable"
+    assert session.holds == {"crane": "b"}
+    assert session.place(polygon=brick(-1, 1)) == "stable"
+    assert session.release("crane") == "unstable"
+    assert not session.stands
+    assert session.remove("b") == "stable"
+    assert session.blocks == ["a", "1"]
+    assert repr(session) == "<Session: 2 blocks, stable>"
+
+
+def test_a_step_that_is_not_possible_changes_nothing(session):
+    session.place("a", brick(0, 0))
+    with pytest.raises(ds.SceneError) as caught:
+        session.place("b", brick(1, 0))
+    assert caught.value.problems[0].code == "overlap"
+    for wrong, words in (
+        (lambda: session.place("a", brick(3, 0)), "already"),
+        (lambda: session.remove("z"), "no block z"),
+        (lambda: session.hold("crane", "z"), "no block z"),
+        (lambda: session.hold("nobody", "a"), "no robot nobody"),
+        (lambda: session.release("crane"), "holds nothing"),
+        (lambda: session.place("c", brick(3, 0), colour="red"), "colour"),
+        (lambda: ds.Session(ds.Scene().block("a", brick(0, 0)).step(place=["a"])), "steps"),
+    ):
+        with pytest.raises(ds.DrystoneError, match=words):
+            wrong()
+    assert session.blocks == ["a"] and session.verdict == "stable"
+
+
+def test_a_copy_is_apart(session):
+    session.place("a", brick(0, 0))
+    other = session.copy()
+    other.place("b", brick(2, 1))
+    assert (session.verdict, other.verdict) == ("stable", "unstable")
+    assert session.blocks == ["a"]
+
+
+def test_a_session_agrees_with_a_scene(session):
+    session.place("a", brick(0, 0))
+    session.hold("crane", "a", at=(1, 0.5))
+    scene = ds.Scene(friction=0.6).ground(FLOOR).robot("crane", holds="a", at=[1, 0.5]).block("a", brick(0, 0))
+    mine, known = session.check(margins=True), ds.check(scene, margins=True)
+    assert mine.to_dict(timing=False)["frames"] == known.to_dict(timing=False)["frames"]
+    assert session.margins("friction").friction == known.margins.friction
+    assert "<svg" in session._repr_svg_()
+    with pytest.raises(ds.DrystoneError, match="no scene file"):
+        mine.report("sheet.html")

@@ -1,0 +1,137 @@
+//! Pictures and reports of an analysis for Python.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+
+use super::{Ring, fault};
+use crate::analysis::Analysis;
+use crate::cli::render::embedded;
+use crate::cli::script;
+use crate::drawing::Theme;
+use crate::geometry::Polygon;
+use crate::output::file::{Existing, write_whole};
+use crate::output::fonts::Fonts;
+use crate::report::entry::{Entry, File, ReportOptions};
+use crate::report::page::{Form, Piece, Report};
+use crate::scene::Scene;
+
+/// The bytes of a figure of all frames, or of one.
+pub(super) fn drawn(
+    found: &Analysis,
+    words: &[String],
+    ending: &str,
+    frame: Option<usize>,
+) -> Result<Vec<u8>, String> {
+    match frame {
+        None => embedded::figure(words, ending, found),
+        Some(number) => embedded::figure(words, ending, &alone(found, number)),
+    }
+}
+
+/// An analysis cut down to one of its frames.
+fn alone(found: &Analysis, frame: usize) -> Analysis {
+    let mut one = found.clone();
+    let mut scene = (*found.scene).clone();
+    scene.frames = scene.frames.into_iter().skip(frame).take(1).collect();
+    one.frames = one.frames.into_iter().skip(frame).take(1).collect();
+    one.scene = Arc::new(scene);
+    one
+}
+
+/// The bytes of the outlines of a refused scene with its problems marked.
+#[pyfunction]
+pub(super) fn sketch(
+    py: Python<'_>,
+    text: &str,
+    words: Vec<String>,
+    ending: &str,
+) -> PyResult<Vec<u8>> {
+    py.detach(|| embedded::sketch(&words, ending, text))
+        .map_err(|why| fault(py, &why))
+}
+
+/// Names and rings of the bodies; parts of the ground have no name.
+pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
+    let rings = |polygon: &Polygon| {
+        let rings = polygon.rings().iter();
+        rings
+            .map(|ring| ring.iter().map(|p| [p.x, p.y]).collect())
+            .collect()
+    };
+    let ground = scene.ground().iter();
+    let ground = ground.map(|part| (None, rings(&part.body.polygon)));
+    let blocks = scene.blocks().iter();
+    let blocks = blocks.map(|block| (Some(block.id.clone()), rings(&block.body.polygon)));
+    ground.chain(blocks).collect()
+}
+
+/// Writes a report on one scene, of which the name and the text are given.
+pub(super) fn report(
+    found: &Analysis,
+    path: &str,
+    [name, text]: [&str; 2],
+    title: Option<String>,
+    theme: Option<&str>,
+) -> Result<(), String> {
+    let path = PathBuf::from(path);
+    let part = |part: Option<&std::ffi::OsStr>| {
+        part.map_or_else(String::new, |p| p.to_string_lossy().into_owned())
+    };
+    let form = match part(path.extension()).to_ascii_lowercase().as_str() {
+        "html" => Form::Html,
+        "md" => Form::Markdown,
+        "pdf" => Form::Pdf,
+        "json" => Form::Json,
+        other => {
+            return Err(format!(
+                "a report is .html, .md, .pdf or .json, not {other:?}"
+            ));
+        }
+    };
+    let chosen = match theme {
+        Some(name) => Theme::named(name).ok_or_else(|| {
+            let known = Theme::NAMES.join(", ");
+            format!("there is no theme {name}; it is one of {known}")
+        })?,
+        None => Theme::default(),
+    };
+    let mut found = found.clone();
+    if form == Form::Pdf {
+        // Its words are drawn here, in our fonts.
+        found.scene = Arc::new(script::legible(&found.scene, &Fonts::default()));
+    }
+    let wanted = ReportOptions {
+        theme: chosen,
+        theme_name: theme.map(str::to_owned),
+        ..ReportOptions::default()
+    };
+    let stem = part(path.file_stem());
+    let entry = Entry::new(File { name, text }, &found, &wanted);
+    let words = |error: &dyn std::error::Error| error.to_string();
+    let piece = Piece::new(&entry, 1, form, &stem).map_err(|e| words(&e))?;
+    let report = Report {
+        title: title.unwrap_or_else(|| piece.row.title.clone()),
+        pieces: vec![piece],
+        refused: Vec::new(),
+        notes: Vec::new(),
+        compares: false,
+        dark: theme.map(|_| wanted.theme.page.brightness() < 0.5),
+    };
+    let made = report.files(form, &stem).map_err(|e| words(&e))?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::with_capacity(made.len());
+    for (number, (name, bytes)) in made.into_iter().enumerate() {
+        let target = match number {
+            0 => path.clone(),
+            _ => folder.join(name),
+        };
+        if let (1.., Some(folder)) = (number, target.parent()) {
+            std::fs::create_dir_all(folder).map_err(|e| words(&e))?;
+        }
+        files.push((target, bytes));
+    }
+    write_whole(&files, Existing::Replace)
+        .map_err(|error| format!("cannot write {}: {}", error.path.display(), error.why))
+}

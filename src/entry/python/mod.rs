@@ -1,0 +1,377 @@
+//! The private module `drystone._drystone` of the Python package: scenes go in as JSON text, answers come out.
+//!
+//! Nothing is computed here. The public names, their arguments and their documentation are in `python/drystone`.
+
+mod figure;
+mod session;
+mod table;
+
+use std::ffi::OsString;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+
+use crate::analysis::{self, Accuracy, Verdict};
+use crate::cli;
+use crate::drawing::Theme;
+use crate::result::{self, Layout, Timing};
+use crate::scene::format::{SceneFile, parsed};
+use crate::scene::{Scene, SceneError, isolate};
+
+/// What an analysis is asked; read once, used for many scenes.
+#[pyclass(frozen, module = "drystone._drystone")]
+#[derive(Clone, Debug)]
+struct Options {
+    asked: analysis::Options,
+    time_limit: Option<Duration>,
+    contact_tolerance: Option<f64>,
+    notes: bool,
+    /// Whether problems have a line and a column: the text is a file that somebody wrote.
+    located: bool,
+}
+
+#[pymethods]
+impl Options {
+    #[new]
+    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located))]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one for each keyword of the Python function"
+    )]
+    fn new(
+        py: Python<'_>,
+        margins: Option<Vec<String>>,
+        wedging: bool,
+        verdict_only: bool,
+        accuracy: &str,
+        time_limit: Option<f64>,
+        contact_tolerance: Option<f64>,
+        notes: bool,
+        located: bool,
+    ) -> PyResult<Options> {
+        let accuracy = match accuracy {
+            "standard" => Accuracy::Standard,
+            "proved" => Accuracy::Proved,
+            other => {
+                let why = format!("accuracy is \"standard\" or \"proved\", not {other:?}");
+                return Err(fault(py, &why));
+            }
+        };
+        let mut asked = analysis::Options::default()
+            .accuracy(accuracy)
+            .wedging(wedging)
+            .verdict_only(verdict_only);
+        if let Some(names) = margins {
+            let kinds = cli::margins::named(&names).map_err(|name| {
+                let why =
+                    "margins are friction, tilt, horizontal_load, kernel, load_factor and robots";
+                fault(py, &format!("there is no margin {name:?}; {why}"))
+            })?;
+            asked = asked.margins(true).margin_kinds(kinds);
+        }
+        let time_limit = match time_limit {
+            Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
+                return Err(fault(
+                    py,
+                    "time_limit is a time in seconds, from 0 to 1000000",
+                ));
+            }
+            limit => limit.map(Duration::from_secs_f64),
+        };
+        if contact_tolerance.is_some_and(|metres| !(0.0..=1e12).contains(&metres)) {
+            return Err(fault(
+                py,
+                "contact_tolerance is a length in metres, at least 0",
+            ));
+        }
+        Ok(Options {
+            asked,
+            time_limit,
+            contact_tolerance,
+            notes,
+            located,
+        })
+    }
+}
+
+impl Options {
+    /// The analysis of a scene; a fault of the program is a problem of that scene.
+    fn analysis(&self, text: &str) -> Result<analysis::Analysis, SceneError> {
+        let mut asked = self.asked;
+        asked.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
+        isolate("scene", || {
+            let scene = Scene::from_json_within(text, self.contact_tolerance)?;
+            let mut found = analysis::Analysis::with(scene, &asked);
+            if !self.notes {
+                found.notes.clear();
+            }
+            if !self.located {
+                found.notes.iter_mut().for_each(|note| note.line = 0);
+            }
+            Ok(found)
+        })
+        .flatten()
+    }
+}
+
+/// A scene and what was found out about it.
+#[pyclass(frozen, module = "drystone._drystone")]
+#[derive(Clone, Debug)]
+struct Analysis {
+    found: Arc<analysis::Analysis>,
+}
+
+impl Analysis {
+    fn new(found: analysis::Analysis) -> Analysis {
+        Analysis {
+            found: Arc::new(found),
+        }
+    }
+}
+
+#[pymethods]
+impl Analysis {
+    /// The verdict of each frame.
+    fn verdicts(&self) -> Vec<&'static str> {
+        self.found.frames.iter().map(|f| f.verdict.word()).collect()
+    }
+
+    /// Whether every frame stands.
+    fn stands(&self) -> bool {
+        self.found.verdict() == Verdict::Stable
+    }
+
+    /// The result as `check --json` prints it.
+    fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
+        let timing = match timing {
+            true => Timing::Included,
+            false => Timing::LeftOut,
+        };
+        let layout = match lines {
+            true => Layout::Lines,
+            false => Layout::OneLine,
+        };
+        py.detach(|| match file {
+            Some(file) => result::to_json_of(file, &self.found, timing, layout),
+            None => result::to_json(&self.found, timing, layout),
+        })
+    }
+
+    /// One of the tables, of one frame or of all.
+    fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
+        table::Table::new(&self.found, name, frame)
+            .ok_or_else(|| fault(py, &format!("there is no table {name}")))
+    }
+
+    /// Names, outer rings and holes of the bodies: the parts of the ground, then the blocks.
+    fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
+        figure::outlines(&self.found.scene)
+    }
+
+    /// The numbers of the blocks that are placed in a frame.
+    fn placed(&self, frame: usize) -> Vec<usize> {
+        let frame = self.found.scene.frames().get(frame);
+        frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
+    }
+
+    /// The bytes of a figure, by the words that `render` takes; of one frame or of all.
+    fn figure(
+        &self,
+        py: Python<'_>,
+        words: Vec<String>,
+        ending: &str,
+        frame: Option<usize>,
+    ) -> PyResult<Vec<u8>> {
+        py.detach(|| figure::drawn(&self.found, &words, ending, frame))
+            .map_err(|why| fault(py, &why))
+    }
+
+    /// Writes a report.
+    fn report(
+        &self,
+        py: Python<'_>,
+        path: &str,
+        name: &str,
+        text: &str,
+        title: Option<String>,
+        theme: Option<&str>,
+    ) -> PyResult<()> {
+        py.detach(|| figure::report(&self.found, path, [name, text], title, theme))
+            .map_err(|why| fault(py, &why))
+    }
+}
+
+/// Corners of an outline, metres.
+type Ring = Vec<[f64; 2]>;
+
+/// An error of the package: `drystone.DrystoneError`.
+fn fault(py: Python<'_>, why: &str) -> PyErr {
+    raised(py, "DrystoneError", (why,))
+}
+
+/// What is wrong with a scene: `drystone.SceneError`.
+fn refused(py: Python<'_>, mut problems: SceneError, located: bool) -> PyErr {
+    if !located {
+        // A scene made in Python has no text that its author knows.
+        for problem in &mut problems.list {
+            (problem.line, problem.column) = (0, 0);
+        }
+    }
+    let json = result::refusal("", &problems.list, Layout::OneLine);
+    raised(py, "SceneError", (problems.to_string(), json))
+}
+
+fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = py
+        .import("drystone._errors")
+        .and_then(|module| module.getattr(class))
+        .and_then(|class| class.call1(arguments));
+    match made {
+        Ok(error) => PyErr::from_value(error),
+        Err(error) => error,
+    }
+}
+
+/// Analyses a scene.
+#[pyfunction]
+fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
+    py.detach(|| options.analysis(text))
+        .map(Analysis::new)
+        .map_err(|problems| refused(py, problems, options.located))
+}
+
+/// Analyses scenes on all cores, and returns analyses and errors in their order. `progress` is called with the number of
+/// scenes that are done; what it raises ends the work.
+#[pyfunction]
+fn check_many(
+    py: Python<'_>,
+    texts: Vec<String>,
+    options: &Options,
+    progress: Option<Py<PyAny>>,
+    threads: usize,
+) -> PyResult<Vec<Py<PyAny>>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let stop = AtomicBool::new(false);
+    let mut stopped = None;
+    let answers = py.detach(|| {
+        let (sender, done) = channel();
+        std::thread::scope(|scope| {
+            let stop = &stop;
+            let work = scope.spawn(move || {
+                let answer = |(number, text): (usize, String)| {
+                    if stop.load(Ordering::Relaxed) {
+                        return None;
+                    }
+                    let answer = options.analysis(&text);
+                    let _ = sender.send(number);
+                    Some(answer)
+                };
+                let texts = texts.into_par_iter().enumerate();
+                pool.install(|| texts.map(answer).collect::<Vec<_>>())
+            });
+            let mut count = 0;
+            let mut told = 0;
+            loop {
+                let heard = done.recv_timeout(Duration::from_millis(50));
+                if heard.is_ok() {
+                    count += 1 + done.try_iter().count();
+                }
+                if count > told || heard == Err(RecvTimeoutError::Timeout) {
+                    told = count;
+                    let heard = Python::attach(|py| {
+                        py.check_signals()?;
+                        progress
+                            .as_ref()
+                            .map_or(Ok(()), |p| p.call1(py, (count,)).map(drop))
+                    });
+                    if let Err(error) = heard {
+                        stopped = Some(error);
+                        stop.store(true, Ordering::Relaxed);
+                        break;
+                    }
+                }
+                if heard == Err(RecvTimeoutError::Disconnected) {
+                    break;
+                }
+            }
+            work.join()
+        })
+    });
+    if let Some(error) = stopped {
+        return Err(error);
+    }
+    let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
+    let one = |answer| match answer {
+        Ok(found) => Ok(Py::new(py, Analysis::new(found))?.into_any()),
+        Err(problems) => Ok(refused(py, problems, options.located)
+            .into_value(py)
+            .into_any()),
+    };
+    answers.into_iter().flatten().map(one).collect()
+}
+
+/// Reads a scene, and raises what is wrong with it.
+#[pyfunction]
+fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
+    match py.detach(|| Scene::from_json(text)) {
+        Ok(_) => Ok(()),
+        Err(problems) => Err(refused(py, problems, located)),
+    }
+}
+
+/// A scene file in the layout in which the program writes it.
+#[pyfunction]
+fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
+    let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
+    Ok(file.to_json())
+}
+
+/// The JSON Schema of scene files.
+#[pyfunction]
+fn schema() -> String {
+    crate::scene::schema()
+}
+
+/// Kinds of figures, each with a line of help.
+#[pyfunction]
+fn kinds() -> Vec<(&'static str, &'static str)> {
+    let all = crate::figure::Kind::ALL.into_iter();
+    all.map(|kind| (kind.name(), kind.help())).collect()
+}
+
+/// Names of themes.
+#[pyfunction]
+fn themes() -> Vec<&'static str> {
+    Theme::NAMES.to_vec()
+}
+
+/// Runs the program with these words, its name first, and returns its exit code.
+#[pyfunction]
+fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| cli::run_with(words.into_iter()))
+}
+
+#[pymodule]
+mod _drystone {
+    #[pymodule_export]
+    use crate::python::figure::sketch;
+    #[pymodule_export]
+    use crate::python::session::Session;
+    #[pymodule_export]
+    use crate::python::table::{Table, summary};
+    #[pymodule_export]
+    use crate::python::{
+        Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes,
+    };
+
+    /// The version of drystone.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "Python's name for it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,111 @@
+//! [`Session`]: a structure under construction, for Python.
+
+use pyo3::prelude::*;
+
+use super::{Analysis, Options, fault, refused};
+use crate::analysis;
+use crate::geometry::Point;
+use crate::scene::Scene;
+use crate::scene::format::{BlockEntry, SceneFile, parsed};
+use crate::session::{self, SessionError};
+
+/// A structure under construction; every step returns the verdict.
+#[pyclass(module = "drystone._drystone")]
+#[derive(Clone, Debug)]
+pub(super) struct Session {
+    now: session::Session,
+}
+
+#[pymethods]
+impl Session {
+    #[new]
+    fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
+        // Problems of the whole scene have their places, which the session itself does not know.
+        Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
+        let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
+        let now = py.detach(|| session::Session::with(file, options.asked));
+        let now = now.map_err(|error| complaint(py, error))?;
+        Ok(Session { now })
+    }
+
+    fn place(&mut self, py: Python<'_>, block: &str) -> PyResult<&'static str> {
+        let block: BlockEntry = parsed(block).map_err(|why| fault(py, &format!("block: {why}")))?;
+        self.step(py, |now| now.place(block))
+    }
+
+    fn remove(&mut self, py: Python<'_>, block: &str) -> PyResult<&'static str> {
+        self.step(py, |now| now.remove(block))
+    }
+
+    fn hold(
+        &mut self,
+        py: Python<'_>,
+        robot: &str,
+        block: &str,
+        at: Option<[f64; 2]>,
+    ) -> PyResult<&'static str> {
+        let at = at.map(|[x, y]| Point::new(x, y));
+        self.step(py, |now| now.hold(robot, block, at))
+    }
+
+    fn release(&mut self, py: Python<'_>, robot: &str) -> PyResult<&'static str> {
+        self.step(py, |now| now.release(robot))
+    }
+
+    #[getter]
+    fn verdict(&self) -> &'static str {
+        self.now.verdict().word()
+    }
+
+    /// The placed blocks, in the order of placing.
+    #[getter]
+    fn blocks(&self) -> Vec<&str> {
+        let scene = self.now.scene();
+        let placed = scene.frames().first().into_iter().flat_map(|f| &f.placed);
+        placed.map(|b| scene.blocks()[b.0].id.as_str()).collect()
+    }
+
+    /// The robots that hold a block, each with that block.
+    #[getter]
+    fn holds(&self) -> Vec<(&str, &str)> {
+        let scene = self.now.scene();
+        let holds = scene.frames().first().into_iter().flat_map(|f| &f.holds);
+        holds
+            .map(|h| {
+                let robot = scene.robots()[h.robot.0].id.as_str();
+                (robot, scene.blocks()[h.block.0].id.as_str())
+            })
+            .collect()
+    }
+
+    /// The complete analysis of the placed blocks.
+    fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
+        let scene = self.now.scene();
+        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))
+    }
+
+    fn copy(&self) -> Session {
+        self.clone()
+    }
+}
+
+impl Session {
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut session::Session) -> Result<analysis::Verdict, SessionError> + Send,
+    ) -> PyResult<&'static str> {
+        let now = &mut self.now;
+        match py.detach(|| work(now)) {
+            Ok(verdict) => Ok(verdict.word()),
+            Err(error) => Err(complaint(py, error)),
+        }
+    }
+}
+
+fn complaint(py: Python<'_>, error: SessionError) -> PyErr {
+    match error {
+        SessionError::SceneError(problems) => refused(py, problems, false),
+        other => fault(py, &other.to_string()),
+    }
+}

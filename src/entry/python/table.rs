@@ -1,0 +1,327 @@
+//! [`Table`]: rows of a result by column, as bytes for numpy and as a C stream of Arrow.
+
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{
+    ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
+};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyCapsule, PyList};
+
+use crate::analysis::{
+    Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce,
+};
+use crate::geometry::Vector;
+use crate::scene::{BlockId, BodyId, Scene};
+
+/// One column.
+enum Column {
+    Real(Vec<f64>),
+    Whole(Vec<i64>),
+    Word(Vec<String>),
+}
+
+/// A table: columns of equal length, each with its name.
+#[pyclass(frozen, module = "drystone._drystone")]
+pub(super) struct Table {
+    columns: Vec<(&'static str, Column)>,
+    rows: usize,
+}
+
+#[pymethods]
+impl Table {
+    fn __len__(&self) -> usize {
+        self.rows
+    }
+
+    /// The names of the columns.
+    fn names(&self) -> Vec<&'static str> {
+        self.columns.iter().map(|column| column.0).collect()
+    }
+
+    /// For each column its type for numpy, and bytes or a list of texts.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
+        let bytes = |bytes: Vec<u8>| PyBytes::new(py, &bytes).into_any();
+        let one = |(_, column): &(&'static str, Column)| {
+            Ok(match column {
+                Column::Real(all) => {
+                    let all = all.iter().flat_map(|x| x.to_ne_bytes());
+                    ("f8", bytes(all.collect()))
+                }
+                Column::Whole(all) => {
+                    let all = all.iter().flat_map(|x| x.to_ne_bytes());
+                    ("i8", bytes(all.collect()))
+                }
+                Column::Word(all) => ("U", PyList::new(py, all)?.into_any()),
+            })
+        };
+        self.columns.iter().map(one).collect()
+    }
+
+    /// The table as a C stream of Arrow, whose schema is always its own.
+    #[pyo3(signature = (requested_schema = None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        drop(requested_schema);
+        let batch = self
+            .batch()
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let schema = batch.schema();
+        let batches = RecordBatchIterator::new([Ok(batch)], schema);
+        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+}
+
+impl Table {
+    fn batch(&self) -> Result<RecordBatch, ArrowError> {
+        let mut fields = Vec::new();
+        let mut arrays: Vec<ArrayRef> = Vec::new();
+        for (name, column) in &self.columns {
+            let (kind, array): (DataType, ArrayRef) = match column {
+                Column::Real(all) => (
+                    DataType::Float64,
+                    Arc::new(Float64Array::from_iter_values(all.iter().copied())),
+                ),
+                Column::Whole(all) => (
+                    DataType::Int64,
+                    Arc::new(Int64Array::from_iter_values(all.iter().copied())),
+                ),
+                Column::Word(all) => (DataType::Utf8, Arc::new(StringArray::from_iter_values(all))),
+            };
+            fields.push(Field::new(*name, kind, false));
+            arrays.push(array);
+        }
+        RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)
+    }
+
+    /// The table of this name, of one frame or of all; `None` where there is no such table.
+    pub(super) fn new(found: &Analysis, name: &str, frame: Option<usize>) -> Option<Table> {
+        let numbers = (0..found.frames.len()).filter(|n| frame.is_none_or(|f| f == *n));
+        let numbers: Vec<usize> = numbers.collect();
+        match name {
+            "contacts" => Some(contacts(found, &numbers)),
+            "robots" => Some(robots(found, &numbers)),
+            "failures" => Some(failures(found, &numbers)),
+            "blocks" => Some(blocks(found, &numbers)),
+            _ => None,
+        }
+    }
+}
+
+/// A row for each frame of several analyses; `None` stands for a scene that is not valid.
+#[pyfunction]
+pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
+    let found = analyses.iter().enumerate();
+    let found = found.filter_map(|(n, a)| Some((n, &*a.as_ref()?.get().found)));
+    let all: Vec<(usize, (usize, &Analysis))> = found
+        .flat_map(|(n, found)| (0..found.frames.len()).map(move |frame| (frame, (n, found))))
+        .collect();
+    let numbered: Vec<(usize, (usize, &FrameAnalysis))> = all
+        .iter()
+        .map(|(frame, (_, found))| (*frame, (*frame, &found.frames[*frame])))
+        .collect();
+    let mut names = Rows::new(all);
+    names.whole("scene", |row| row.0 as i64);
+    names.columns.rotate_right(1);
+    let scenes = names.rows.iter();
+    let titles = scenes.map(|(frame, (_, found))| found.scene.frames()[*frame].title.clone());
+    let titles = Column::Word(titles.collect());
+    names.columns.push(("title", titles));
+    let mut rows = Rows::new(numbered);
+    rows.columns = names.columns;
+    rows.word("verdict", |row| row.1.verdict.word().into());
+    rows.whole("contacts", |row| row.1.contacts.len() as i64);
+    rows.whole("failures", |row| row.1.failures.len() as i64);
+    rows.real("weight", |row| row.1.weight);
+    rows.real("total_force", |row| row.1.total_force);
+    rows.real("total_sticking", |row| row.1.total_sticking);
+    let asked = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
+    for (name, of) in MARGINS.iter().filter(|_| asked) {
+        rows.real(name, |row| {
+            row.1.margins.as_ref().map_or(f64::NAN, |m| value(of(m)))
+        });
+    }
+    rows.table()
+}
+
+/// The column of a margin, and where the margin is.
+type NamedMargin = (&'static str, fn(&Margins) -> &Margin);
+
+/// The margins of a frame that are one number.
+const MARGINS: [NamedMargin; 7] = [
+    ("friction", |m| &m.friction),
+    ("tilt_left", |m| &m.tilt.left),
+    ("tilt_right", |m| &m.tilt.right),
+    ("horizontal_load_left", |m| &m.horizontal_load.left),
+    ("horizontal_load_right", |m| &m.horizontal_load.right),
+    ("kernel", |m| &m.kernel),
+    ("load_factor", |m| &m.load_factor),
+];
+
+/// A margin as a number: infinite where it has no end, and no number where there is none.
+fn value(margin: &Margin) -> f64 {
+    match margin {
+        Margin::Unbounded => f64::INFINITY,
+        other => other.at().unwrap_or(f64::NAN),
+    }
+}
+
+/// Rows, each with the number of its frame, and the columns that were made of them.
+struct Rows<T> {
+    rows: Vec<(usize, T)>,
+    columns: Vec<(&'static str, Column)>,
+}
+
+impl<T> Rows<T> {
+    fn new(rows: Vec<(usize, T)>) -> Rows<T> {
+        let frames = rows.iter().map(|(frame, _)| *frame as i64).collect();
+        Rows {
+            rows,
+            columns: vec![("frame", Column::Whole(frames))],
+        }
+    }
+
+    fn real(&mut self, name: &'static str, of: impl Fn(&T) -> f64) {
+        // Adding 0 turns −0 into 0, as the result does.
+        let all = self.rows.iter().map(|(_, row)| of(row) + 0.0).collect();
+        self.columns.push((name, Column::Real(all)));
+    }
+
+    fn pair(&mut self, names: [&'static str; 2], of: impl Fn(&T) -> Vector) {
+        self.real(names[0], |row| of(row).x);
+        self.real(names[1], |row| of(row).y);
+    }
+
+    fn whole(&mut self, name: &'static str, of: impl Fn(&T) -> i64) {
+        let all = self.rows.iter().map(|(_, row)| of(row)).collect();
+        self.columns.push((name, Column::Whole(all)));
+    }
+
+    fn word(&mut self, name: &'static str, of: impl Fn(&T) -> String) {
+        let all = self.rows.iter().map(|(_, row)| of(row));
+        self.columns.push((name, Column::Word(all.collect())));
+    }
+
+    /// Names of two bodies, and the numbers of the blocks among them, −1 for others.
+    fn bodies(&mut self, scene: &Scene, of: impl Fn(&T) -> [Option<BodyId>; 2]) {
+        let name = |id: Option<BodyId>| id.map_or_else(String::new, |id| scene.name(id).to_owned());
+        self.word("body_0", |row| name(of(row)[0]));
+        self.word("body_1", |row| name(of(row)[1]));
+        let number = |id: Option<BodyId>| match id {
+            Some(BodyId::Block(BlockId(number))) => number as i64,
+            _ => -1,
+        };
+        self.whole("block_0", |row| number(of(row)[0]));
+        self.whole("block_1", |row| number(of(row)[1]));
+    }
+
+    fn table(self) -> Table {
+        Table {
+            rows: self.rows.len(),
+            columns: self.columns,
+        }
+    }
+}
+
+fn contacts(found: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &found.scene;
+    let of = |n: usize| found.frames[n].contacts.iter().map(move |c| (n, c));
+    let all: Vec<(usize, &Contact)> = numbers.iter().copied().flat_map(of).collect();
+    let mut rows = Rows::new(all);
+    rows.bodies(scene, |c| c.interface.bodies.map(Some));
+    rows.word("kind", |c| match c.interface.kind {
+        ContactKind::Corner => "corner".into(),
+        _ => "edge".into(),
+    });
+    rows.pair(["end_0_x", "end_0_y"], |c| c.interface.ends[0].coords);
+    rows.pair(["end_1_x", "end_1_y"], |c| c.interface.ends[1].coords);
+    rows.pair(["normal_x", "normal_y"], |c| c.interface.normal);
+    rows.real("mu", |c| c.interface.friction);
+    rows.real("normal_force_0", |c| c.normal_forces[0]);
+    rows.real("normal_force_1", |c| c.normal_forces[1]);
+    rows.real("friction_force", |c| c.friction_force);
+    rows.pair(["x", "y"], |c| c.resultant.at.coords);
+    rows.pair(["force_x", "force_y"], |c| c.resultant.force);
+    rows.real("friction_used", |c| c.friction_used);
+    rows.table()
+}
+
+fn robots(found: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &found.scene;
+    let of = |n: usize| found.frames[n].robots.iter().map(move |r| (n, r));
+    let all: Vec<(usize, &RobotForce)> = numbers.iter().copied().flat_map(of).collect();
+    let mut rows = Rows::new(all);
+    rows.word("id", |r| scene.robots()[r.robot.0].id.clone());
+    rows.word("holds", |r| scene.blocks()[r.block.0].id.clone());
+    rows.whole("block", |r| r.block.0 as i64);
+    rows.pair(["x", "y"], |r| r.at.coords);
+    rows.pair(["force_x", "force_y"], |r| r.force);
+    rows.real("torque", |r| r.torque);
+    rows.real("limit_used", |r| r.limit_used);
+    rows.table()
+}
+
+fn failures(found: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &found.scene;
+    let of = |n: usize| found.frames[n].failures.iter().map(move |f| (n, f));
+    let all: Vec<(usize, &Failure)> = numbers.iter().copied().flat_map(of).collect();
+    let mut rows = Rows::new(all);
+    rows.word("kind", |f| f.word().into());
+    rows.bodies(scene, |f| match **f {
+        Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => bodies.map(Some),
+        Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
+            [Some(BodyId::Block(block)), None]
+        }
+    });
+    rows.word("robot", |f| {
+        let robot = f.robot().map(|r| scene.robots()[r.0].id.clone());
+        robot.unwrap_or_default()
+    });
+    rows.pair(["x", "y"], |f| f.at().coords);
+    rows.pair(["force_x", "force_y"], |f| f.force());
+    rows.real("torque", |f| f.torque());
+    rows.real("amount", |f| f.amount());
+    rows.table()
+}
+
+fn blocks(found: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &found.scene;
+    let of = |n: usize| {
+        let placed = scene.frames()[n].placed.iter();
+        placed.map(move |b| (n, (n, b.0)))
+    };
+    let all: Vec<(usize, (usize, usize))> = numbers.iter().copied().flat_map(of).collect();
+    let mut rows = Rows::new(all);
+    let motion = |row: &(usize, usize)| {
+        let motions = found.frames[row.0].mechanism.iter();
+        motions.into_iter().find(|m| m.block.0 == row.1)
+    };
+    rows.word("id", |row| scene.blocks()[row.1].id.clone());
+    rows.whole("block", |row| row.1 as i64);
+    rows.real("weight", |row| scene.blocks()[row.1].weight);
+    rows.real("area", |row| scene.blocks()[row.1].body.polygon.area());
+    rows.pair(["x", "y"], |row| scene.blocks()[row.1].centroid.coords);
+    rows.pair(["velocity_x", "velocity_y"], |row| {
+        motion(row).map_or_else(Vector::zeros, |m| m.velocity)
+    });
+    rows.real("spin", |row| motion(row).map_or(0.0, |m| m.spin));
+    rows.whole("unsupported", |row| {
+        i64::from(found.frames[row.0].unsupported.contains(&BlockId(row.1)))
+    });
+    rows.word("robot", |row| {
+        let holds = scene.frames()[row.0].holds.iter();
+        let robots = holds.filter(|h| h.block.0 == row.1);
+        let names: Vec<&str> = robots
+            .map(|h| scene.robots()[h.robot.0].id.as_str())
+            .collect();
+        names.join(", ")
+    });
+    rows.table()
+}
