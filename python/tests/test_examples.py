@@ -4,8 +4,7 @@ import ast
 import importlib.util
 import json
 
-import pytest
-from conftest import ROOT
+from conftest import ROOT, needed
 
 
 def test_the_environment_builds_an_arch():
@@ -25,7 +24,7 @@ def test_the_environment_builds_an_arch():
     assert (total, done) != (0.0, False)
     assert "<svg" in env.render()
     assert env.step(99)[1] == -1.0
-    pytest.importorskip("scipy")
+    needed("scipy")
     plays = [gym_arch.played(gym_arch.ArchEnv(7, solver), 0.5, seed=3)[2] for solver in ("drystone", "highs")]
     count = min(map(len, plays))
     assert count > 10 and plays[0][:count] == plays[1][:count]
@@ -33,7 +32,7 @@ def test_the_environment_builds_an_arch():
 
 def test_the_notebook_runs(tmp_path, monkeypatch):
     for name in ("numpy", "pandas", "matplotlib"):
-        pytest.importorskip(name)
+        needed(name)
     import matplotlib
 
     matplotlib.use("Agg")

@@ -1,7 +1,7 @@
 """Pictures, reports and notebooks."""
 
 import pytest
-from conftest import FLOOR, brick
+from conftest import FLOOR, brick, needed
 
 import drystone as ds
 
@@ -65,7 +65,7 @@ def test_animations(steps, tmp_path):
     assert b"acTL" in data
     with pytest.raises(ds.DrystoneError, match="gif"):
         result.animate(tmp_path / "talk.mp4")
-    image = pytest.importorskip("PIL.Image")
+    image = needed("PIL.Image")
     result.animate(tmp_path / "talk.gif", seconds=0.5)
     assert image.open(tmp_path / "talk.gif").n_frames == 3
 
@@ -84,7 +84,7 @@ def test_reports(steps, tmp_path):
 
 
 def test_matplotlib(steps):
-    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib = needed("matplotlib")
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 

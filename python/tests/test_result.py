@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import FLOOR, ROOT, brick
+from conftest import FLOOR, ROOT, brick, needed
 
 import drystone as ds
 
@@ -64,7 +64,7 @@ def test_margins_are_attributes():
 
 
 def test_tables_agree_with_the_result(steps):
-    numpy = pytest.importorskip("numpy")
+    numpy = needed("numpy")
     result = ds.check(steps)
     found = result.to_dict()["frames"]
     rows = result.contacts.to_numpy()
@@ -100,19 +100,19 @@ def test_tables_agree_with_the_result(steps):
 def test_tables_without_rows_are_tables():
     result = ds.check(ds.Scene().ground(FLOOR).block("a", brick(0, 0)))
     assert len(result.failures) == 0 and result.failures.to_dicts() == []
-    numpy = pytest.importorskip("numpy")
+    numpy = needed("numpy")
     assert isinstance(result.failures.to_numpy(), numpy.ndarray)
 
 
 def test_pandas_polars_and_pyarrow_read_the_stream(steps):
     result = ds.check(steps)
     known = result.contacts.to_dicts()
-    pyarrow = pytest.importorskip("pyarrow")
+    pyarrow = needed("pyarrow")
     assert pyarrow.table(result.contacts).to_pylist() == known
-    pandas = pytest.importorskip("pandas")
+    pandas = needed("pandas")
     assert result.contacts.to_pandas().to_dict("records") == known
     assert list(pandas.DataFrame.from_arrow(result.contacts).columns) == result.contacts.columns
-    polars = pytest.importorskip("polars")
+    polars = needed("polars")
     assert polars.DataFrame(result.contacts).to_dicts() == known
 
 

@@ -4,7 +4,7 @@ import inspect
 import json
 
 import pytest
-from conftest import FLOOR, ROOT, brick
+from conftest import FLOOR, ROOT, brick, needed
 
 import drystone as ds
 
@@ -101,7 +101,7 @@ class Shape:
 
 
 def test_numpy_and_geo_interface_give_the_same_block():
-    numpy = pytest.importorskip("numpy")
+    numpy = needed("numpy")
     closed = [*brick(0, 0), (0.0, 0.0)]
     for outline in (
         numpy.array(brick(0, 0)),
@@ -121,7 +121,7 @@ def test_numpy_and_geo_interface_give_the_same_block():
 
 
 def test_shapely_polygons_with_holes():
-    geometry = pytest.importorskip("shapely.geometry")
+    geometry = needed("shapely.geometry")
     ring = geometry.box(0, 0, 3, 3).difference(geometry.box(1, 1, 2, 2))
     scene = ds.Scene().ground(FLOOR).block("ring", ring, density=2400)
     entry = scene.to_dict()["blocks"][0]
@@ -150,8 +150,8 @@ def test_rows_of_a_feature_collection():
 
 
 def test_geopandas_rows():
-    geopandas = pytest.importorskip("geopandas")
-    geometry = pytest.importorskip("shapely.geometry")
+    geopandas = needed("geopandas")
+    geometry = needed("shapely.geometry")
     frame = geopandas.GeoDataFrame({"id": ["a", "b"], "density": [1.0, 2.0]}, geometry=[geometry.box(0, 0, 3, 1), geometry.box(0, 1, 3, 2)])
     assert ds.check(ds.Scene().ground(FLOOR).blocks(frame)).stands
 
