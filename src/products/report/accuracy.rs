@@ -27,7 +27,7 @@ const MAX_SHOWN_ERROR: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../../assets/accuracy.css");
 
-/// `41 frames`, `1 frame`.
+/// The number of frames of a study in words: `41 frames`, `1 frame`.
 fn frames(study: &Study) -> String {
     match study.cases.len() {
         1 => "1 frame".into(),
@@ -35,7 +35,8 @@ fn frames(study: &Study) -> String {
     }
 }
 
-/// The first sentences of every page: the version, and what the numbers depend on.
+/// Returns the first sentences of every page: the version, the number of frames, and which numbers depend on the
+/// machine.
 pub fn heading(study: &Study) -> String {
     format!(
         "drystone {}, {}. Times are medians of this run, and only their ratios are meaningful. Verdicts, errors and \
@@ -59,7 +60,8 @@ fn colour(method: Method) -> [u8; 3] {
     }
 }
 
-/// A chart of time against error: a line for each method, the Pareto front, and red crosses for wrong verdicts.
+/// Draws a chart of time against error, as SVG. It has a line for each method, the Pareto front, and red crosses for
+/// wrong verdicts.
 ///
 /// # Errors
 /// If the chart cannot be drawn.
@@ -111,7 +113,7 @@ fn small(value: Option<f64>) -> String {
     })
 }
 
-/// A CSV table with a line for each frame, method and tolerance.
+/// Returns a CSV table with a line for each frame, method and tolerance.
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
         "drystone,frame,blocks,truth,method,tolerance,seconds,iterations,verdict,mark,total_error,largest_error,\
@@ -154,7 +156,7 @@ fn mark(mark: Mark) -> &'static str {
     }
 }
 
-/// The summary as a Markdown table.
+/// Returns the summary as a Markdown table, a row for each method and tolerance.
 pub fn markdown(study: &Study) -> String {
     let mut text = String::from(
         "| method | tolerance | time | iterations | error of total: median | worst | of largest force: worst | wrong | undecided |\n\
@@ -181,7 +183,7 @@ pub fn markdown(study: &Study) -> String {
     text
 }
 
-/// An HTML page: the chart, the summary, and a collapsible table of runs for each frame.
+/// Returns an HTML page: the chart, the summary, and a collapsible table of runs for each frame.
 ///
 /// # Errors
 /// If the chart cannot be drawn.

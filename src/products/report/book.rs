@@ -37,7 +37,8 @@ pub struct BookError(pub Vec<String>);
 /// Draws the scenes of a book. The input of an mdBook preprocessor is the JSON text `[context, book]`; the output is the book.
 ///
 /// # Errors
-/// If the input has another form. Otherwise the chapter, line and reason for every scene that cannot be drawn.
+/// If the input is not the JSON of an mdBook preprocessor, or if scenes cannot be drawn. The error then gives
+/// chapter, line and reason for each of them.
 pub fn illustrate(input: &str) -> Result<String, BookError> {
     let invalid = |why: &str| {
         BookError(vec![format!(
@@ -50,7 +51,7 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     let source = input[0]["config"]["book"]["src"].as_str().unwrap_or("src");
     let source = root.join(source);
     let Some(mut book) = input.get_mut(1).map(Value::take) else {
-        return Err(invalid("it has no second part"));
+        return Err(invalid("it has no book after the context"));
     };
     let mut problems = Vec::new();
     // mdBook 0.5 names the chapters `items`, earlier versions `sections`.
@@ -87,7 +88,8 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// The text of a chapter, with every drystone block replaced by its figure.
+/// Returns the text of a chapter with every drystone block replaced by its figure. Adds blocks that cannot be drawn
+/// to `problems`.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -127,7 +129,8 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     drawn
 }
 
-/// The indentation for all lines of a block that begins at `start`. Without it, the block would leave its list or quotation.
+/// Returns the characters to put before every line of a block that begins at byte `start`: spaces and `>`. Without
+/// them, the block would leave its list or quotation.
 fn margin(content: &str, start: usize) -> String {
     let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
     let kept = |c: char| if c == '>' { c } else { ' ' };
@@ -205,7 +208,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let analysis = Analysis::new(&scene);
     let drawing = drawing(&analysis, &wanted)?;
     let words = svg::Options {
-        // Letters as outlines look the same on machines without the fonts.
+        // Text drawn as outlines looks the same on machines without the fonts.
         words: svg::Words::Outlines,
         ..svg::Options::default()
     };

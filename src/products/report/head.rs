@@ -1,4 +1,4 @@
-//! [`Head`]: what stands above the scenes of a report, and what all writers share.
+//! [`Head`]: the part of a report above its scenes. The other functions are shared by all writers.
 
 use super::entry::Row;
 use crate::analysis::Verdict;
@@ -10,13 +10,13 @@ use crate::text;
 /// A file to write: its name, with `/` between folders, and its content.
 pub type OutputFile = (String, Vec<u8>);
 
-/// What stands above the scenes of a report.
+/// The part of a report above its scenes.
 pub(super) struct Head<'r> {
     /// The title of the page.
     pub title: &'r str,
     /// How many scenes stand and fall, without a full stop.
     pub summary: String,
-    /// More sentences.
+    /// Further sentences.
     pub notes: &'r [String],
     /// The files that are not valid scenes.
     pub refused: &'r [Refused],
@@ -28,9 +28,9 @@ pub(super) struct Head<'r> {
     pub dark: Option<bool>,
 }
 
-/// What “stands” means, for the first page of a report.
-pub(super) const MEANING: &str = "“Stands” says that a balance of forces exists: for rigid blocks, laid dry (no mortar, no cohesion), at rest. A balance \
-     that lives on wedging counts. Nothing here moves in time: no impact, no earthquake.";
+/// An explanation of “stands” for the first page of a report.
+pub(super) const MEANING: &str = "“Stands” means that a balance of forces exists for rigid blocks at rest, laid dry (no mortar, no cohesion). A balance \
+     that exists only by wedging counts. Motion in time is not considered: no impact, no earthquake.";
 
 /// A file that is not a valid scene, with its problems.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ pub struct Refused {
 }
 
 impl Refused {
-    /// The problems, one line each: place, message and remedy.
+    /// Returns a line for each problem: place, message and remedy.
     pub fn lines(&self) -> Vec<String> {
         let described = self.problems.iter().map(|problem| {
             let place = match (problem.line, problem.path.as_str()) {
@@ -79,7 +79,7 @@ impl From<OutlineError> for ReportError {
     }
 }
 
-/// A piece of a file's name made of a title.
+/// Turns a title into a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters.
 pub(super) fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {
@@ -100,7 +100,7 @@ pub(super) fn slug(title: &str) -> String {
     }
 }
 
-/// The mark of a verdict.
+/// Returns the mark of a verdict: `✓`, `✗` or `?`.
 pub(super) fn sign(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "✓",

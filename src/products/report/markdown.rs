@@ -1,4 +1,4 @@
-//! A report as Markdown, its figures as SVG files beside it.
+//! Writes a report as Markdown. Its figures are SVG files in a folder next to it.
 
 use std::fmt::Write as _;
 
@@ -13,19 +13,19 @@ use crate::wording::verdict::plain;
 /// The number of characters of a bar.
 const BAR: usize = 24;
 
-/// The folder of a report's figures, beside it.
+/// Returns the name of the folder for the figures of a report, next to the report.
 fn folder(stem: &str) -> String {
     format!("{}-figures", slug(stem))
 }
 
-/// What stands above the scenes.
+/// Writes the part above the scenes.
 pub(super) fn head(head: &Head<'_>) -> String {
     let mut out = format!("# {}\n\n{}.\n\n", markdown(head.title), head.summary);
     for note in head.notes {
         push(&mut out, &format!("{}\n", markdown(note)));
     }
     if !head.refused.is_empty() {
-        out.push_str("## Files that are no scenes\n\n");
+        out.push_str("## Files that are not valid scenes\n\n");
         for file in head.refused {
             push(&mut out, &format!("- **{}**", markdown(&file.name)));
             for line in file.lines() {
@@ -40,12 +40,13 @@ pub(super) fn head(head: &Head<'_>) -> String {
     out
 }
 
-/// A line; a `String` takes every character.
+/// Appends a line; writing to a `String` cannot fail.
 fn push(out: &mut String, line: &str) {
     let _ = writeln!(out, "{line}");
 }
 
-/// A scene's part, and its figures.
+/// Writes the part for a scene, and the files of its figures. `number` counts from 1; `stem` begins the name of their
+/// folder.
 pub(super) fn section(
     entry: &Entry,
     number: usize,
@@ -68,7 +69,7 @@ pub(super) fn section(
     let file = markdown(&row.name);
     writer.line(&format!("File: {file}; {}\n", markdown(&entry.origin)));
     if !entry.commands.is_empty() {
-        writer.line("Make it again:\n");
+        writer.line("Repeat it:\n");
         for (what, command) in &entry.commands {
             writer.line(&format!("- {}: {}", markdown(what), code(command)));
         }
@@ -77,7 +78,7 @@ pub(super) fn section(
     Ok((writer.out, writer.files))
 }
 
-/// Words as code, between more backticks than they hold.
+/// Writes text as inline code, between more backticks than it contains.
 fn code(words: &str) -> String {
     let words = text::line(words);
     let mut fence = "`".to_owned();
@@ -94,7 +95,7 @@ fn code(words: &str) -> String {
 struct Writer {
     out: String,
     files: Vec<OutputFile>,
-    /// The beginning of the names of the figures.
+    /// The beginning of the file names of the figures.
     place: String,
 }
 
@@ -163,7 +164,7 @@ impl Writer {
     }
 
     fn figure(&mut self, figure: &Figure) -> Result<(), ReportError> {
-        // Letters as outlines: whoever shows the page may have other fonts.
+        // Text is drawn as outlines: the reader may have other fonts.
         let options = Options {
             words: Words::Outlines,
             ..Options::default()
@@ -176,14 +177,14 @@ impl Writer {
     }
 
     fn chart(&mut self, chart: &Chart) {
-        // A file of its own says what it is.
+        // A separate SVG file needs the XML namespace.
         let name = self.file(chart.document().into_owned().into_bytes());
         let caption = markdown(&chart.caption);
         self.line(&format!("![{caption}](<{name}>)\n\n*{caption}*\n"));
     }
 }
 
-/// A margin as a row of characters: full where it stands, a disc or a cross where it is now.
+/// Draws a margin as a row of characters: full where the structure stands, a disc or a cross at the present value.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
@@ -219,7 +220,7 @@ fn table(out: &mut String, grid: &Grid) {
     if grid.lines.is_empty() {
         return;
     }
-    // Pictures are left out: a table of Markdown holds words.
+    // Columns with pictures are left out: a Markdown table contains text only.
     let pictured = |column: &usize| {
         let mut cells = grid.lines.iter().filter_map(|l| l.cells.get(*column));
         cells.any(|c| c.picture.is_some())

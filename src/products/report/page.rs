@@ -85,7 +85,7 @@ impl Piece {
     }
 }
 
-/// The result of an entry as JSON. A comparison gives an object with both results and the changes.
+/// Returns the result of an entry as JSON. A comparison gives an object with both results and the changes.
 fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
@@ -111,7 +111,7 @@ impl Default for Body {
 }
 
 impl Report {
-    /// The number of scenes with each verdict.
+    /// Counts the scenes with each verdict, and the files that are not valid scenes.
     pub fn counts(&self) -> Counts {
         let of = |verdict| {
             let rows = self.pieces.iter().map(|p| &p.row);
@@ -125,8 +125,8 @@ impl Report {
         }
     }
 
-    /// A summary: `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is not a valid scene`. For comparisons, it counts the
-    /// verdicts that changed and the verdicts of the second scenes.
+    /// Returns a summary: `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is not a valid scene`. For comparisons,
+    /// it counts the verdicts that changed and the verdicts of the second scenes.
     pub fn summary(&self) -> String {
         let counts = self.counts();
         let what = if self.compares { "comparison" } else { "scene" };
@@ -163,7 +163,7 @@ impl Report {
         words
     }
 
-    /// What stands above the scenes.
+    /// Returns the part above the scenes.
     fn head(&self) -> Head<'_> {
         Head {
             title: &self.title,
@@ -176,7 +176,8 @@ impl Report {
         }
     }
 
-    /// The files of the report, the main file first. `stem` is its name without the extension.
+    /// Writes the files of the report, the main file first. `stem` is its name without the extension; the pages of
+    /// [`Form::Split`] have fixed names.
     ///
     /// # Errors
     /// If a PDF cannot be written.
@@ -237,16 +238,17 @@ impl Body {
     }
 }
 
-/// The PDF of a report. A report on one scene has no pages before it, unless there is more to say.
+/// Writes a report as PDF. Pages come before the scenes if there are several scenes, notes, or files that are not
+/// valid scenes.
 fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, ReportError> {
     let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
-    // The page numbers in the table of contents do not change its length.
+    // Placeholder numbers suffice here: the page numbers in the table of contents do not change its length.
     let first = if is_short {
         0
     } else {
         print::head(head, &vec![999; scenes.len()]).len()
     };
-    // By the numbers of the scenes, which may have been sorted.
+    // `starts` is indexed by the numbers of the scenes, since the scenes may have been sorted.
     let mut starts = vec![0; scenes.len()];
     let mut next = first;
     for (row, pages) in head.rows.iter().zip(&scenes) {

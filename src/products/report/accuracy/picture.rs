@@ -1,5 +1,5 @@
-//! [`picture`]: an accuracy study as one picture. Each row is a method, with its time, error and number of wrong verdicts
-//! for every tolerance.
+//! [`picture`]: draws an accuracy study as one picture. Each row is a method, with its time, error and number of
+//! wrong verdicts for every tolerance.
 
 use crate::analysis::Accuracy;
 use crate::drawing::{
@@ -75,7 +75,7 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     }
 }
 
-/// The description of the picture: times and wrong verdicts at the default tolerance.
+/// Describes the picture for readers who cannot see it: times and wrong verdicts at the default tolerance.
 fn described(lines: &[Summary], frames: usize) -> String {
     let at = |line: &&Summary| default(line.tolerance);
     let described = lines.iter().filter(at).map(|line| {
@@ -246,7 +246,8 @@ impl Page<'_> {
         items
     }
 
-    /// The colour of a dot: the tighter the tolerance, the darker.
+    /// Returns the colour of a dot: the tighter the tolerance, the darker. `place` counts the tolerances from the
+    /// loosest, from 0.
     fn shade(&self, place: usize, wrong: bool) -> Colour {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         let full = if wrong {
@@ -258,13 +259,14 @@ impl Page<'_> {
     }
 }
 
-/// The position of a value on a logarithmic axis.
+/// Returns the pixel position of a value on a logarithmic axis that shows `least` to `most` at `from` to `to`. Values
+/// outside are moved to the nearer end.
 fn place(value: f64, (least, most): (f64, f64), (from, to): (f64, f64)) -> f64 {
     let share = libm::log10(value.max(least) / least) / libm::log10(most / least).max(1e-9);
     from + (to - from) * share.clamp(0.0, 1.0)
 }
 
-/// A power of ten as text: `10⁻⁹`, `1`.
+/// Writes ten to this power: `10⁻⁹`, `1`.
 fn power_of_ten(power: i32) -> String {
     if power == 0 {
         return "1".into();

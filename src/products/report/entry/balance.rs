@@ -1,5 +1,5 @@
-//! [`whole`] and [`of_block`]: tables of forces that balance, for recalculation by hand: the whole structure with its
-//! reactions, and one block cut free.
+//! [`whole`] and [`of_block`]: tables of balanced forces for a check by hand. One is for the whole structure with its
+//! reactions, the other for one block as a free body.
 
 use super::unit::Column;
 use super::{Grid, TableCell};
@@ -9,12 +9,12 @@ use crate::scene::{BlockId, BodyId, Load, Scene};
 use crate::text::line;
 use crate::wording::failure::named;
 
-/// More reactions than this are added up for each part of the ground.
+/// If there are more reactions than this, they are added up for each part of the ground.
 const MAX_REACTIONS: usize = 8;
-/// More loads than this are added up.
+/// If there are more loads than this, they are added up.
 const MAX_LOADS: usize = 6;
 
-/// Torques below this share of a force, in metres, are rounding of the solver.
+/// Torques below this many metres times the force are rounding errors of the solver.
 const TORQUE_TOL: f64 = 1e-9;
 
 /// A force in a table of forces.
@@ -30,7 +30,7 @@ struct Force {
 impl Force {
     fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64, about: Point) -> Force {
         let mut what = what.into();
-        // Smaller torques are rounding of the solver.
+        // Smaller torques are rounding errors of the solver.
         if torque.abs() > TORQUE_TOL * (1.0 + force.norm()) {
             let stated = Column::new([torque], "N·m").with_unit(torque);
             what.push_str(&format!(", and a torque of {stated}"));
@@ -43,7 +43,7 @@ impl Force {
         }
     }
 
-    /// Several forces as one row.
+    /// Adds several forces up to one row: the sums of forces and of moments.
     fn sum(what: impl Into<String>, forces: &[Force]) -> Force {
         Force {
             what: what.into(),
@@ -54,7 +54,8 @@ impl Force {
     }
 }
 
-/// The forces that act on the whole structure of a frame from outside, and their sum.
+/// Lists the external forces on the supported blocks of a frame, and their sum: reactions, robots, missing forces,
+/// weight and loads. Moments are about the origin.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let about = Point::origin();
@@ -88,7 +89,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     table("Reactions, weights and loads", &forces, "the origin")
 }
 
-/// The forces on one block, and their sum; moments are about its centroid.
+/// Lists the forces on one block, and their sum. Moments are about its centroid.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
@@ -125,7 +126,7 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     table(&caption, &forces, "its centroid")
 }
 
-/// The force of an interface on one of its bodies, N.
+/// Returns the force of an interface on one of its two bodies, N.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
     match contact.resultant.on == body {
         true => contact.resultant.force,
@@ -133,7 +134,8 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
     }
 }
 
-/// What the ground gives: joint by joint, or for each part of the ground if there are many joints.
+/// Returns the forces of the ground on the blocks: one for each joint, or one for each part of the ground if there
+/// are more than [`MAX_REACTIONS`] joints.
 fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &found.contacts {
@@ -165,7 +167,7 @@ fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
     summed.collect()
 }
 
-/// What robots give; with a block, only to this block.
+/// Returns the forces of robots on all blocks, or on `block` only.
 fn robots(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -183,7 +185,8 @@ fn robots(
     holding.map(force).collect()
 }
 
-/// The missing forces that act on these blocks from outside of them.
+/// Returns the missing forces on these blocks, without those that the blocks would exert on each other. More than
+/// [`MAX_REACTIONS`] are added up.
 fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &found.failures {
@@ -264,7 +267,7 @@ fn table(caption: &str, forces: &[Force], about: &str) -> Grid {
     grid
 }
 
-/// What the sums of both tables say.
+/// Explains the sums of both tables, and the formula of the moment.
 pub(super) fn check_words(found: &FrameAnalysis) -> String {
     let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
     let words = match found.verdict {
@@ -272,13 +275,13 @@ pub(super) fn check_words(found: &FrameAnalysis) -> String {
             "The sums are zero in the printed digits: weights, loads and reactions balance."
         }
         Verdict::Unstable if found.failures.is_empty() => {
-            "The structure falls: the sums are what is missing for a balance."
+            "The structure falls: the sums are the forces that are missing for a balance."
         }
         Verdict::Unstable => {
             "The sums are zero only with the missing forces, which neither contacts nor robots can give."
         }
         Verdict::Undecided => {
-            "No balance is proved: the sums are what the best forces found leave over."
+            "No balance is proved: the sums are the remaining imbalance of the best forces found."
         }
     };
     format!("{words} {formula}")

@@ -1,4 +1,4 @@
-//! [`MarginBar`]: a margin as a bar: the values at which it stands, and the present one.
+//! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the present value.
 
 use crate::analysis::{End, FrameAnalysis, Interval};
 use crate::scene::Scene;
@@ -9,38 +9,38 @@ use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, state
 pub enum BarEnd {
     /// The parameter itself begins or ends here.
     Domain,
-    /// It falls beyond.
+    /// The structure falls beyond this end.
     Edge,
-    /// No verdict confirms the end, which lies beyond.
+    /// No verdict confirms where the interval ends; the end lies farther out.
     Unconfirmed,
-    /// It stands at every value beyond.
+    /// The structure stands at every value beyond this end.
     Open,
 }
 
-/// A margin: the values at which the structure stands, and the place where it is.
+/// A margin: the values at which the structure stands, and the present value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarginBar {
-    /// What varies.
+    /// The parameter that varies.
     pub name: String,
-    /// At which values it stands and where it is now, in words.
+    /// The values at which it stands, and the present value, in words.
     pub words: String,
     /// The ends of the scale.
     pub scale: (f64, f64),
-    /// From where to where it stands; nowhere where `None`.
+    /// The lowest and highest value at which it stands; `None` if it stands at no value.
     pub safe: Option<(f64, f64)>,
-    /// How the ends of that are drawn.
+    /// How the ends of `safe` are drawn.
     pub ends: (BarEnd, BarEnd),
-    /// The least and the largest present value, where they have a place on the scale.
+    /// The least and the largest present value; `None` if there is none or it is infinite.
     pub now: Option<(f64, f64)>,
-    /// Where the present value is.
+    /// Whether the present value is inside the interval.
     pub position: Position,
     /// Whether this is the factor on the loads.
     pub is_load_factor: bool,
-    /// How much is left to the nearest end, in parts of what there is: 0 at the end, 1 where nothing limits it.
+    /// The relative distance to the nearest end: 0 at the end, 1 if there is no end.
     pub reserve: f64,
 }
 
-/// The margins of a frame as bars, those that were asked for, the headline first.
+/// Returns the requested margins of a frame as bars, the headline margin first.
 pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     stated(scene, found).iter().map(MarginBar::new).collect()
 }
@@ -49,7 +49,7 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
 pub(super) const SHAPES: &str = "A bar covers the values at which it stands: it falls beyond a stroke (dashed: not confirmed) \
                                  and stands beyond an arrow. Present value: disc inside, cross outside, ring undecided.";
 
-/// The scale reaches this much farther than the farthest value on it.
+/// The scale ends at this factor times the largest absolute value that is shown.
 const BEYOND: f64 = 1.25;
 
 impl MarginBar {
@@ -85,7 +85,7 @@ impl MarginBar {
         }
     }
 
-    /// The place of a value on the scale, 0 … 1.
+    /// Returns the position of a value on the scale, 0 … 1; values outside are moved to the nearer end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         let (low, high) = self.scale;
         let share = if high > low {
@@ -100,12 +100,13 @@ impl MarginBar {
         }
     }
 
-    /// Whether it stands at the present value.
+    /// True if the present value is inside the interval.
     pub(crate) fn is_inside(&self) -> bool {
         self.position == Position::Inside
     }
 
-    /// The margin as a sentence of its own. That of the loads names them already.
+    /// Returns the margin as a sentence that names its parameter. The sentence of the load factor names the loads
+    /// already.
     pub fn short(&self) -> String {
         if self.is_load_factor {
             return self.words.clone();
@@ -114,7 +115,8 @@ impl MarginBar {
     }
 }
 
-/// From 0, or to both sides of it, to somewhat beyond all values that are drawn; a kernel to 1.
+/// Returns the ends of the scale, a little beyond all values that are drawn. It begins at 0, or is symmetric about 0
+/// if the parameter can be negative. The scale of a kernel ends at 1.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);
@@ -141,7 +143,7 @@ fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
 
 fn bar_end(margin: &StatedMargin<'_>, end: &End) -> BarEnd {
     match end {
-        // There is no kernel above 1.
+        // A kernel is never above 1.
         End::Unbounded if margin.parameter == Parameter::Kernel => BarEnd::Domain,
         End::Unbounded => BarEnd::Open,
         End::Unconfirmed { .. } => BarEnd::Unconfirmed,

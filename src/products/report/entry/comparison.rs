@@ -1,4 +1,4 @@
-//! [`compared`]: compares two scenes.
+//! [`compared`]: makes the report entry that compares two scenes.
 //!
 //! 1. Steps are paired by their order, blocks by their ids, and interfaces by their bodies and their order between these.
 //! 2. A force counts as changed if it differs by more than 5 % of the larger one.
@@ -40,7 +40,7 @@ pub struct Side<'s> {
     pub analysis: &'s Analysis,
 }
 
-/// The content of a report on two scenes.
+/// Makes the content of a report that compares two scenes: the first, then the second.
 pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     let [was, is] = sides;
     let options = sheet::options(wanted);
@@ -70,7 +70,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
                 alone(side, number, drawing, only_in(counts, number))
             }
         };
-        // The letter counts the steps of both scenes.
+        // `sheet::empty` sees one scene only; letters are needed if either scene has several steps.
         section.letter = if several {
             letter(number)
         } else {
@@ -121,7 +121,7 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// A step that only one of the scenes has.
+/// Describes a step that only one of the scenes has: its sentence `why`, and its section.
 fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
     let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
     let mut section = sheet::empty(scene, number, found.verdict);
@@ -132,7 +132,7 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
 }
 
 fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "arrows and colours to its own scale";
+    let scale = "arrows and colours have a scale of their own";
     let name = line(side.file.name);
     Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
@@ -142,7 +142,7 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
     }
 }
 
-/// A step that both scenes have.
+/// Compares a step that both scenes have: a sentence about the changes, and the section.
 fn both(
     sides: [Side<'_>; 2],
     number: usize,
@@ -201,7 +201,7 @@ fn both(
     (sentence, section)
 }
 
-/// A sentence about the verdicts and all changes of a step.
+/// Returns a sentence about both verdicts and all changes of a step, without a full stop.
 fn changes_sentence(
     [then, now]: [&FrameAnalysis; 2],
     shape: &Shapes,
@@ -221,7 +221,7 @@ fn changes_sentence(
     stated.extend(differs);
     stated.extend(settings.stated());
     stated.push(match forces.iter().filter(|f| f.changed()).count() {
-        _ if forces.is_empty() => "no interface in both".to_owned(),
+        _ if forces.is_empty() => "no interface that both have".to_owned(),
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",
@@ -231,7 +231,7 @@ fn changes_sentence(
     stated.join("; ")
 }
 
-/// The verb for a verdict in a sentence.
+/// Returns the verb for a verdict in a sentence: `stands`, `falls`, `is undecided`.
 fn verb(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Undecided => "is undecided",
@@ -261,8 +261,8 @@ impl SharedForce {
     }
 }
 
-/// The interfaces of both frames, paired by the names of their bodies. Several interfaces between two bodies are paired by
-/// their order.
+/// Pairs the interfaces of both frames by the names of their bodies. Several interfaces between two bodies are paired
+/// by their order.
 fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<SharedForce> {
     let key = |scene: &Scene, contact: &Contact| {
         contact.interface.bodies.map(|b| scene.name(b).to_owned())
@@ -273,7 +273,7 @@ fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<SharedForce> {
         before.entry(key(was.0, contact)).or_default().push(contact);
     }
     let sizes = was.1.contacts.iter().chain(&is.1.contacts);
-    // Forces below a millionth of the largest are solver noise.
+    // Forces below a millionth of the largest force are rounding errors of the solver.
     let noise = 1e-6 * sizes.map(|c| c.resultant.force.norm()).fold(0.0, f64::max);
     let mut taken: BTreeMap<[String; 2], usize> = BTreeMap::new();
     let mut shared = Vec::new();
@@ -376,7 +376,7 @@ fn grid(scene: &Scene, forces: &[SharedForce]) -> Grid {
     grid
 }
 
-/// The radius of the rings: smaller if many rings would overlap.
+/// Returns the radius of the rings in pixels: smaller if many rings would overlap.
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING;
     let span = |of: fn(&PagePoint) -> f64| {
@@ -401,7 +401,8 @@ fn radius(places: &[PagePoint]) -> f64 {
     }
 }
 
-/// Marks blocks by an outline and points by a ring in a drawing of the scene.
+/// Marks blocks with an outline and points with a ring in a drawing of the scene. `blocks` are numbers of blocks;
+/// `rings` are in metres.
 fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
     if blocks.is_empty() && rings.is_empty() {
         return;

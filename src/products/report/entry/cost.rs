@@ -1,4 +1,4 @@
-//! [`cost`]: the table of effects of a step, with unknowns and times.
+//! [`cost`]: the table of the effects of a step, with their unknowns and times.
 //!
 //! All effects share one linear program, which is solved once. Unknowns are therefore counted by effect, but times by
 //! stage. Only margins and wedging are computed separately and have times of their own.
@@ -9,7 +9,7 @@ use crate::result::Timing;
 use crate::text::line;
 use crate::wording::number::{counted, duration};
 
-/// The table of a step.
+/// Makes the table of the effects of a step. Times are in it only if `timing` includes them.
 pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     let timed = timing == Timing::Included;
     let (caption, heads): (&str, &[&str]) = match timed {
@@ -57,11 +57,11 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
                 String::new(),
             ]
         };
-        let posing = stage("posing", "what each effect contributes, put together");
+        let posing = stage("posing", "the contributions of all effects, assembled to one program");
         add(posing, duration(stages.assembly));
         let solving = stage(
             "solving and proving",
-            "all unknowns at once: no effect has a time of its own in it",
+            "all unknowns together: no time can be given for a single effect",
         );
         add(solving, duration(stages.solution));
     }

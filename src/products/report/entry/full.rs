@@ -1,4 +1,4 @@
-//! [`appendix`]: everything else that is known of a frame, for a full report.
+//! [`appendix`]: all other results of a frame, for a full report.
 
 use super::cost::cost;
 use super::joints::Ranking;
@@ -11,10 +11,11 @@ use crate::text::line;
 use crate::wording::number::prefixed;
 use crate::wording::{failure, proof};
 
-/// With fewer joints, a table shows more than a chart.
+/// Frames with fewer joints have no charts: a table shows more.
 const MIN_CHART_JOINTS: usize = 8;
 
-/// The appendix on a frame: all joints, all failures, effects with their cost, the proof in numbers, charts.
+/// Makes the appendix of a frame: all joints, all failures, effects with their cost, the proof in numbers, and
+/// charts.
 pub(super) fn appendix(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let mut section = empty(scene, number, found.verdict);
@@ -85,7 +86,7 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
             y: "joints".to_owned(),
             ..bars
         };
-        // Without any force there is no chart.
+        // Frames without forces have no chart.
         let svg = chart::bars(&chart).ok()?;
         Some(Chart {
             caption: caption.to_owned(),

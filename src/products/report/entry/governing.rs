@@ -1,4 +1,4 @@
-//! [`governing`]: the step of a scene that governs, and its margin in words.
+//! [`governing`]: finds the governing step of a scene; [`headline_words`] writes its margin.
 
 use super::bullet;
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -7,7 +7,8 @@ use crate::text::line;
 use crate::wording::headline::headline;
 use crate::wording::margin::stated;
 
-/// The step that governs: the first that falls, else the first undecided one, else the one with the least margin.
+/// Returns the number of the governing step, from 0. It is the first step that falls, else the first undecided step,
+/// else the step with the least margin.
 pub(super) fn governing(analysis: &Analysis) -> usize {
     let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
     let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));
@@ -16,7 +17,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
             let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
             bars.first().map_or(1.0, |bar| bar.reserve)
         };
-        // Of equal margins the last step governs: it has the most blocks.
+        // If margins are equal, the last step governs: it has the most blocks.
         let steps = (0..analysis.frames.len()).rev();
         steps
             .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))
@@ -24,7 +25,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
     })
 }
 
-/// The margin that matters most as a sentence; empty where none was computed.
+/// Returns the most important margin of a frame as a sentence; empty if no margin was computed.
 pub(super) fn headline_words(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
     let placed = &scene.frames[number].placed;
     let loads = scene

@@ -49,7 +49,7 @@ impl<S: Into<String>> From<S> for TableCell {
 }
 
 impl TableCell {
-    /// A small picture without text.
+    /// Makes a cell with a small picture and no text.
     pub fn picture(picture: Thumbnail) -> TableCell {
         TableCell {
             picture: Some(picture),
@@ -57,7 +57,7 @@ impl TableCell {
         }
     }
 
-    /// A margin drawn as a bar.
+    /// Makes a cell with a margin as a bar.
     pub fn bar(bar: MarginBar) -> TableCell {
         TableCell {
             words: bar.words.clone(),
@@ -66,7 +66,7 @@ impl TableCell {
         }
     }
 
-    /// Text that is emphasised if a condition holds.
+    /// Makes a cell whose text is emphasised if `strong`.
     pub fn strong_if(strong: bool, words: impl Into<String>) -> TableCell {
         TableCell {
             strong,
@@ -76,7 +76,7 @@ impl TableCell {
 }
 
 impl Grid {
-    /// An empty table. A `#` at the beginning of a head marks a column of numbers.
+    /// Makes a table without rows. A `#` at the beginning of a head marks a column of numbers; it is not shown.
     pub fn new<H: AsRef<str>>(caption: impl Into<String>, heads: &[H]) -> Grid {
         let head = |head: &H| match head.as_ref().strip_prefix('#') {
             Some(rest) => (rest.to_owned(), true),

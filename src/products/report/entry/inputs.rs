@@ -1,4 +1,4 @@
-//! What a frame is computed from: [`materials`], [`loads`], [`robots`] and [`facts`].
+//! Tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
 
 use super::Grid;
 use super::unit::Column;
@@ -31,7 +31,7 @@ impl Range {
     }
 }
 
-/// The blocks of a frame by their material.
+/// Makes a table with a row for each material of the blocks of a frame.
 pub(super) fn materials(scene: &Scene, number: usize) -> Grid {
     let mut groups: Vec<(Option<usize>, Vec<BlockId>)> = Vec::new();
     for block in &scene.frames[number].placed {
@@ -75,18 +75,19 @@ pub(super) fn materials(scene: &Scene, number: usize) -> Grid {
     grid
 }
 
-/// The density that follows from the weight of a block, kg/m³; `None` without gravity or thickness.
+/// Returns the density of a block in kg/m³, computed from its weight. `None` if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
     let volume = own.body.polygon.area() * scene.thickness;
     let density = own.weight / (scene.gravity.norm() * volume);
-    // Solver noise does not enter here; rounding in the last digits does.
+    // Seven digits remove the rounding error of this division, so that equal densities compare as equal.
     density
         .is_finite()
         .then(|| format!("{density:.6e}").parse().unwrap_or(density))
 }
 
-/// The loads of a frame, one row each.
+/// Makes a table with a row for each load of a frame. Loads after the first [`MAX_ROWS`] share one row with their
+/// sum.
 pub(super) fn loads(scene: &Scene, number: usize) -> Grid {
     let placed = &scene.frames[number].placed;
     let loads: Vec<_> = scene
@@ -135,7 +136,7 @@ pub(super) fn loads(scene: &Scene, number: usize) -> Grid {
     grid
 }
 
-/// The direction of a force in words: `downwards`, `to the right`, `down and right, 30° from the vertical`.
+/// Describes the direction of a force: `downwards`, `to the right`, `down and right, 30° from the vertical`.
 fn direction(force: Vector) -> String {
     let negligible = 1e-9 * force.norm();
     let across = match force.x {
@@ -159,7 +160,7 @@ fn direction(force: Vector) -> String {
     }
 }
 
-/// The robots that hold a block of a frame, with their limits.
+/// Makes a table of the robots that hold blocks in a frame, with their limits.
 pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new(
@@ -208,7 +209,7 @@ fn limits(limits: Limits) -> String {
     parts.join(", ")
 }
 
-/// The other inputs, one row each.
+/// Makes a table of the other inputs: gravity, thickness, ground, friction of pairs, kernel, corners and tolerance.
 pub(super) fn facts(scene: &Scene) -> Grid {
     let mut grid = Grid::new("", &["input", "value"]);
     let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);
@@ -249,6 +250,6 @@ pub(super) fn facts(scene: &Scene) -> Grid {
         let moved = scene.tolerance_words().unwrap_or_default();
         add("tolerance", line(&moved));
     }
-    add("units", "m, N or kN as in each head, degrees".to_owned());
+    add("units", "metres and degrees; forces as the head of each column says".to_owned());
     grid
 }

@@ -1,4 +1,5 @@
-//! [`Ranking`]: the joints of a frame, nearest to opening or sliding first, and the robots with their limits.
+//! [`Ranking`]: the joints of a frame, sorted by how near they are to opening or sliding. [`robots`] lists the forces
+//! of robots.
 
 use super::unit::Column;
 use super::{Grid, HoverTarget, TableCell, touch};
@@ -11,20 +12,21 @@ use crate::wording::number::percent;
 
 /// A sheet lists at most this many joints.
 const MAX_JOINTS: usize = 12;
-/// Forces below this share of the largest one are rounding of the solver.
+/// Forces below this share of the largest force are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
-/// From this utilisation a cell is emphasised.
+/// Cells with at least this utilisation are emphasised.
 const NEARLY_USED: f64 = 0.8;
-/// Figures with more joints than this get no hover targets: the page would become too large.
+/// Figures of frames with more joints than this have no hover targets: the page would become too large.
 const MAX_HOVER_TARGETS: usize = 3000;
 
-/// A joint that carries force, and how much of it is used.
+/// A joint that carries force, with its utilisation.
 struct Used {
     /// The number of the contact in the frame.
     contact: usize,
-    /// The distance of the resultant from the middle, m, and its share of the largest distance; `None` for a corner.
+    /// The distance of the resultant from the middle, m, and that distance relative to the largest one allowed.
+    /// `None` for a corner.
     off_middle: Option<(f64, f64)>,
-    /// The larger share of both limits, 0 … 1.
+    /// The larger one of the utilisations for opening and sliding, 0 … 1.
     share: f64,
 }
 
@@ -53,7 +55,8 @@ impl<'a> Ranking<'a> {
                 share,
             });
         }
-        // Equal shares by force: the larger force governs. Shares are compared in whole thousandths, free of solver noise.
+        // If shares are equal, the joint with the larger force governs. Shares are rounded to thousandths first, to
+        // remove rounding errors of the solver.
         let key = |u: &Used| (1e3 * u.share).round();
         used.sort_by(|a, b| {
             let force = |u: &Used| size(&found.contacts[u.contact]);
@@ -64,7 +67,9 @@ impl<'a> Ranking<'a> {
         Ranking { scene, found, used }
     }
 
-    /// The block that is cut free: at the largest failure, else at the most used joint. Of two blocks the heavier one.
+    /// Returns the block to draw as a free body: a block at the largest failure, else a block at the joint with the
+    /// highest utilisation. If that joint lies between two blocks, it is the heavier one. `None` if no joint carries
+    /// force.
     pub fn block(&self) -> Option<BlockId> {
         let bodies = match failure::by_amount(self.found).first() {
             Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
@@ -87,7 +92,8 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// The most used joint in words: `v13 / v12 (100 % of its half width)`.
+    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. `None` if no joint carries
+    /// force.
     pub fn governing(&self) -> Option<String> {
         let first = self.used.first()?;
         let contact = &self.found.contacts[first.contact];
@@ -100,7 +106,7 @@ impl<'a> Ranking<'a> {
         Some(format!("{}: {why}", name(self.scene, contact)))
     }
 
-    /// The table of the most used joints, or of all joints.
+    /// Makes the table of the first [`MAX_JOINTS`] joints, or of `all` joints that carry force.
     pub fn table(&self, all: bool) -> Grid {
         let shown: &[Used] = match all {
             true => &self.used,
@@ -151,7 +157,7 @@ impl<'a> Ranking<'a> {
         grid
     }
 
-    /// What the columns mean, and how many joints are left out.
+    /// Explains the columns of the table, and how many of the joints it lists.
     pub fn words(&self) -> String {
         let count = self.found.contacts.len();
         let shown = self.used.len().min(MAX_JOINTS);
@@ -171,7 +177,8 @@ impl<'a> Ranking<'a> {
         )
     }
 
-    /// The hover targets of the joints, robots and failures in a figure.
+    /// Returns the hover targets of joints, robots and failures in a figure. Empty if there are more than
+    /// [`MAX_HOVER_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
         if self.found.contacts.len() > MAX_HOVER_TARGETS {
             return Vec::new();
@@ -220,13 +227,14 @@ fn normal(contact: &Contact) -> f64 {
     contact.normal_forces[0] + contact.normal_forces[1]
 }
 
-/// A joint by its two bodies: `v3 / ground`.
+/// Names a joint by its two bodies: `v3 / ground`.
 pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
     let [a, b] = contact.interface.bodies.map(|body| scene.name(body));
     line(&format!("{a} / {b}"))
 }
 
-/// The distance of a resultant from the middle of its joint, m, and its share of the largest distance allowed.
+/// Returns the distance of a resultant from the middle of its joint, m, and that distance relative to the largest one
+/// allowed. `None` for a corner or a joint without length.
 fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let interface = &contact.interface;
     let half = 0.5 * interface.length() * (1.0 - kernel);
@@ -236,7 +244,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let off = (contact.resultant.at - interface.middle())
         .dot(&interface.tangent())
         .abs();
-    // With a kernel of 1 the only place is the middle.
+    // With a kernel of 1 the resultant may act in the middle only.
     let share = if half > 0.0 {
         (off / half).min(1.0)
     } else {
@@ -245,7 +253,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// The robots of a frame with what they give and the largest share of a limit that is used.
+/// Makes a table of the robots of a frame, with their forces and the highest utilisation of their limits.
 pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
     let newtons = Column::new(forces, "N");

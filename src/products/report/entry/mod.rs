@@ -1,8 +1,8 @@
 //! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
-//! An entry is made once from an analysis: [`Section`]s of [`SheetPart`]s. The writers for HTML, Markdown and PDF read the entry
-//! only, so their contents agree. Text from scene files is reduced to one safe line here ([`text::line`]), and each writer
-//! escapes it for its format.
+//! An entry is made once from an analysis and consists of [`Section`]s of [`SheetPart`]s. The writers for HTML,
+//! Markdown and PDF read nothing but the entry, so their contents agree. Text from scene files is reduced to one safe
+//! line here ([`text::line`]), and each writer escapes it for its format.
 
 mod balance;
 mod bullet;
@@ -47,7 +47,7 @@ pub struct ReportOptions {
     pub theme_name: Option<String>,
     /// Whether it reports solving times.
     pub timing: Timing,
-    /// Whether everything that is known is printed in an appendix.
+    /// Whether an appendix lists all other results.
     pub full: bool,
 }
 
@@ -77,7 +77,7 @@ pub struct File<'f> {
 pub struct Entry {
     /// Its row in the table of all scenes.
     pub row: Row,
-    /// Project, author and date, as far as the scene gives them.
+    /// Project, author and date, if the scene states them.
     pub details: Vec<String>,
     /// Its content.
     pub sections: Vec<Section>,
@@ -94,7 +94,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The content of a report on an analysis.
+    /// Makes the content of a report from an analysis. `file` is the scene file of the analysis.
     pub fn new(file: File<'_>, analysis: &Analysis, options: &ReportOptions) -> Entry {
         let scene = &analysis.scene;
         let named = [
@@ -123,7 +123,7 @@ impl Entry {
         }
     }
 
-    /// Takes the figures of the same entry in another spelling.
+    /// Replaces the figures by those of `other`, an entry of the same scene whose names are written differently.
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
@@ -167,18 +167,18 @@ impl Entry {
     }
 }
 
-/// The hash by which a scene file is recognised: 16 hexadecimal digits of FNV-1a.
+/// Returns a hash that identifies the text of a scene file: 16 hexadecimal digits of FNV-1a.
 fn hash(file: &str) -> String {
     format!("{:016x}", text::hash(file.as_bytes()))
 }
 
-/// The result of the scene as JSON in one line, like `check --json`.
+/// Returns the result of the scene as one line of JSON, like `check --json`.
 fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     let object = to_json_of(name, analysis, timing, Layout::OneLine);
     object.trim_end().to_owned()
 }
 
-/// Commands that draw the figures of a scene again.
+/// Returns commands that repeat the figures, the full report and the numbers of a scene: the purpose and the command.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
     let theme = options
         .theme_name
@@ -205,7 +205,8 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
     commands
 }
 
-/// The table of all scenes, with links to them and, where pages are numbered, the page of each.
+/// Makes the table of all scenes, with links to them. `pages` are the page numbers of the scenes, for a report with
+/// numbered pages.
 pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -> Grid {
     let fails = if compares {
         "what changed"

@@ -1,5 +1,5 @@
-//! [`SheetPart`]: what a page of a report consists of, without markup. The writers for HTML, Markdown and PDF know parts and
-//! nothing else of a report, so that their contents agree.
+//! [`SheetPart`]: a part of a page of a report, without markup. The writers for HTML, Markdown and PDF read parts
+//! only, so their contents agree.
 
 use std::borrow::Cow;
 
@@ -18,15 +18,15 @@ pub enum SheetPart {
     Text(String),
     /// A paragraph in small letters.
     Note(String),
-    /// Figures beside each other.
+    /// Figures next to each other.
     Figures(Vec<Figure>),
-    /// A table; it is left out where it has no rows.
+    /// A table; it is left out if it has no rows.
     Table(Grid),
-    /// Parts in columns beside each other.
+    /// Columns of parts, next to each other.
     Columns(Vec<Vec<SheetPart>>),
-    /// Charts beside each other.
+    /// Charts next to each other.
     Charts(Vec<Chart>),
-    /// What follows begins on a new page in print.
+    /// In print, the next part begins on a new page.
     NewPage,
 }
 
@@ -35,7 +35,7 @@ pub enum SheetPart {
 pub struct Badge {
     /// The verdict.
     pub verdict: Verdict,
-    /// The margin that matters most, as a sentence; empty where no margin was computed.
+    /// The most important margin as a sentence; empty if no margin was computed.
     pub headline: String,
     /// The same margin as a bar.
     pub bar: Option<MarginBar>,
@@ -63,9 +63,9 @@ pub struct Figure {
     pub caption: String,
     /// The figure.
     pub drawing: Drawing,
-    /// The same for a dark page, if the page follows the reader's system.
+    /// The same figure for a dark page, if the page follows the reader's system.
     pub dark: Option<Drawing>,
-    /// Its parts that are highlighted together with the rows of tables.
+    /// The parts of the figure that are highlighted together with rows of tables.
     pub touches: Vec<HoverTarget>,
 }
 
@@ -81,7 +81,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// The SVG with the namespace that a file needs.
+    /// Returns the SVG with the XML namespace, which a separate file needs.
     pub(crate) fn document(&self) -> Cow<'_, str> {
         if self.svg.contains("xmlns=") {
             return Cow::Borrowed(&self.svg);

@@ -34,9 +34,10 @@ pub struct Row {
     pub stand: (usize, usize),
     /// The number of blocks that its steps place.
     pub blocks: usize,
-    /// The margin of the governing step that matters most, as a sentence; empty where none was computed.
+    /// The most important margin of the governing step as a sentence; empty if none was computed.
     pub headline: String,
-    /// What is left to the end of this margin, as a share: −1 for a scene that falls whatever its loads, 2 without margin.
+    /// The relative distance to the end of this margin, 0 … 1. It is −1 for a falling scene without a margin of
+    /// loads, and 2 if no margin was computed.
     pub reserve: f64,
     /// The largest share of the available friction that an interface uses, among the steps that stand. `None` if no step
     /// stands: the forces of a falling step include the missing forces.
@@ -59,7 +60,7 @@ pub struct Thumbnail {
 }
 
 impl Row {
-    /// Makes the row of an analysis.
+    /// Makes the row of an analysis. `name` is the path as given by the user.
     pub fn new(name: &str, analysis: &Analysis) -> Row {
         let scene = &analysis.scene;
         let frames = &analysis.frames;
@@ -119,7 +120,7 @@ impl Row {
 }
 
 impl Row {
-    /// The verdict, of a comparison both verdicts, as text.
+    /// Returns the verdict as text, or both verdicts of a comparison: `stands → falls`.
     pub(crate) fn verdict_words(&self) -> String {
         match self.before {
             Some(before) => format!("{} → {}", plain(before), plain(self.verdict)),
@@ -127,7 +128,7 @@ impl Row {
         }
     }
 
-    /// The headline margin as text.
+    /// Returns the headline margin as text, or a dash if there is none.
     pub(crate) fn margin_words(&self) -> String {
         match self.headline.as_str() {
             "" => "–".to_owned(),
@@ -135,26 +136,26 @@ impl Row {
         }
     }
 
-    /// The share of the available friction that is used, as text.
+    /// Returns the largest share of the available friction that is used, as text.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
     }
 
-    /// The largest force as text.
+    /// Returns the largest force as text, with its unit.
     pub(crate) fn largest_words(&self) -> String {
         let words = |largest| quantity(largest, "N");
         self.largest.map_or_else(|| "none stands".into(), words)
     }
 }
 
-/// The name of a file without folders and extension.
+/// Returns the name of a file without folders and extension.
 pub(super) fn file_name(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = last.strip_suffix(".json").unwrap_or(last);
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-/// A small picture of some blocks and the ground.
+/// Draws a small picture of the given blocks and the ground.
 pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     let polygon = |id: BlockId| &scene.blocks[id.0].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());
@@ -187,7 +188,8 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     Thumbnail { blocks, ground }
 }
 
-/// SVG path data, rounded to 0.1 pixels. Points far outside are moved to the border.
+/// Writes an outline as SVG path data, rounded to 0.1 pixels. Points far outside are moved to 9 pixels outside the
+/// picture.
 fn path_data(outline: &Outline) -> String {
     let (width, height) = THUMBNAIL;
     let number = |x: f64| {

@@ -1,4 +1,5 @@
-//! [`sheet`]: the two pages of one frame: verdict, pictures and inputs first; then joints, balance, margins and assumptions.
+//! [`sheet`]: the two pages on one frame. The first has the verdict, pictures and inputs; the second has joints,
+//! balance, margins and assumptions.
 
 use super::governing::headline_words;
 use super::joints::{Ranking, robots};
@@ -18,7 +19,7 @@ use crate::wording::{proof, verdict};
 /// Width of a figure, in pixels: half a page, so that its labels are legible in print and on a phone.
 const WIDTH: f64 = 440.0;
 
-/// The options for figures in a report: the page shows titles and verdicts next to them.
+/// Returns the options for figures in a report. Figures have no titles and verdicts, because the page shows them.
 pub(super) fn options(wanted: &ReportOptions) -> Options {
     Options {
         theme: wanted.theme.clone(),
@@ -30,7 +31,7 @@ pub(super) fn options(wanted: &ReportOptions) -> Options {
     }
 }
 
-/// A section without content.
+/// Makes a section without parts. It has the title of the step, and its letter if there are several steps.
 pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
@@ -49,7 +50,7 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     }
 }
 
-/// The sheet of a frame.
+/// Makes the two pages on a frame.
 pub(super) fn sheet(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let ranking = Ranking::new(scene, found);
@@ -84,7 +85,7 @@ pub(super) fn sheet(analysis: &Analysis, number: usize, wanted: &ReportOptions) 
     section
 }
 
-/// Other steps that fall, beside each other: how each begins to fall, and why.
+/// Describes other steps that do not stand, two next to each other: the first figure of each, and the reason.
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
@@ -124,7 +125,8 @@ fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
     }
 }
 
-/// The governing pictures: the collapse and the forces where it falls; else the force flow and how it would fall.
+/// Draws the pictures of a frame. If it falls, they show the collapse and the forces. Otherwise they show the force
+/// flow, and how it would fall beyond its margin.
 fn figures(
     analysis: &Analysis,
     number: usize,
@@ -194,7 +196,7 @@ fn figures(
     figures
 }
 
-/// The story of the frame.
+/// Describes where the frame fails first, and what would change its verdict.
 fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let column = |heading: &str, words: Vec<String>| {
@@ -227,7 +229,7 @@ fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     }
 }
 
-/// The inputs of a frame.
+/// Makes two columns with the inputs of a frame.
 fn given(scene: &Scene, number: usize) -> SheetPart {
     let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
         true => Vec::new(),
@@ -276,7 +278,7 @@ fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
 
 fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
     let frames = match scene.frames.len() {
-        1 => "settlement, time, impact, earthquakes and the way it is built",
+        1 => "settlement, time, impact, earthquakes and the order in which it is built",
         _ => "settlement, time, impact and earthquakes",
     };
     let least = match (found.verdict, found.least_force) {
@@ -294,7 +296,7 @@ fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
     )
 }
 
-/// What a reader must know about the results of a frame.
+/// Returns notes that readers of the results must know: wedging and notices of the analysis.
 fn remarks(found: &FrameAnalysis) -> Vec<String> {
     let wedging = found
         .effects

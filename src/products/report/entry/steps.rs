@@ -1,4 +1,5 @@
-//! [`sections`]: a table of all steps, and sheets for the steps that fall or govern.
+//! [`sections`]: a table of all steps, the sheet of the governing step, and pictures of other steps that do not
+//! stand.
 
 use super::governing::{governing, headline_words};
 use super::joints::Ranking;
@@ -10,10 +11,10 @@ use crate::text::line;
 use crate::wording::number::letter;
 use crate::wording::verdict::plain;
 
-/// Besides the governing step, at most this many steps that fall are drawn.
+/// Besides the governing step, at most this many steps that do not stand are drawn.
 const MAX_FALLING: usize = 4;
 
-/// The sections of a scene.
+/// Makes the sections of a report on a scene.
 pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Section> {
     let count = analysis.frames.len();
     let mut sections = Vec::new();

@@ -1,4 +1,4 @@
-//! [`fails_first`] and [`would_take`]: the story of a frame in plain sentences.
+//! [`fails_first`] and [`would_take`]: sentences on where a frame fails first, and what would change its verdict.
 
 use super::joints::name;
 use crate::analysis::{Analysis, End, Failure, FrameAnalysis, Motion, Toward, Verdict};
@@ -11,10 +11,11 @@ use crate::wording::number::{counted, listed, place, three};
 
 /// A sentence names at most this many joints or blocks.
 const MAX_NAMED: usize = 5;
-/// A collapse with more sliding or parting joints than this is described by its blocks.
+/// At most this many failures are described one by one.
 const MAX_LISTED_FAILURES: usize = 3;
 
-/// The direction in which a standing frame is followed until it falls: its loads if there are any, else gravity.
+/// Returns the margin whose end shows how a standing frame would fall: load factor, else tilt, else horizontal load.
+/// `None` if no end of these has a mechanism.
 pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
     let intervals = &found.margins.as_ref()?.intervals;
     let has_edge = |interval: &Option<crate::analysis::Interval>| {
@@ -32,7 +33,8 @@ pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
         .map(|way| way.1)
 }
 
-/// Where it fails first: how it falls, or how it would fall at the end of its margin. `None` where nothing shows it.
+/// Describes how the frame falls, or how it would fall at the end of its margin. `None` if it is undecided, or if no
+/// mechanism is known.
 pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     match found.verdict {
@@ -69,7 +71,8 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
     }
 }
 
-/// How blocks begin to move: `4 hinges open: at a / b …; 7 blocks move`.
+/// Describes how blocks begin to move: `7 blocks move, with 4 hinges: a / b at (1, 2), …`. `None` if the mechanism is
+/// empty.
 fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<String> {
     if mechanism.is_empty() {
         return None;
@@ -120,8 +123,8 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     })
 }
 
-/// What it would take to change the verdict: of a standing frame to fall, of a falling frame to stand. One sentence for each
-/// margin that was computed.
+/// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for
+/// each margin that was computed.
 pub(super) fn would_take(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     stated(scene, found)
         .iter()

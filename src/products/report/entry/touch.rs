@@ -20,7 +20,7 @@ pub struct HoverTarget {
     pub ends: [Point; 2],
 }
 
-/// A part at a point.
+/// Makes a target at a point in metres.
 pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     HoverTarget {
         mark,
@@ -29,7 +29,8 @@ pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     }
 }
 
-/// Adds an invisible target to a drawing for each part, above everything else. A drawing without a scene is unchanged.
+/// Returns the drawing with an invisible target for each part, above everything else. A drawing without a scene is
+/// unchanged.
 pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
@@ -42,7 +43,7 @@ pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     drawing
 }
 
-/// Adds marks above the first scene of a drawing.
+/// Adds marks above the first scene of a drawing. `marks` draws them with the camera of the scene.
 pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group) {
     for item in &mut drawing.items {
         if let Item::Group(group) = item
@@ -53,7 +54,7 @@ pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group
     }
 }
 
-/// Adds marks to the first group with a scene. Returns whether there is one.
+/// Adds marks to the first group that shows a scene. Returns false if there is none.
 fn add_to_scene(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     if let Some(camera) = group.camera {
         group.items.push(marks(&camera).into());

@@ -13,7 +13,8 @@ pub(super) struct Column {
 const DIGITS: i32 = 4;
 
 impl Column {
-    /// For numbers in a unit without prefix: k where they exceed 1000, M where they exceed ten million.
+    /// Chooses the prefix for numbers in a unit without prefix. The largest absolute value decides: k above 10³, M
+    /// above 10⁷, m below 0.01, µ below 10⁻⁵.
     pub fn new(numbers: impl IntoIterator<Item = f64>, unit: &str) -> Column {
         let largest = largest(numbers);
         let (prefix, factor) = match largest {
@@ -30,7 +31,7 @@ impl Column {
         }
     }
 
-    /// For coordinates in metres.
+    /// Chooses the decimals for coordinates in metres.
     pub fn metres(numbers: impl IntoIterator<Item = f64>) -> Column {
         Column {
             unit: "m".to_owned(),
@@ -39,7 +40,7 @@ impl Column {
         }
     }
 
-    /// A number of the column, without its unit.
+    /// Writes a number with the prefix and decimals of the column, without its unit.
     pub fn write(&self, value: f64) -> String {
         let text = format!("{:.*}", self.decimals, value * self.factor);
         match text.strip_prefix('-') {
@@ -50,12 +51,12 @@ impl Column {
         }
     }
 
-    /// A number with its unit.
+    /// Writes a number with the prefix and decimals of the column, and its unit.
     pub fn with_unit(&self, value: f64) -> String {
         format!("{} {}", self.write(value), self.unit)
     }
 
-    /// The head of the column: `#normal force, kN`.
+    /// Returns the head of the column with its unit: `#normal force, kN`.
     pub fn head(&self, what: &str) -> String {
         format!("#{what}, {}", self.unit)
     }

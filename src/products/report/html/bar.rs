@@ -1,4 +1,4 @@
-//! A margin as a bar.
+//! [`bar`]: draws a margin as a bar.
 
 use maud::{Markup, html};
 
@@ -10,9 +10,9 @@ const BAR: (f64, f64) = (220.0, 20.0);
 /// The scale ends this far from the bar's ends: marks and arrows there stay inside.
 const INSET: f64 = 7.0;
 
-/// A bar from the lower to the upper end of the interval, on a scale. Shapes tell what colours tell: a stroke at an end that
-/// was found, a dashed one where it was not confirmed, an arrow where there is no end; a disc for a present value inside, a
-/// cross for one outside, a ring where neither was shown.
+/// Draws a bar from the lower to the upper end of the interval, on a scale. The shapes are clear without colours. An
+/// end is a stroke, dashed if it is not confirmed, or an arrow if the interval has no end. The present value is a
+/// disc inside, a cross outside, or a ring if its position is unknown.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR;
     let at = |value: f64| {
@@ -48,7 +48,7 @@ pub(super) fn bar(bullet: &MarginBar) -> Markup {
     }
 }
 
-/// The mark of the present value.
+/// Draws the mark of the present value.
 fn now(position: Position, at: f64) -> Markup {
     html! {
         @match position {

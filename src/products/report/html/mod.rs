@@ -1,9 +1,10 @@
-//! A report as HTML: one file that needs nothing else, no network and, to be read, no script.
+//! Writes a report as HTML. The file needs no other file and no network, and it can be read without scripts.
 //!
-//! maud escapes what is put into markup, and what came from files is one harmless line before that; the only markup that
-//! is put in as it is are our own SVG writers' figures and charts. Scripts add sorting, filtering, stepping and the marks
-//! that follow the mouse. The body of a scene stands in a `noscript`: with scripts it is plain text until somebody opens
-//! the scene, so that a page of a thousand scenes opens at once; without scripts the browser reads it as it is.
+//! `maud` escapes all text. Text from files was reduced to one safe line before. Only figures, charts, the style
+//! sheet, the script and finished parts of the page are inserted without escaping. Scripts add sorting, filtering,
+//! steps and the marks that follow the mouse. The body of a scene is in a `noscript`. With scripts it is plain text
+//! until the reader opens the scene, so that a page with a thousand scenes opens at once. Without scripts the browser
+//! shows it as it is.
 
 mod bar;
 mod part;
@@ -21,10 +22,10 @@ use crate::wording::verdict::plain;
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
-/// Up to so many scenes are open from the beginning.
+/// If there are at most this many scenes, all are open from the beginning.
 const OPEN: usize = 12;
 
-/// A page that holds everything.
+/// Writes one page with all scenes. `bodies` are the parts of the scenes from [`section`].
 pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     let main = html! {
         (refused(head))
@@ -36,7 +37,7 @@ pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     page(head, head.title, &head.summary, &main)
 }
 
-/// An index and a page for each scene.
+/// Writes an index and a page for each scene. `bodies` are the parts of the scenes from [`section`].
 pub(super) fn split(head: &Head<'_>, bodies: &[&str]) -> Vec<OutputFile> {
     let name = |row: &&Row| format!("{:04}-{}.html", row.number, slug(&row.title));
     let names: Vec<String> = head.rows.iter().map(name).collect();
@@ -112,8 +113,8 @@ fn refused(head: &Head<'_>) -> Markup {
     html! {
         @if !head.refused.is_empty() {
             section.refused aria-labelledby="refused" {
-                h2 #refused { "Files that are no scenes" }
-                p { "These are not in the report. Each is listed with everything that is wrong with it." }
+                h2 #refused { "Files that are not valid scenes" }
+                p { "These files are not in the report. Each is listed with all its problems." }
                 @for file in head.refused {
                     h3 { bdi { (text::line(&file.name)) } }
                     ul { @for line in file.lines() { li { (line) } } }
@@ -123,12 +124,12 @@ fn refused(head: &Head<'_>) -> Markup {
     }
 }
 
-/// The mark and the word of a verdict.
+/// Writes the mark and the word of a verdict.
 fn verdict(verdict: Verdict) -> Markup {
     html! { span.verdict.(plain(verdict)) { span aria-hidden="true" { (sign(verdict)) } " " (plain(verdict)) } }
 }
 
-/// The verdict, of a comparison both, on one line.
+/// Writes the verdict, or both verdicts of a comparison, on one line.
 fn verdicts(row: &Row) -> Markup {
     html! {
         span.verdicts {
@@ -138,7 +139,7 @@ fn verdicts(row: &Row) -> Markup {
     }
 }
 
-/// A file's path, which may be broken after a folder before it is broken within a name.
+/// Writes a path that the browser may break after each folder.
 fn path(name: &str) -> Markup {
     html! {
         bdi { @for part in name.split_inclusive('/') { (part) wbr; } }
@@ -154,7 +155,7 @@ fn overview(head: &Head<'_>, link: &dyn Fn(usize) -> String) -> Markup {
     };
     html! {
         section.overview aria-labelledby="overview" {
-            h2 #overview { "All of them" }
+            h2 #overview { "All scenes" }
             div.wide tabindex="0" role="region" aria-label="Table of all scenes" {
                 table.all data-sortable="true" {
                     thead {

@@ -1,4 +1,4 @@
-//! A scene's part of a page.
+//! [`section`]: writes a scene as a part of a page.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -12,10 +12,10 @@ use crate::report::entry::{
 };
 use crate::wording::verdict::plain;
 
-/// Tables of more lines are folded.
+/// Tables with more rows are folded.
 const LONG: usize = 24;
 
-/// A scene as a part of a page that unfolds.
+/// Writes a scene as a part of a page that can be unfolded. `number` counts from 1.
 pub(crate) fn section(entry: &Entry, number: usize) -> String {
     let row = &entry.row;
     let body = html! {
@@ -85,7 +85,7 @@ impl Writer {
             @match part {
                 SheetPart::Badge(of) => (badge(of)),
                 SheetPart::Heading(words) => h4 { bdi dir="ltr" { (words) } },
-                // Our sentences run from the left, whatever script the first name in them is of.
+                // Sentences run from left to right, even if they begin with a name in another script.
                 SheetPart::Text(words) => p.text { bdi dir="ltr" { (words) } },
                 SheetPart::Note(words) => p.small { bdi dir="ltr" { (words) } },
                 SheetPart::Figures(figures) => div.plates { @for figure in figures { (self.plate(figure)) } },
@@ -129,7 +129,7 @@ fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
         mark: Some(mark.to_owned()),
         ..Options::default()
     };
-    // Words by the names of their fonts need no laying out, so that nothing can fail.
+    // Text that names its fonts needs no layout, so this cannot fail.
     PreEscaped(svg::write_with(&drawing, &options).unwrap_or_else(|_| svg::write(&drawing)))
 }
 
@@ -152,7 +152,7 @@ fn chart(of: &Chart) -> Markup {
             figure.chart.study { div.paper.always { (PreEscaped(&of.svg)) } figcaption { (of.caption) } }
         };
     }
-    // In the page's own ink, which may be light on dark.
+    // Uses the text colour of the page, which may be light on dark.
     let svg = of
         .svg
         .replace(chart::INK, "currentColor")
@@ -206,14 +206,14 @@ fn grid(of: &Grid) -> Markup {
 fn again(entry: &Entry, number: usize) -> Markup {
     html! {
         details.again {
-            summary { "Make it again: commands" @if !entry.source.is_empty() { " and the scene’s file" } }
+            summary { "Repeat it: commands" @if !entry.source.is_empty() { " and the scene’s file" } }
             @for (what, command) in &entry.commands {
                 p { "For " (what) ": " code.command { (command) } }
             }
             @if !entry.source.is_empty() {
-                p { label for=(format!("source-{number}")) { "The scene’s own JSON, to copy:" } }
+                p { label for=(format!("source-{number}")) { "The scene file, to copy:" } }
                 textarea.source id=(format!("source-{number}")) readonly rows="12" spellcheck="false" {
-                    // A browser drops the first line feed of a text area.
+                    // Browsers ignore the first line feed of a text area.
                     "\n" (entry.source)
                 }
             }

@@ -1,4 +1,4 @@
-//! The verdict of a sheet with its headline margin.
+//! Draws the verdict of a sheet with its headline margin.
 
 use super::bar;
 use super::flow::{Flow, GAP, LINE, SMALL};
@@ -11,7 +11,7 @@ use crate::report::head::sign;
 use crate::wording::verdict::plain;
 
 impl Flow {
-    /// The verdict with the headline margin, on a tinted panel.
+    /// Draws the verdict with the headline margin, on a tinted panel.
     pub fn badge(&mut self, badge: &Badge) {
         let (ink, tint) = match badge.verdict {
             Verdict::Stable => (Colour::hex(0x17743f), Colour::hex(0xe8f3ec)),

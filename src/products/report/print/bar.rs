@@ -1,4 +1,4 @@
-//! A margin as a bar: the same shapes as on a page of HTML.
+//! [`draw`]: draws a margin as a bar, with the same shapes as in HTML.
 
 use super::flow::Flow;
 use crate::drawing::{Colour, Outline, PagePoint, Path, Stroke};
@@ -13,7 +13,7 @@ const INSET: f64 = 6.0;
 const SAFE: u32 = 0x002e_8b62;
 const FALLS: u32 = 0x009c_1515;
 
-/// Draws a bar with its upper left corner at a point.
+/// Draws a bar of the width `wide`, with its upper left corner at a point, in pixels.
 pub(super) fn draw(flow: &mut Flow, bar: &MarginBar, at: PagePoint, wide: f64) {
     let room = wide - 2.0 * INSET;
     let x = |value: f64| at.x + INSET + room * bar.share(value);

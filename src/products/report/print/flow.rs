@@ -46,7 +46,7 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    /// `foot` is the line at the foot of every page.
+    /// Begins with one empty page. `foot` is the line at the foot of every page.
     pub fn new(foot: String) -> Flow {
         let mut flow = Flow {
             pages: Vec::new(),
@@ -64,7 +64,7 @@ impl Flow {
         flow
     }
 
-    /// The current page, which is made if it does not exist.
+    /// Returns the current page. Adds it if it does not exist.
     pub fn page(&mut self) -> &mut Page {
         while self.pages.len() <= self.current {
             self.pages.push(Page {
@@ -83,7 +83,7 @@ impl Flow {
         }
     }
 
-    /// Starts a new page if less than `height` is left.
+    /// Starts a new page if less than `height` pixels are left.
     pub fn reserve(&mut self, height: f64) {
         if self.y + height > BOTTOM {
             self.new_page();
@@ -108,7 +108,7 @@ impl Flow {
         self.open.push(item.into());
     }
 
-    /// Puts what was added since the last call on the page, with a role.
+    /// Puts the items that were added since the last call on the page, as one group with this role.
     pub fn close(&mut self, role: Role) {
         let items = std::mem::take(&mut self.open);
         if items.is_empty() {
@@ -146,7 +146,7 @@ impl Flow {
         self.close(role.clone());
     }
 
-    /// A heading of a level from 1; those of scenes and steps become bookmarks.
+    /// Adds a heading. Levels count from 1; headings of levels 1 to 3 become bookmarks.
     pub fn heading(&mut self, words: &str, size: f64, level: u8) {
         self.reserve(6.0 * size);
         self.y += if self.y > MARGIN { 0.5 * size } else { 0.0 };
@@ -163,7 +163,7 @@ impl Flow {
         self.y += 0.3 * size;
     }
 
-    /// The title of a scene with project, author and date on the right.
+    /// Adds the title of a scene, with project, author and date on the right.
     pub fn title(&mut self, words: &str, details: &[String]) {
         let (top, room) = (self.y, self.room);
         let details: Vec<String> = details.iter().map(|d| self.legible(d)).collect();
@@ -211,7 +211,7 @@ impl Flow {
         self.y += 0.4 * TEXT_SIZE;
     }
 
-    /// Figures beside each other, each with its caption.
+    /// Adds figures next to each other, each with its caption.
     pub fn figures(&mut self, figures: &[Figure]) {
         let across = figures.len().max(1) as f64;
         let wide = (self.room - GAP * (across - 1.0)) / across;
@@ -238,7 +238,7 @@ impl Flow {
         self.y = end + 0.4 * TEXT_SIZE;
     }
 
-    /// A caption below a picture; returns its lower end.
+    /// Adds a caption below a picture, and returns the position of its lower end.
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
         for row in wrap(&words, Face::Sans, SMALL, wide) {
@@ -249,7 +249,7 @@ impl Flow {
         self.y
     }
 
-    /// Charts in rows of two, wide ones alone.
+    /// Adds charts, two in a row, or one in a row if any of them is wide.
     pub fn charts(&mut self, charts: &[Chart]) {
         let across = if charts.iter().any(|c| c.wide) { 1 } else { 2 };
         let wide = (self.room - GAP * (across - 1) as f64) / across as f64;
@@ -277,7 +277,7 @@ impl Flow {
         }
     }
 
-    /// Parts in columns beside each other.
+    /// Adds columns next to each other. `parts` adds the parts of one column.
     pub fn columns(&mut self, columns: &[Vec<SheetPart>], parts: &dyn Fn(&mut Flow, &[SheetPart])) {
         let (left, room) = (self.left, self.room);
         let across = columns.len().max(1) as f64;
@@ -298,7 +298,7 @@ impl Flow {
     }
 }
 
-/// The scale at which a figure fits into a width.
+/// Returns the scale, at most 1, at which a figure fits into a width and [`MAX_FIGURE_HEIGHT`].
 fn fitted(drawing: &Drawing, wide: f64) -> f64 {
     (wide / drawing.width)
         .min(MAX_FIGURE_HEIGHT / drawing.height)

@@ -1,8 +1,8 @@
 //! Writes a report as PDF: A4 pages with figures, links, bookmarks and tagged text.
 //!
-//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing whose groups have roles, such as heading or cell
-//! of a table, with figures at positions on it. Tables break between rows and repeat their heads. Figures are scaled down to
-//! fit, and never cut.
+//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading
+//! or table cell, and figures are placed on it. Tables break between rows and repeat their heads. Figures are scaled
+//! down to fit, and never cut.
 
 mod badge;
 mod bar;
@@ -25,7 +25,7 @@ pub(super) struct Page {
     figures: Vec<(Drawing, PagePoint, f64)>,
     /// Charts and small pictures as SVG, with their descriptions.
     charts: Vec<(String, String, PagePoint, f64)>,
-    /// Where a link lies, and the scene it leads to, counted from 1.
+    /// Links: their place, the scene to which they lead, counted from 1, and their text.
     links: Vec<(PageRect, usize, String)>,
     /// Headings for the list of bookmarks: level, title, height on the page.
     bookmarks: Vec<(u8, String, f64)>,
@@ -33,7 +33,7 @@ pub(super) struct Page {
     foot: String,
 }
 
-/// The pages before the scenes. `numbers` are the pages on which the scenes begin, counted from 1.
+/// Makes the pages before the scenes. `numbers` are the pages on which the scenes begin, counted from 1.
 pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     let mut flow = Flow::new(String::new());
     flow.heading(head.title, 24.0, 1);
@@ -43,7 +43,7 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
         flow.note(note);
     }
     if !head.refused.is_empty() {
-        flow.heading("Files that are no scenes", 16.0, 2);
+        flow.heading("Files that are not valid scenes", 16.0, 2);
         for file in head.refused {
             flow.strong(&file.name);
             for line in file.lines() {
@@ -58,7 +58,7 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     flow.pages
 }
 
-/// The pages of a scene.
+/// Makes the pages of a scene.
 pub(super) fn section(entry: &Entry) -> Vec<Page> {
     let mut flow = Flow::new(format!("{}, {}", entry.origin, line(&entry.row.name)));
     let row = &entry.row;
@@ -69,7 +69,8 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
             ("", "") => {}
             ("", title) => flow.heading(title, 16.0, 3),
             (letter, title) => {
-                // An appendix or a comparison of a step begins on a new page unless its pictures still fit.
+                // An appendix, or the comparison of a step, begins on a new page if its pictures do not fit on this
+                // one.
                 if number > 1 {
                     flow.reserve(420.0);
                 }
@@ -136,7 +137,7 @@ pub(super) fn written(
     Ok(pdf::write_sheets(&sheets, &heading, &bookmarks)?)
 }
 
-/// The text of a page with its foot.
+/// Returns the text of a page with the line at its foot. `number` counts from 0.
 fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Drawing {
     let theme = Theme::thesis();
     let y = PAGE.1 - MARGIN + 12.0;

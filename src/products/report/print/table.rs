@@ -1,4 +1,4 @@
-//! Tables: rows that break between pages and repeat their heads.
+//! Adds tables. They can break between rows; the next page then repeats the heads.
 
 use super::bar;
 use super::flow::{BOTTOM, Flow, GAP, LINE, MARGIN, SMALL, TEXT_SIZE};
@@ -16,7 +16,7 @@ const PICTURE: (f64, f64) = (64.0, 40.0);
 /// A small picture is drawn for this width.
 const PICTURE_WIDTH: f64 = 96.0;
 
-/// A table as it is laid out.
+/// The layout of a table.
 struct Layout {
     number: usize,
     heads: Vec<(TableCell, bool)>,
@@ -73,7 +73,7 @@ impl Flow {
         self.y += 0.5 * TEXT_SIZE;
     }
 
-    /// Row 0 is the head.
+    /// Adds a row. Row 0 is the head.
     fn row(&mut self, layout: &Layout, row: &[TableCell], number: usize) {
         let (top, high) = (self.y, layout.height(row));
         let mut x = self.left;
@@ -121,7 +121,7 @@ impl Flow {
         let top = self.y;
         let face = face(cell);
         let colour = self.theme.ink;
-        // A cell that would not fit a page loses its end; its whole text is in the other forms of the report.
+        // A cell that is longer than a page is cut; the other forms of the report have its whole text.
         let most = ((BOTTOM - MARGIN) / (LINE * SMALL)) as usize - 4;
         for part in wrap(&cell.words, face, SMALL, wide).into_iter().take(most) {
             self.put(&part, at, face, SMALL, colour, anchor);
@@ -158,7 +158,7 @@ fn face(cell: &TableCell) -> Face {
     }
 }
 
-/// A small picture as a document of its own.
+/// Returns a small picture as an SVG document.
 fn small(picture: &Thumbnail) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"96\" height=\"60\" viewBox=\"0 0 96 60\">\
@@ -167,7 +167,8 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// The widths of the columns of a table: the width of their text if there is space, otherwise the widest are narrowed.
+/// Returns the widths of the columns of a table, in pixels. A column is as wide as its text; if there is no space for
+/// that, the widest columns are narrowed.
 fn widths(heads: &[(TableCell, bool)], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();
@@ -202,7 +203,7 @@ fn widths(heads: &[(TableCell, bool)], rows: &[Vec<TableCell>], space: f64) -> V
         let count = widths.iter().filter(|w| **w >= most).count() as f64;
         let to = next.max(most - (sum - room) / count);
         if to >= most {
-            // All are as narrow as they may be.
+            // All columns have their least width.
             return widths;
         }
         for wide in widths.iter_mut().filter(|w| **w >= most) {

@@ -1,4 +1,5 @@
-//! [`Settings`]: what two frames are given beside their blocks, and what of it differs: gravity, kernel, loads, robots.
+//! [`Settings`]: differences between the inputs of two frames, apart from their blocks: gravity, kernel, corner
+//! contacts, friction of pairs, loads and robots.
 
 use super::Side;
 use crate::report::entry::Grid;
@@ -7,16 +8,16 @@ use crate::text::line;
 use crate::wording::failure::shortened;
 use crate::wording::number::{digits, listed, place};
 
-/// So many differences are named in a sentence.
+/// A sentence names at most this many differences.
 const MOST_NAMED: usize = 4;
 
-/// What one frame is given: by name, in words, and the block it acts on.
+/// The inputs of one frame: name, value in words, and the number of the block on which it acts.
 type Given = Vec<(String, String, Option<usize>)>;
 
-/// What differs, beside the blocks.
+/// The inputs that differ, apart from the blocks.
 pub(super) struct Settings {
     lines: Vec<[String; 3]>,
-    /// Blocks of the first and of the second, by number, that are loaded or held otherwise.
+    /// The numbers of the blocks whose loads or robots differ, in the first and in the second frame.
     pub blocks: [Vec<usize>; 2],
 }
 

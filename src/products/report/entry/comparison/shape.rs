@@ -1,4 +1,4 @@
-//! [`Shapes`]: which blocks two frames have, and how those of one name differ.
+//! [`Shapes`]: the blocks that only one of two frames has, and how blocks of the same name differ.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,17 @@ use crate::text::line;
 use crate::wording::failure::shortened;
 use crate::wording::number::{digits, listed};
 
-/// Corners differ where they lie farther apart than this share of the scene's reach.
+/// A block counts as moved if its centroid moved by more than this times the largest coordinate of both scenes.
 const MOVED: f64 = 1e-6;
-/// So many blocks are named in a sentence.
+/// A sentence names at most this many blocks.
 const MOST_NAMED: usize = 6;
 
 /// How the blocks of two frames differ.
 #[derive(Default)]
 pub(super) struct Shapes {
-    /// Blocks of the first, by number, that the second has not or has otherwise.
+    /// Numbers of blocks of the first frame that are missing or different in the second.
     pub gone_or_changed: Vec<usize>,
-    /// Blocks of the second that the first has not or had otherwise.
+    /// Numbers of blocks of the second frame that are missing or different in the first.
     pub new_or_changed: Vec<usize>,
     gone: Vec<String>,
     new: Vec<String>,
@@ -37,7 +37,7 @@ impl Shapes {
             let named = placed.into_iter().map(|i| (scene.blocks[i].id.clone(), i));
             named.collect()
         };
-        // In the order of the files, in which v2 comes before v10.
+        // Blocks keep the order of the file; the order of names would put v10 before v2.
         let [then, now] = sides.map(blocks);
         let [before, after] = [&then, &now].map(|list| -> BTreeMap<&str, usize> {
             list.iter().map(|(id, i)| (id.as_str(), *i)).collect()
@@ -88,7 +88,7 @@ impl Shapes {
         };
         let gone = alone(&self.gone, "only in the first");
         let new = alone(&self.new, "only in the second");
-        // Blocks that differ in the same way are one line: a friction that changed everywhere is said once.
+        // Blocks that differ in the same way share one row of the table.
         let mut ways: Vec<(&str, Vec<String>)> = Vec::new();
         for (name, how) in gone.iter().chain(&new).chain(&self.changed) {
             match ways.iter_mut().find(|way| way.0 == how) {
@@ -103,7 +103,7 @@ impl Shapes {
     }
 }
 
-/// The farthest corner from the origin, m.
+/// Returns the largest absolute coordinate of all corners of blocks, m.
 fn reach(scene: &Scene) -> f64 {
     let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
     corners
@@ -111,7 +111,7 @@ fn reach(scene: &Scene) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// How a block differs from what it was; empty where it does not.
+/// Describes how a block differs between two scenes; empty if it does not. `reach` is the largest coordinate, m.
 fn differs(was: &Block, is: &Block, reach: f64) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
