@@ -57,7 +57,10 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
                 String::new(),
             ]
         };
-        let posing = stage("posing", "the contributions of all effects, assembled to one program");
+        let posing = stage(
+            "posing",
+            "the contributions of all effects, assembled to one program",
+        );
         add(posing, duration(stages.assembly));
         let solving = stage(
             "solving and proving",

@@ -250,6 +250,9 @@ pub(super) fn facts(scene: &Scene) -> Grid {
         let moved = scene.tolerance_words().unwrap_or_default();
         add("tolerance", line(&moved));
     }
-    add("units", "metres and degrees; forces as the head of each column says".to_owned());
+    add(
+        "units",
+        "metres and degrees; forces as the head of each column says".to_owned(),
+    );
     grid
 }
