@@ -1,29 +1,30 @@
 //! Charts as SVG: [`scatter`] draws points on two logarithmic axes; [`growth`] draws lines on two logarithmic axes;
 //! [`bars`] draws a histogram; [`course`] draws values over the steps of a scene.
 //!
-//! The one door to plotters is `plot`. plotters counts in whole pixels and lets labels collide; so the picture is drawn at ten times its size and the SVG's
-//! width and height are rewritten over the same view box. Logarithmic axes shorter than a decade lose their labels, so
-//! they are rounded outward to whole decades and at least two long. Words are set in our own font, registered under the
-//! name that the SVG then carries, so that no machine's fonts reach a picture.
+//! Only `plot` uses plotters. plotters rounds to whole pixels, and its labels can overlap. Therefore the picture is
+//! drawn ten times as large, and the width and height of the SVG are divided by ten over the same view box. A
+//! logarithmic axis shorter than a decade would have no labels, so axes cover at least two whole decades (except the
+//! horizontal axis of [`growth`]). Text is measured with the built-in font, so the fonts of the machine do not change a
+//! picture.
 
 mod plot;
 
 use std::fmt;
 
-/// Width and height of a scatter.
+/// Width and height of scatter and growth charts, pixels.
 const SIZE: (i32, i32) = (900, 620);
-/// Width and height of bars and courses.
+/// Width and height of histograms and course charts, pixels.
 const SMALL: (i32, i32) = (420, 250);
 
-/// The colour of axes and words, so that a page can give them its own.
+/// The colour of axes and text. A page that contains the chart can replace it by a colour of its own.
 pub const INK: &str = "#2D2D32";
-/// The colour of the lines behind.
+/// The colour of grid lines.
 pub const GRID: &str = "#E1E1E4";
 
 /// Points that belong together, in the order of their line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What the legend says.
+    /// The name in the legend.
     pub name: String,
     /// Red, green, blue.
     pub colour: [u8; 3],
@@ -34,28 +35,28 @@ pub struct Series {
 /// One point; both coordinates above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Along.
+    /// The value on the horizontal axis.
     pub x: f64,
-    /// Up.
+    /// The value on the vertical axis.
     pub y: f64,
-    /// Whether it is struck out by a large red cross.
+    /// Whether a cross marks it as wrong.
     pub wrong: bool,
 }
 
 /// A scatter on two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    /// Above the picture.
+    /// The title above the picture.
     pub title: String,
-    /// Below.
+    /// The name of the horizontal axis.
     pub x: String,
-    /// Beside.
+    /// The name of the vertical axis.
     pub y: String,
     /// The points.
     pub series: Vec<Series>,
-    /// What the crosses mean.
+    /// The meaning of the crosses, for the legend.
     pub wrong: String,
-    /// A stair of points that no other is better than, by rising x, and what the legend calls it.
+    /// The Pareto front: its name in the legend, and its points by rising x. It is drawn as a stair.
     pub front: (String, Vec<(f64, f64)>),
 }
 
@@ -70,7 +71,7 @@ impl ChartError {
     }
 }
 
-/// The power of ten as text: `10⁻³`.
+/// Formats a power of ten: `10⁻³` for the exponent −3.
 pub fn power_of_ten(exponent: i32) -> String {
     let plain = exponent.to_string();
     let digits = plain.chars().map(|c| match c {
@@ -86,7 +87,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// Draws a scatter chart as an SVG document.
 ///
 /// # Errors
-/// Where plotters refuses, which no finite and positive points make it do.
+/// If plotters fails. It does not fail for finite, positive coordinates.
 ///
 /// # Example
 /// ```
@@ -107,38 +108,39 @@ pub fn scatter(chart: &Scatter) -> Result<String, ChartError> {
     plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
 }
 
-/// What grows with a size, on two logarithmic axes, each named beside its end.
+/// Lines on two logarithmic axes, each with its name at its end.
 ///
-/// Lines are told apart by their names and not by colours; those that matter are dark and thick.
+/// Only names distinguish the lines. Important lines are dark and thick, all others are grey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// Above the picture.
+    /// The title above the picture.
     pub title: String,
-    /// Below.
+    /// The name of the horizontal axis.
     pub x: String,
-    /// Beside.
+    /// The name of the vertical axis.
     pub y: String,
-    /// What grows.
+    /// The lines.
     pub lines: Vec<Growing>,
-    /// What crosses in place of dots mean.
+    /// The meaning of the crosses that replace dots.
     pub wrong: String,
 }
 
-/// One thing that grows.
+/// A line of a growth chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growing {
     /// Its name.
     pub name: String,
-    /// Whether it is one of those that matter.
+    /// Whether the line is important.
     pub ours: bool,
-    /// By rising size.
+    /// Its points, by rising x.
     pub points: Vec<Point>,
 }
 
 /// Draws a growth chart as an SVG document.
 ///
 /// # Errors
-/// Where plotters refuses, which no finite and positive points make it do; and for no points.
+/// If there are no lines, if a line has no points, or if plotters fails. It does not fail for finite, positive
+/// coordinates.
 pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
         return Err(ChartError::new("there is nothing to draw"));
@@ -146,26 +148,27 @@ pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     plot::document(SIZE, &chart.title, |svg| plot::growth(chart, svg))
 }
 
-/// How often what occurs: a bar for every stretch between two edges.
+/// A histogram: a bar for each interval between two edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
-    /// What it shows, read aloud; the picture itself has no title.
+    /// A description for screen readers; no title is drawn.
     pub title: String,
-    /// Below.
+    /// The name of the horizontal axis.
     pub x: String,
-    /// Beside.
+    /// The name of the vertical axis.
     pub y: String,
-    /// The edges of the bars, rising, one more than there are bars.
+    /// The edges of the bars in rising order, one more than there are bars.
     pub edges: Vec<f64>,
-    /// How many lie between each two edges.
+    /// The number of values between two consecutive edges.
     pub counts: Vec<usize>,
     /// Red, green, blue.
     pub colour: [u8; 3],
 }
 
 impl Bars {
-    /// Sorts values into about ten bars with round limits, beginning at 0. There are no bars if no value is above 0. A
-    /// value on the limit of two bars belongs to the higher bar; the largest limit belongs to the last bar.
+    /// Counts values in about ten bars with round edges. The edges reach from 0 to `most`, or to the largest value for
+    /// `None`. There are no bars if this end is not above 0. A value on the edge between two bars belongs to the higher
+    /// bar. Values at or above the last edge belong to the last bar.
     ///
     /// ```
     /// use drystone::internals::chart::Bars;
@@ -200,7 +203,7 @@ impl Bars {
 /// Draws a histogram as an SVG document.
 ///
 /// # Errors
-/// Where plotters refuses, or there are no bars.
+/// If there are no bars, if the edges do not fit the counts, or if plotters fails.
 pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
         return Err(ChartError::new("there is nothing to count"));
@@ -208,23 +211,23 @@ pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     plot::document(SMALL, &chart.title, |svg| plot::bars(chart, svg))
 }
 
-/// One quantity, or several of one unit, from step to step.
+/// The values of one quantity, or of several quantities of one unit, at each step of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// What it shows, read aloud; the picture itself has no title.
+    /// A description for screen readers; no title is drawn.
     pub title: String,
-    /// Beside.
+    /// The name of the vertical axis.
     pub y: String,
-    /// The names of the steps, short.
+    /// The short names of the steps.
     pub steps: Vec<String>,
-    /// The quantities, each with a name written at its end, a value for every step, none where there is none.
+    /// Each quantity: its name, written at the end of its line, its colour, and its value at each step if it has one.
     pub lines: Vec<(String, [u8; 3], Vec<Option<f64>>)>,
 }
 
 /// Draws a course chart as an SVG document.
 ///
 /// # Errors
-/// Where plotters refuses, or there is nothing to draw.
+/// If there are no steps or no values, if a value is not finite, or if plotters fails.
 pub fn course(chart: &Course) -> Result<String, ChartError> {
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
@@ -233,7 +236,7 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
     plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
 }
 
-/// The smallest of 1, 2 and 5 times a power of ten that is at least `value`.
+/// Returns the smallest number 1·10ⁿ, 2·10ⁿ or 5·10ⁿ with whole n that is at least `value` (above 0).
 pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
     let step = [1.0, 2.0, 5.0, 10.0]

@@ -1,4 +1,4 @@
-//! How plotters draws our charts. No other module uses plotters.
+//! Draws charts with plotters. No other module uses plotters.
 
 mod course;
 mod growth;
@@ -20,13 +20,14 @@ pub(super) use scatter::scatter;
 
 /// Picture units per unit of the page.
 const FINE: i32 = 10;
-/// The fonts of the SVG: ours first, and that under the one name plotters always asks for.
+/// The family name that plotters writes for all text. The built-in font is registered under this name.
 const FONT: &str = "sans-serif";
 
-/// What plotters says where it refuses.
+/// The result of drawing: the error of plotters if it fails.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-/// An SVG document of a size in pixels, drawn ten times as large.
+/// Returns an SVG document of this width and height in pixels. `draw` must draw it [`FINE`] times as large. `title` is
+/// for screen readers.
 pub(super) fn document(
     (width, height): (i32, i32),
     title: &str,
@@ -55,7 +56,8 @@ pub(super) fn document(
     ))
 }
 
-/// The smallest range of whole decades that contains some numbers; at least two decades.
+/// Returns the exponents of the powers of ten that enclose some positive numbers; they differ by at least 2. Returns
+/// (−1, 1) if there are no numbers or if they are not positive and finite.
 pub(super) fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let most = values.fold(0.0, f64::max);
@@ -77,29 +79,29 @@ type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Axes with a logarithmic scale in both directions.
 type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// Words of a size in pixels.
+/// Returns the style of text of this size in pixels.
 fn font<'a>(size: i32) -> TextStyle<'a> {
     (FONT, size * FINE).into_font().color(&INK)
 }
 
-/// Words that begin at a point and are centred on it vertically.
+/// Returns the same style for text that begins at its point and is vertically centred on it.
 fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
     style.pos(Pos::new(HPos::Left, VPos::Center))
 }
 
-/// An empty page of a large chart.
+/// Returns the empty page of a large chart, which is drawn into `svg`.
 fn large(svg: &mut String) -> Page<'_> {
     let size = ((SIZE.0 * FINE) as u32, (SIZE.1 * FINE) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
-/// The empty page of a small chart.
+/// Returns the empty page of a small chart, which is drawn into `svg`.
 fn small(svg: &mut String) -> Page<'_> {
     let size = ((SMALL.0 * FINE) as u32, (SMALL.1 * FINE) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
-/// The number at a tick, without rounding noise and without trailing zeros.
+/// Formats the number at a tick with four significant digits, without trailing zeros.
 fn tick(value: f64) -> String {
     let rounded = format!("{value:.3e}").parse().unwrap_or(value);
     if rounded == 0.0 {
@@ -111,7 +113,7 @@ fn tick(value: f64) -> String {
     }
 }
 
-/// Draws bars.
+/// Draws a histogram.
 pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
     let area = small(svg);
     let (first, last) = (chart.edges[0], chart.edges[chart.edges.len() - 1]);

@@ -1,8 +1,8 @@
 //! Arrows as filled outlines: straight arrows and arrows along a circle.
 //!
-//! From tail to tip an arrow is exactly as long as what it tells: the head, of width 3·w and length 4.5·w for a shaft
-//! of width w, lies within that length. An arrow shorter than its head is a head alone, smaller in proportion, so that
-//! lengths can be compared down to the shortest.
+//! The length of an arrow from tail to tip is exactly the length of the vector that it shows. For a shaft of width w
+//! the head is 3·w wide and 4.5·w long and lies within that length. An arrow shorter than its head is only a head,
+//! scaled down, so that all lengths can be compared.
 
 use core::f64::consts::PI;
 
@@ -13,15 +13,15 @@ pub const HEAD_WIDTH: f64 = 3.0;
 /// Length of a head in shaft widths.
 pub const HEAD_LENGTH: f64 = 4.5;
 
-/// The length and width of the head of an arrow with this length and shaft width, in the unit of its arguments.
+/// Returns the length and width of the head of an arrow with this length and shaft width. All are in the same unit.
 pub fn head_size(length: f64, width: f64) -> (f64, f64) {
     let full = HEAD_LENGTH * width;
     let long = length.min(full);
     (long, HEAD_WIDTH / HEAD_LENGTH * long)
 }
 
-/// A straight arrow from `from` to `from` + `along` (right and down, in pixels). The shaft is `width` pixels wide. Empty
-/// for a zero vector.
+/// Returns the outline of a straight arrow from `from` to `from` + `along` (right and down, in pixels). The shaft is
+/// `width` pixels wide. The outline is empty for a zero vector.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
     if length.is_nan() || length <= 0.0 {
@@ -44,17 +44,18 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     ])
 }
 
-/// The head of the arrow that [`straight`] draws, open towards the shaft, so that a line along its edge leaves no seam
-/// between head and shaft.
+/// Returns the outline of the head of the arrow that [`straight`] draws. It is open towards the shaft, so that a stroke
+/// along it does not cross the arrow between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
-    // Corners 1 to 5 of the arrow: from one edge of the shaft around the tip to the other.
+    // Corners 1 to 5 of the arrow lead from one edge of the shaft around the tip to the other edge.
     let corners = arrow.points().skip(1).take(5);
     Outline::line(corners)
 }
 
-/// An arrow along a circle about `centre`, from the angle `start` over the angle `sweep`, in radians. Angles are
-/// anticlockwise on the page, from the x axis to the right. The shaft is `width` pixels wide. Empty for a zero sweep.
+/// Returns the outline of an arrow along a circle about `centre`. It begins at the angle `start` and turns through the
+/// angle `sweep`, in radians, anticlockwise on the page, 0 to the right. The shaft is `width` pixels wide. The outline
+/// is empty for a zero sweep.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();

@@ -3,7 +3,7 @@
 use super::{Outline, PagePoint, PageRect};
 use crate::geometry::{Bounds, Point, Polygon, Vector};
 
-/// How a scene lies on a page.
+/// The position and scale of a scene on a page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     corner: Point,
@@ -12,8 +12,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that shows the upper left corner of `view` (metres) at the page position `at`, with `scale` pixels per
-    /// metre.
+    /// Creates a camera that shows the upper left corner of `view` (metres) at the page position `at`, with `scale`
+    /// pixels per metre.
     ///
     /// ```
     /// use drystone::drawing::{Camera, PagePoint};
@@ -38,40 +38,40 @@ impl Camera {
         }
     }
 
-    /// The position on the page of a point of the scene.
+    /// Returns the position on the page of a point of the scene.
     pub fn place(&self, p: Point) -> PagePoint {
-        // Subtract first: the difference is exact far from the origin, the products are not.
+        // Subtract before multiplying: far from the origin this has less rounding error.
         let d = p - self.corner;
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
-    /// The point of the scene at a position on the page.
+    /// Returns the point of the scene at a position on the page.
     pub fn back(&self, at: PagePoint) -> Point {
         let (right, down) = (at.x - self.at.x, at.y - self.at.y);
         self.corner + Vector::new(right, -down) / self.scale
     }
 
-    /// The position on the page of the origin of the scene.
+    /// Returns the position on the page of the origin of the scene.
     pub fn origin(&self) -> PagePoint {
         self.place(Point::origin())
     }
 
-    /// A vector of the scene as a vector on the page, right and down in pixels.
+    /// Converts a vector of the scene (metres) to a vector on the page (pixels, right and down).
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)
     }
 
-    /// A length in metres, in pixels.
+    /// Converts a length from metres to pixels.
     pub fn length(&self, metres: f64) -> f64 {
         metres * self.scale
     }
 
-    /// A length in pixels, in metres.
+    /// Converts a length from pixels to metres.
     pub fn metres(&self, pixels: f64) -> f64 {
         pixels / self.scale
     }
 
-    /// The rectangle on the page of a box of the scene.
+    /// Returns the rectangle on the page that shows a box of the scene.
     pub fn rect(&self, bounds: Bounds) -> PageRect {
         PageRect {
             at: self.place(Point::new(bounds.min.x, bounds.max.y)),
@@ -80,7 +80,7 @@ impl Camera {
         }
     }
 
-    /// The outline on the page of a polygon with its holes.
+    /// Returns the outline on the page of a polygon of the scene with its holes.
     pub fn polygon(&self, polygon: &Polygon) -> Outline {
         let mut outline = Outline::default();
         for ring in polygon.rings() {

@@ -10,7 +10,7 @@ impl Colour {
     /// Black.
     pub const BLACK: Colour = Colour([0, 0, 0]);
 
-    /// The colour with the value 0xrrggbb.
+    /// Creates the colour with the value 0xrrggbb.
     ///
     /// ```
     /// use drystone::drawing::Colour;
@@ -51,7 +51,7 @@ impl Colour {
         }
     }
 
-    /// A mixture of this colour with another; `share` (0 to 1) is the share of the other colour.
+    /// Returns a mixture of this colour and `other`; `share` (0 to 1) is the share of `other`.
     pub fn mixed(self, other: Colour, share: f64) -> Colour {
         let mix =
             |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
@@ -59,8 +59,7 @@ impl Colour {
         Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
     }
 
-    /// The perceived brightness from 0 to 1, with the weights of Rec. 709 on the encoded values. Exact enough to choose
-    /// black or white text.
+    /// Returns an approximate brightness from 0 to 1: the weights of Rec. 709 applied to the encoded channels.
     pub fn brightness(self) -> f64 {
         let [r, g, b] = self.0;
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0

@@ -1,30 +1,30 @@
 //! Differences between colours as people see them: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts a
 //! colour to its appearance for colour-blind readers and in grey print.
 //!
-//! About 1 is the least that can be told side by side, 10 is seen at a glance, 100 lies between black and white
-//! ([Sharma05](crate::doc::references)). Deficiencies are those of [Machado09](crate::doc::references), at full severity.
+//! A difference of about 1 is the least that can be seen side by side, 10 is seen at a glance, and black and white
+//! differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies follow
+//! [Machado09](crate::doc::references), at full severity.
 
 use core::f64::consts::PI;
 
 use super::colour::Colour;
 
-/// Who looks, or on what.
+/// The colour vision of a reader, or a grey print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
-    /// Eyes with three sorts of cones.
+    /// Full colour vision.
     Full,
-    /// Eyes without cones for long waves: red is dark.
+    /// No cones for long wavelengths: red looks dark.
     Protanopia,
-    /// Eyes without cones for middle waves.
+    /// No cones for medium wavelengths.
     Deuteranopia,
-    /// Eyes without cones for short waves.
+    /// No cones for short wavelengths.
     Tritanopia,
-    /// A print in grey: nothing but lightness is left.
+    /// A grey print: only lightness remains.
     Grey,
 }
 
-/// The appearance of a colour: the colour that a reader with full colour vision sees in the same way as a reader with
-/// `sight` sees this one.
+/// Returns the colour as a reader with `sight` sees it.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::{Sight, difference, seen}};
@@ -56,13 +56,13 @@ pub fn seen(colour: Colour, sight: Sight) -> Colour {
     Colour(rows.map(|row| coded(dot(row, light))))
 }
 
-/// The CIE lightness L*, from 0 (black) to 100 (white).
+/// Returns the CIE lightness L*, from 0 (black) to 100 (white).
 pub fn lightness(colour: Colour) -> f64 {
     lab(colour)[0]
 }
 
-/// The contrast of two colours as defined by WCAG 2: 1 for equal luminance, 21 for black on white. Small text needs at
-/// least 4.5. It is the ratio of the luminances, with 0.05 added to each for the light that a page reflects.
+/// Returns the contrast of two colours as defined by WCAG 2: the ratio of their luminances, with 0.05 added to each. It
+/// is 1 for equal luminances and 21 for black on white. Small text needs at least 4.5.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::contrast};
@@ -70,13 +70,13 @@ pub fn lightness(colour: Colour) -> f64 {
 /// assert!((contrast(Colour::hex(0x767676), Colour::WHITE) - 4.54).abs() < 0.01);
 /// ```
 pub fn contrast(a: Colour, b: Colour) -> f64 {
-    // The coefficients of sRGB, with the digits of WCAG.
+    // The coefficients of sRGB, rounded as in WCAG.
     let luminance = |c: Colour| dot([0.2126, 0.7152, 0.0722], linear(c)) + 0.05;
     let (a, b) = (luminance(a), luminance(b));
     if a > b { a / b } else { b / a }
 }
 
-/// The difference ΔE₀₀ of two colours (CIEDE2000); 0 for equal colours.
+/// Returns the difference ΔE₀₀ of two colours (CIEDE2000); 0 for equal colours.
 pub fn difference(a: Colour, b: Colour) -> f64 {
     between(lab(a), lab(b))
 }
@@ -88,7 +88,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The channels as linear light, from 0 to 1.
+/// Returns the three channels as linear light, from 0 to 1.
 fn linear(colour: Colour) -> [f64; 3] {
     colour.0.map(|channel| {
         let v = f64::from(channel) / 255.0;
@@ -100,7 +100,7 @@ fn linear(colour: Colour) -> [f64; 3] {
     })
 }
 
-/// Linear light as an encoded channel. Values outside 0 to 1 are clamped.
+/// Returns linear light as an sRGB channel. Values outside 0 to 1 are clamped.
 fn coded(light: f64) -> u8 {
     let v = if light <= 0.003_130_8 {
         12.92 * light
@@ -111,7 +111,7 @@ fn coded(light: f64) -> u8 {
     (255.0 * v).round() as u8
 }
 
-/// CIE L*, a*, b* for daylight (D65).
+/// Returns the CIE L*, a* and b* of a colour for the white point D65.
 fn lab(colour: Colour) -> [f64; 3] {
     let light = linear(colour);
     let bent = |t: f64| {
@@ -127,7 +127,7 @@ fn lab(colour: Colour) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// ΔE₀₀ of two colours in L*, a*, b*. The steps follow [Sharma05](crate::doc::references).
+/// Returns ΔE₀₀ of two colours in L*, a*, b*, computed as in [Sharma05](crate::doc::references).
 fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
     let seventh = |c: f64| {
         let c7 = libm::pow(c, 7.0);

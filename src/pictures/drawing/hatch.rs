@@ -2,8 +2,8 @@
 
 use super::{Outline, PagePoint, PageRect};
 
-/// The parts of 45° lines, `spacing` pixels apart, that lie inside some rings and inside `page`. The even-odd rule applies,
-/// so holes stay empty.
+/// Returns the parts of parallel 45° lines that lie inside the rings and inside `page`. `spacing` is their vertical
+/// distance in pixels. The even-odd rule applies, so holes stay empty.
 pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[PagePoint; 2]> {
     let mut lines = Vec::new();
     if !(spacing > 0.0) {
@@ -39,7 +39,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     lines
 }
 
-/// The lines as one outline.
+/// Joins the lines into one outline.
 pub fn lines(lines: &[[PagePoint; 2]]) -> Outline {
     let mut outline = Outline::default();
     for line in lines {

@@ -1,8 +1,8 @@
 //! [`Drawing`]: shapes and text on a page, without any mechanics.
 //!
-//! A page has its origin in the upper left corner, x to the right and y down, in pixels at natural size. [`Camera`] is
-//! the one place at which the scene's upward y turns over. What is drawn later lies on top. Nothing here knows what a
-//! force is, and nothing here knows a file format: `output` writes a drawing down.
+//! The origin of a page is its upper left corner; x points right and y points down, in pixels. Only [`Camera`] converts
+//! from the scene, whose y points up. Later items lie on top of earlier ones. This module knows neither forces nor file
+//! formats; `output` writes a drawing to a file.
 
 pub mod arrow;
 mod camera;
@@ -23,17 +23,17 @@ pub use ramp::PLASMA;
 pub use style::{Sizes, Theme, Widths};
 pub use text::{Anchor, Face, Text};
 
-/// A place on the page in pixels, y down.
+/// A position on the page, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PagePoint {
-    /// To the right.
+    /// Distance from the left edge of the page.
     pub x: f64,
-    /// Down.
+    /// Distance from the top of the page.
     pub y: f64,
 }
 
 impl PagePoint {
-    /// The point at (x, y).
+    /// Creates the point (x, y).
     pub fn new(x: f64, y: f64) -> PagePoint {
         PagePoint { x, y }
     }
@@ -82,31 +82,31 @@ impl PageRect {
     }
 }
 
-/// A picture: a page and what is on it.
+/// A page and its items.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// Width of the page in pixels.
     pub width: f64,
     /// Height of the page in pixels.
     pub height: f64,
-    /// What it shows, in a few words; read aloud and shown when hovering.
+    /// A short title, for screen readers and mouse hover.
     pub title: String,
-    /// What it shows, in sentences.
+    /// A description in sentences.
     pub description: String,
     /// Colour of the page, `None` for a transparent one.
     pub background: Option<Colour>,
-    /// What is on the page, the lowest first.
+    /// The items on the page, the lowest first.
     pub items: Vec<Item>,
 }
 
-/// One thing on a page.
+/// An item of a page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A shape.
     Path(Path),
-    /// A line of words.
+    /// A line of text.
     Text(Text),
-    /// Several things that belong together.
+    /// Several items that belong together.
     Group(Group),
 }
 
@@ -115,18 +115,18 @@ pub enum Item {
 pub struct Path {
     /// The shape. Rings that turn the other way cut holes (the nonzero rule).
     pub outline: Outline,
-    /// Colour of its inside.
+    /// The fill colour.
     pub fill: Option<Colour>,
-    /// Line along its edge.
+    /// The line along its edge.
     pub stroke: Option<Stroke>,
-    /// Whether the fill lies over the line, which then shows its outer half only.
+    /// Whether the fill covers the line, so that only the outer half of the line is visible.
     pub fill_last: bool,
-    /// 0 invisible … 1 opaque.
+    /// Opacity from 0 (invisible) to 1 (opaque).
     pub opacity: f64,
 }
 
 impl Path {
-    /// A filled shape without a line.
+    /// Creates a filled shape without a line.
     pub fn filled(outline: Outline, fill: Colour) -> Path {
         Path {
             outline,
@@ -137,7 +137,7 @@ impl Path {
         }
     }
 
-    /// A line without a fill.
+    /// Creates a line without a fill.
     pub fn stroked(outline: Outline, stroke: Stroke) -> Path {
         Path {
             outline,
@@ -171,7 +171,7 @@ impl Path {
     }
 }
 
-/// A line's paint.
+/// The colour, width and form of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// Its colour.
@@ -180,12 +180,12 @@ pub struct Stroke {
     pub width: f64,
     /// Lengths of dashes and gaps in turn, in pixels; empty for a continuous line.
     pub dash: Vec<f64>,
-    /// How corners look.
+    /// The form of corners and ends.
     pub join: Join,
 }
 
 impl Stroke {
-    /// A continuous line with round corners.
+    /// Creates a continuous line with round corners; `width` is in pixels.
     pub fn new(colour: Colour, width: f64) -> Stroke {
         Stroke {
             colour,
@@ -195,7 +195,7 @@ impl Stroke {
         }
     }
 
-    /// The same line, dashed.
+    /// The same line with the lengths of dashes and gaps in turn, in pixels.
     pub fn dashed(self, dash: impl Into<Vec<f64>>) -> Stroke {
         Stroke {
             dash: dash.into(),
@@ -212,39 +212,38 @@ impl Stroke {
     }
 }
 
-/// How a line turns a corner.
+/// The form of the corners and ends of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
-    /// Rounded, ends too.
+    /// Round corners and round ends.
     Round,
-    /// Pointed, ends square to the line.
+    /// Sharp corners, and ends cut at a right angle.
     Miter,
 }
 
-/// Things that belong together, named for readers and programs.
+/// Items that belong together, with names for readers and programs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// A name that is unique in the drawing, or none.
+    /// An id that is unique in the drawing, or `None`.
     pub id: Option<String>,
-    /// What kind of thing it is, for style sheets and scripts; empty for none.
+    /// The class, for style sheets and scripts; may be empty.
     pub class: String,
-    /// A short name, shown when hovering; empty for none.
+    /// A short name, shown on mouse hover; may be empty.
     pub title: String,
-    /// More about it; empty for none.
+    /// A longer description; may be empty.
     pub description: String,
-    /// Whether it only repeats what lies below it, for the eye alone: then it hides nothing from a hovering mouse or a
-    /// screen reader.
+    /// Whether the group only repeats visible items below it. Mouse hover and screen readers ignore such a group.
     pub echo: bool,
-    /// The part of the page within which it shows; everything where `None`.
+    /// The rectangle to which the group is clipped; `None` for no clipping.
     pub clip: Option<PageRect>,
-    /// How the scene that it shows lies on the page, told to programs that read the drawing back; `None` for no scene.
+    /// The camera of the scene that the group shows, for programs that read the drawing; `None` for no scene.
     pub camera: Option<Camera>,
-    /// What is in it, the lowest first.
+    /// Its items, the lowest first.
     pub items: Vec<Item>,
 }
 
 impl Group {
-    /// An empty group with a class and without a title.
+    /// Creates an empty group with a class and without a title.
     pub fn with_class(class: &str) -> Group {
         Group {
             class: class.to_owned(),

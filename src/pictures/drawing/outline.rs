@@ -2,28 +2,28 @@
 
 use super::{PagePoint, PageRect};
 
-/// One step of an outline.
+/// A segment of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segment {
-    /// Begin a new part here.
+    /// Begins a new part at this point.
     Move(PagePoint),
-    /// A straight line to here.
+    /// A straight line to this point.
     Line(PagePoint),
-    /// A cubic curve: two control points and where it ends.
+    /// A cubic Bézier curve: two control points and its end.
     Curve(PagePoint, PagePoint, PagePoint),
-    /// Straight back to the beginning of the part.
+    /// A straight line back to the beginning of the part.
     Close,
 }
 
-/// A path on the page, perhaps of several parts.
+/// A path on the page with one or more parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
-    /// Its steps in order.
+    /// Its segments in order.
     pub segments: Vec<Segment>,
 }
 
 impl Outline {
-    /// A closed ring through some points.
+    /// Creates a closed ring through some points.
     pub fn ring(points: impl IntoIterator<Item = PagePoint>) -> Outline {
         let mut outline = Outline::line(points);
         if !outline.segments.is_empty() {
@@ -32,7 +32,7 @@ impl Outline {
         outline
     }
 
-    /// An open line through some points.
+    /// Creates an open line through some points.
     pub fn line(points: impl IntoIterator<Item = PagePoint>) -> Outline {
         let segments = points.into_iter().enumerate().map(|(i, p)| {
             if i == 0 {
@@ -46,7 +46,8 @@ impl Outline {
         }
     }
 
-    /// A rectangle with sides parallel to the page and with corners rounded by `radius` pixels.
+    /// Creates a rectangle with sides parallel to the page. Its corners are rounded with the radius `radius`, in
+    /// pixels.
     pub fn rounded(rect: PageRect, radius: f64) -> Outline {
         let r = radius.min(rect.width / 2.0).min(rect.height / 2.0);
         let corner = |x: f64, y: f64| rect.at.moved(x, y);
@@ -59,7 +60,8 @@ impl Outline {
                 corner(0.0, h),
             ]);
         }
-        // The position of the control points at which a cubic is nearest to a quarter circle.
+        // The distance of the control points from the corner. With it the cubic curve approximates a quarter circle
+        // best.
         let c = r * (1.0 - QUARTER);
         Outline {
             segments: vec![
@@ -77,7 +79,7 @@ impl Outline {
         }
     }
 
-    /// A circle.
+    /// Creates a circle; `radius` is in pixels.
     pub fn circle(centre: PagePoint, radius: f64) -> Outline {
         let at = PagePoint::new(centre.x - radius, centre.y - radius);
         let mut circle = Outline::rounded(
@@ -88,7 +90,7 @@ impl Outline {
             },
             radius,
         );
-        // The straight sides of this rounded square have no length.
+        // The circle is a fully rounded square. Remove its straight sides, which have no length.
         circle.segments.retain(|s| !matches!(s, Segment::Line(_)));
         circle
     }
@@ -98,7 +100,7 @@ impl Outline {
         self.segments.extend(other.segments);
     }
 
-    /// All points and control points. The outline lies inside their convex hull.
+    /// Returns all end points and control points. The outline lies inside their convex hull.
     pub fn points(&self) -> impl Iterator<Item = PagePoint> + '_ {
         self.segments.iter().flat_map(|segment| match *segment {
             Segment::Move(p) | Segment::Line(p) => vec![p],

@@ -19,7 +19,7 @@ use super::{PagePoint, PageRect};
 
 pub use self::ink::Ink;
 
-/// Rings tried about an anchor, at most. They are half a label's height apart, so 60 reach across any page.
+/// Largest number of rings that are tried about an anchor. They are half a label's height apart.
 const MAX_RINGS: usize = 60;
 /// Positions tried on each ring: every 15°.
 const POSITIONS_PER_RING: usize = 24;
@@ -59,7 +59,7 @@ pub struct LabelRequest {
 /// The position of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Whether the position is one that the caller avoids, for lack of another.
+    /// Whether `avoid` is true for this position, and no better position was free.
     pub avoided: bool,
     /// The label's rectangle.
     pub rect: PageRect,
@@ -68,7 +68,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// A label in this rectangle with a leader to its anchor.
+    /// Creates a label in this rectangle with a leader to its anchor.
     fn with_leader(rect: PageRect, anchor: PagePoint) -> Placed {
         Placed {
             avoided: false,
@@ -78,14 +78,14 @@ impl Placed {
     }
 }
 
-/// A position for each request on the page, in the order of the requests; `None` for a label that is left out. Placed
-/// labels are added to the ink.
+/// Finds a position for each label. Returns the positions in the order of the requests, `None` for a label without a
+/// free position. Placed labels are added to the ink.
 pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
     place_avoiding(ink, page, requests, &|_, _| false)
 }
 
-/// Like [`place`]. `avoid` gets the number of a request and a rectangle. A rectangle for which it returns true is used only
-/// if no other position is nearby, and then with a leader. Preferred positions are used in any case.
+/// Like [`place`]. `avoid` gets the index of a request and a rectangle. A rectangle for which it returns true is used
+/// only if no other free position is nearby, and then with a leader. `avoid` does not apply to preferred positions.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,
@@ -110,7 +110,8 @@ pub fn place_avoiding(
     placed
 }
 
-/// The label's rectangle about a centre, if it lies on the page and clear of ink with this clearance.
+/// Returns the label's rectangle about a centre. Returns `None` if the rectangle, enlarged by the clearance (pixels),
+/// does not lie on the page or touches ink.
 fn fitting(
     ink: &Ink,
     page: PageRect,
@@ -123,7 +124,8 @@ fn fitting(
     (within(page, kept) && ink.clear(kept)).then(|| centred(centre, request.size))
 }
 
-/// The first preferred position that is clear: with all of its padding, with less, or with the least clearance.
+/// Returns the first preferred position that is free of ink. Tries all positions with the full padding, then with 40 %
+/// of it, then with none.
 fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Option<Placed> {
     let clearances = [request.padding, 0.4 * request.padding, 0.0];
     clearances.into_iter().find_map(|padding| {
@@ -137,7 +139,7 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     })
 }
 
-/// The position of least cost on the rings about the anchor.
+/// Returns the position of least cost on the rings about the anchor; `None` if no position is free.
 fn ring_position(
     ink: &Ink,
     page: PageRect,
@@ -150,14 +152,15 @@ fn ring_position(
     let mut best: Option<(f64, Placed)> = None;
     for ring in 0..MAX_RINGS {
         let radius = request.first_ring + ring_step * ring as f64;
-        // The cost is at least the radius, so no ring farther out is better.
+        // The cost of a position is at least its radius, so a larger ring cannot be better.
         if radius > farthest || best.is_some_and(|(cost, _)| radius > cost) {
             break;
         }
         for part in 0..POSITIONS_PER_RING {
             let angle = TAU * part as f64 / POSITIONS_PER_RING as f64;
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-            // The label's nearest side lies on the ring, not its centre: wide labels stand as near as narrow ones.
+            // The side of the label that is nearest to the anchor lies on the ring, so wide labels are as near as
+            // narrow ones.
             let (x, y) = (
                 cos * radius + cos * width / 2.0,
                 sin * radius + sin * height / 2.0,
@@ -176,7 +179,7 @@ fn ring_position(
     best.map(|(_, placed)| placed)
 }
 
-/// A label in this rectangle, with a leader if it needs one, and the penalties of its position.
+/// Returns the penalties of this position, in pixels of distance, and the label there, with a leader if it needs one.
 fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -> (f64, Placed) {
     let anchor = request.anchor;
     let end = nearest(rect, anchor);
@@ -188,14 +191,14 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
         rect,
         leader: needs_leader.then_some([end, anchor]),
     };
-    // One piece of ink is what the label names.
+    // Do not count one piece of ink: it is the item that the label names.
     let penalty = if avoided { AVOIDED_COST } else { 0.0 }
         + INK_CROSSING_COST * others.saturating_sub(1) as f64
         + LABEL_CROSSING_COST * labels as f64;
     (penalty, placed)
 }
 
-/// The rectangle of this size about a centre.
+/// Returns the rectangle with this centre, width and height.
 fn centred(centre: PagePoint, (width, height): (f64, f64)) -> PageRect {
     PageRect {
         at: centre.moved(-width / 2.0, -height / 2.0),
@@ -211,7 +214,7 @@ fn within(page: PageRect, rect: PageRect) -> bool {
         && rect.at.y + rect.height <= page.at.y + page.height
 }
 
-/// The point of a rectangle that is nearest to `p`.
+/// Returns the point of a rectangle that is nearest to `p`.
 pub(crate) fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
     PagePoint::new(
         p.x.clamp(rect.at.x, rect.at.x + rect.width),
@@ -219,7 +222,7 @@ pub(crate) fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
     )
 }
 
-/// The corners of a rectangle in order.
+/// Returns the corners of a rectangle, clockwise on the page from the upper left.
 fn corners(rect: PageRect) -> [PagePoint; 4] {
     [
         rect.at,

@@ -1,4 +1,4 @@
-//! Colour ramps: well-known ones by [name](named), and ramps [interpolated between stops](between).
+//! Colour ramps: [built-in ones](named), and ramps [interpolated between given colours](between).
 
 mod cividis;
 mod plasma;
@@ -8,16 +8,17 @@ use super::colour::Colour;
 
 pub use plasma::PLASMA;
 
-/// The names that [`named`] knows.
+/// The names of the built-in ramps.
 pub const NAMES: [&str; 4] = ["plasma", "viridis", "cividis", "grey"];
 
-/// Number of colours in a map.
+/// Number of colours in a ramp.
 pub const LENGTH: usize = 256;
 
-/// A ramp of 256 colours by its name, from small to large amounts. `None` for a name that is not in [`NAMES`].
+/// Returns the ramp of 256 colours with this name, from small to large values. Returns `None` for a name that is not in
+/// [`NAMES`].
 ///
-/// `plasma`, `viridis` and `cividis` are matplotlib's. `grey` is ours and light, from nearly white to a grey on which black
-/// letters can still be read.
+/// `plasma`, `viridis` and `cividis` come from matplotlib. `grey` goes from nearly white to a light grey on which black
+/// text is readable.
 pub fn named(name: &str) -> Option<Vec<Colour>> {
     let table = |values: &[u32; LENGTH]| values.iter().map(|v| Colour::hex(*v)).collect();
     match name {
@@ -29,13 +30,14 @@ pub fn named(name: &str) -> Option<Vec<Colour>> {
     }
 }
 
-/// 256 colours interpolated evenly between stops, channel by channel; empty without a stop.
+/// Returns 256 colours, interpolated linearly in each channel between evenly spaced stops. Returns an empty list if
+/// there are no stops.
 pub fn between(stops: &[Colour]) -> Vec<Colour> {
     let Some(last) = stops.len().checked_sub(1) else {
         return Vec::new();
     };
     let at = |entry: usize| {
-        // Interpolate in whole numbers, so that 256 stops are reproduced exactly.
+        // Compute the position in whole numbers, so that 256 stops are reproduced exactly.
         let (stop, rest) = (entry * last / (LENGTH - 1), entry * last % (LENGTH - 1));
         let next = stops[(stop + 1).min(last)];
         stops[stop].mixed(next, rest as f64 / (LENGTH - 1) as f64)

@@ -8,94 +8,95 @@ mod tests;
 use super::colour::Colour;
 use super::difference::{contrast, lightness};
 
-/// A fill brighter than this has dark seams and letters.
+/// Arrows on a fill brighter than this may get a dark border.
 const BRIGHT_FILL: f64 = 0.6;
 /// Least contrast of letters with their background: WCAG 2 level AA asks for 4.5.
 const MIN_CONTRAST: f64 = 4.55;
-/// An arrow that is darker than a bright block by so much lightness stands off by itself, and keeps the usual seam.
+/// An arrow whose lightness L* is lower than that of a bright block by this much is visible with the usual border.
 const STANDS_OFF: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
 ///
-/// The themes that have a name are `thesis`, the source's colours and the default; `paper`, for print, also in grey;
-/// `colourblind`, after Okabe and Ito; and `dark`. How far apart two colours are that can meet is measured, and a test
-/// holds these numbers. ΔE is CIEDE2000 ([`difference`](super::difference)); of `paper` lightness alone counts, as a grey
-/// print shows it; of `colourblind` the number is the least of full sight and the three deficiencies.
+/// The built-in themes are `thesis`, the default, with the colours of the thesis; `paper`, for print, also in grey;
+/// `colourblind`, after Okabe and Ito; and `dark`. The table shows the least distance of colours that can touch; a test
+/// checks the numbers. ΔE is CIEDE2000 ([`difference`](super::difference)). For `paper` it is the difference of
+/// lightness, as in a grey print. For `colourblind` it is the least value of full sight and the three deficiencies.
 ///
 /// | least distance | `thesis` ΔE | `paper` ΔL* | `colourblind` ΔE | `dark` ΔE |
 /// |---|---|---|---|---|
 /// | arrows of blocks placed one after the other | 13.1 | 14.7 | 12.1 | 23.6 |
-/// | a force's arrow and a robot's | 24.9 | 35.5 | 17.9 | 17.7 |
-/// | what fails and any other arrow | 35.5 | 17.0 | 12.5 | 34.7 |
-/// | an arrow, or its seam, and what lies below | 33.1 | 36.9 | 27.0 | 30.0 |
-/// | letters and what lies below | 38.8 | 44.1 | 35.7 | 38.2 |
+/// | arrow of a force and of a robot | 24.9 | 35.5 | 17.9 | 17.7 |
+/// | arrow of a failure and any other arrow | 35.5 | 17.0 | 12.5 | 34.7 |
+/// | arrow, or its border, and background | 33.1 | 36.9 | 27.0 | 30.0 |
+/// | text and background | 38.8 | 44.1 | 35.7 | 38.2 |
 ///
-/// What lies below is a block of any amplitude, a plain one, the ground or the page; there an arrow counts with its seam,
-/// whichever is farther. Amplitudes grow darker on a light page and lighter on a dark one; those of `paper` run from L* 95
-/// to 35. Letters have a contrast of at least 4.5 with whatever they lie on. What fails, and what falls, differs in lightness
-/// from what is green, so that a grey print tells them apart.
+/// A background is a block of any amplitude, a block without amplitude, the ground or the page. For an arrow on a
+/// background the greater distance counts: that of the arrow or of its border. Larger amplitudes are darker on a light
+/// page and lighter on a dark page; those of `paper` run from L* 95 to 35. Text has a contrast of at least 4.5 with its
+/// background. Colours of failure and fall differ in lightness from green colours, so that a grey print shows the
+/// difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
-    /// The page.
+    /// Background of the page.
     pub page: Colour,
-    /// Words and rules.
+    /// Text and important lines.
     pub ink: Colour,
-    /// Words of lesser weight.
+    /// Less important text.
     pub faint: Colour,
-    /// Thin lines that part or frame.
+    /// Thin separating lines and frames.
     pub rule: Colour,
-    /// The seam around an arrow that keeps it apart from what it crosses.
+    /// The border of an arrow, which separates it from its background.
     pub casing: Colour,
-    /// Colours of the arrows of blocks 0, 1, 2 …, over and over.
+    /// Colours of the arrows of blocks 0, 1, 2 …; the list starts again after its end.
     pub arrows: Vec<Colour>,
-    /// Colours of robots 0, 1, 2 …, over and over.
+    /// Colours of robots 0, 1, 2 …; the list starts again after its end.
     pub robots: Vec<Colour>,
-    /// Loads.
+    /// Arrows of loads.
     pub load: Colour,
-    /// What fails.
+    /// Failures.
     pub failure: Colour,
     /// The ground.
     pub ground: Colour,
-    /// Blocks where colours do not tell amplitudes.
+    /// Blocks that no amplitude colours.
     pub block: Colour,
     /// Outlines of blocks.
     pub outline: Colour,
-    /// What moves where a structure falls.
+    /// The motion of a structure that falls.
     pub motion: Colour,
-    /// Where a resultant is safe.
+    /// The area in which a resultant is safe.
     pub safe: Colour,
-    /// Colours for amplitudes in even steps, smallest first.
+    /// Colours of amplitudes in equal steps, the smallest first.
     pub amplitudes: Vec<Colour>,
     /// The mark of a structure that stands.
     pub stands: Colour,
     /// The mark of a structure that falls.
     pub falls: Colour,
-    /// The mark of a structure of which neither is proved.
+    /// The mark of a structure for which neither is proved.
     pub undecided: Colour,
-    /// How wide lines and arrows are.
+    /// Widths of lines and arrows.
     pub widths: Widths,
-    /// How large letters are.
+    /// Font sizes.
     pub sizes: Sizes,
 }
 
-/// How wide lines and arrows are.
+/// Widths of lines and arrows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widths {
-    /// Shaft of a force's arrow, unit edges.
+    /// Shaft of the arrow of a force, in unit edges.
     pub force: f64,
-    /// Shaft of a robot's arrow, unit edges.
+    /// Shaft of the arrow of a robot, in unit edges.
     pub robot: f64,
-    /// Shaft of a failure's arrow, unit edges.
+    /// Shaft of the arrow of a failure, in unit edges.
     pub failure: f64,
-    /// Radius of a robot's disc, unit edges.
+    /// Radius of the disc of a robot, in unit edges.
     pub disc: f64,
-    /// Outline of a block, pixels, where blocks are large; small ones have thinner outlines.
+    /// Outline of a large block, pixels; small blocks have thinner outlines.
     pub outline: f64,
-    /// Seam around an arrow, pixels, where blocks are large; among small ones it is thinner.
+    /// Border of an arrow if blocks are large, pixels; it is thinner if they are small.
     pub casing: f64,
 }
 
-/// How large letters are, pixels.
+/// Font sizes, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
     /// The figure's title.
@@ -104,18 +105,18 @@ pub struct Sizes {
     pub caption: f64,
     /// A frame's verdict.
     pub verdict: f64,
-    /// What is written below a verdict.
+    /// The reason below a verdict.
     pub reason: f64,
-    /// The key.
+    /// The legend.
     pub key: f64,
-    /// Names of blocks where these are large; names of robots are a tenth smaller.
+    /// Names of large blocks; names of robots are a tenth smaller.
     pub name: f64,
-    /// Amounts beside arrows where there is room.
+    /// Magnitudes next to arrows.
     pub amount: f64,
 }
 
 impl Widths {
-    /// The source's widths.
+    /// The widths of the thesis.
     pub const DEFAULT: Widths = Widths {
         force: 0.05,
         robot: 0.07,
@@ -127,7 +128,7 @@ impl Widths {
 }
 
 impl Sizes {
-    /// Letters that read well where a figure is as wide as a printed page.
+    /// Sizes for a figure that is as wide as a printed page.
     pub const DEFAULT: Sizes = Sizes {
         title: 22.0,
         caption: 17.0,
@@ -140,19 +141,19 @@ impl Sizes {
 }
 
 impl Theme {
-    /// The arrow colour of a block. `place` is its number in the order of placing, from 1. The colour is entry `place` mod
-    /// 5 of five, so the first block has the second colour, as in the source.
+    /// Returns the arrow colour of a block. `place` is its number in the order of placing, from 1. With n arrow colours
+    /// it is entry `place` mod n, so the first block has the second colour, as in the thesis.
     pub fn arrow(&self, place: usize) -> Colour {
         entry(&self.arrows, place).unwrap_or(self.ink)
     }
 
-    /// The colour of a robot by its number, from 0.
+    /// Returns the colour of a robot by its index, from 0. The list starts again after its end.
     pub fn robot(&self, number: usize) -> Colour {
         entry(&self.robots, number).unwrap_or(self.ink)
     }
 
-    /// The colour of an amplitude. `share` is the amplitude divided by the largest one; the colour is entry ⌊256·share⌋ of
-    /// 256. Values outside 0 to 1 are clamped.
+    /// Returns the colour of an amplitude. `share` is the amplitude divided by the largest one. The colour is entry
+    /// ⌊256·share⌋ of 256; the index is clamped to 0 … 255.
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
@@ -161,13 +162,13 @@ impl Theme {
     /// ```
     pub fn amplitude(&self, share: f64) -> Colour {
         let count = self.amplitudes.len();
-        // `as` saturates, and turns a share that is not a number into 0.
+        // `as` saturates and turns NaN into 0.
         let entry = ((share * count as f64) as usize).min(count.saturating_sub(1));
         self.amplitudes.get(entry).copied().unwrap_or(self.block)
     }
 
-    /// The border colour that separates an arrow from its block. It is dark on a bright block, unless the arrow is much
-    /// darker than the block.
+    /// Returns the colour of the border that separates an arrow from its block. It is a dark shade of the arrow's
+    /// colour on a bright block, unless the arrow is much darker than the block. Otherwise it is [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
         let lost =
             block.brightness() > BRIGHT_FILL && lightness(block) - lightness(arrow) < STANDS_OFF;
@@ -178,8 +179,8 @@ impl Theme {
         }
     }
 
-    /// The colour of the line between the cells of a block. It is lighter or darker than the block by `share` of the
-    /// possible difference, so that it is visible on every block but weaker than an outline.
+    /// Returns the colour of the lines between the cells of a block. It is the colour of the block, mixed with the
+    /// lighter or darker of page and ink. `share` (0 to 1) is the share of the latter.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
         let towards = if block.brightness() < 0.5 {
             self.lighter()
@@ -189,8 +190,8 @@ impl Theme {
         block.mixed(towards, share)
     }
 
-    /// The colour of text on a block or on the page. If `of` is given, the text gets a shade of that colour. Its [contrast]
-    /// with the background is at least 4.5.
+    /// Returns the colour of text on the background `below`. It is a shade of `of`, or of `below` for `None`. Its
+    /// [contrast] with the background is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
         let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE
@@ -201,13 +202,14 @@ impl Theme {
             Some(colour) => (colour, 11),
             None => (below, 15),
         };
-        // Try shades in steps of 1/20 towards black or white. One of these two is readable on any colour.
+        // Try shades in steps of 1/20 towards black or white, whichever has more contrast. One of these two is readable
+        // on any colour.
         let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
         let legible = |colour: &Colour| contrast(*colour, below) >= MIN_CONTRAST;
         (least..=20).map(shade).find(legible).unwrap_or(ink)
     }
 
-    /// The brighter of the page colour and the ink colour.
+    /// Returns the brighter of the page colour and the ink colour.
     fn lighter(&self) -> Colour {
         if self.page.brightness() < self.ink.brightness() {
             self.ink
@@ -216,7 +218,7 @@ impl Theme {
         }
     }
 
-    /// The darker of the page colour and the ink colour.
+    /// Returns the darker of the page colour and the ink colour.
     fn darker(&self) -> Colour {
         if self.page.brightness() < self.ink.brightness() {
             self.page
@@ -226,7 +228,7 @@ impl Theme {
     }
 }
 
-/// The entry of a list by a number that may exceed its length; the list then starts again.
+/// Returns entry `number` mod n of a list of n colours; `None` for an empty list.
 fn entry(list: &[Colour], number: usize) -> Option<Colour> {
     number
         .checked_rem(list.len())

@@ -1,4 +1,4 @@
-//! [`Symbol`]: a mathematical symbol of letters with an arrow or a hat, a subscript and a superscript.
+//! [`Symbol`]: a mathematical symbol. Its letters can have an arrow or a hat, a subscript and a superscript.
 
 use super::arrow::HEAD_WIDTH;
 use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
@@ -46,7 +46,7 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// A letter with a subscript, either of which may be empty.
+    /// Creates a symbol of one letter with the subscript `below`. Letter and subscript may be empty.
     pub fn new(letter: &str, accent: Accent, below: &str) -> Symbol {
         let letter = Letter {
             letter: letter.to_owned(),
@@ -59,7 +59,7 @@ impl Symbol {
         }
     }
 
-    /// The same symbol with a superscript at its last letter.
+    /// The same symbol with the superscript `above` at its last letter.
     pub fn raised(mut self, above: &str) -> Symbol {
         if let Some(last) = self.letters.last_mut() {
             above.clone_into(&mut last.above);
@@ -73,7 +73,7 @@ impl Symbol {
         self
     }
 
-    /// The symbol as plain text, for screen readers: `F_s1^(2)`.
+    /// Returns the symbol as plain text, such as `F_s1^(2)`.
     pub fn stated(&self) -> String {
         let one = |l: &Letter| {
             let mark = |sign: &str, words: &str| match words {
@@ -85,13 +85,13 @@ impl Symbol {
         self.letters.iter().map(one).collect()
     }
 
-    /// The width and height in pixels at a font size.
+    /// Returns the width and height in pixels at a font size in pixels.
     pub fn size(&self, size: f64) -> (f64, f64) {
         let width = self.letters.iter().map(|l| wide(l, size)).sum();
         (width, (REACH.0 + REACH.1) * size)
     }
 
-    /// Draws the symbol into a rectangle of its size.
+    /// Draws the symbol at the upper left corner of `rect`. `size` is the font size in pixels.
     pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
         let mut group = Group::with_class("symbol");
         let mut at = rect.at.moved(0.0, REACH.0 * size);
@@ -139,7 +139,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
     text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)
 }
 
-/// Splits text into runs with their face: letters are italic, everything else is upright.
+/// Splits text into runs of one face: letters are italic, all other characters are upright.
 fn runs(words: &str) -> Vec<(String, Face)> {
     let mut runs: Vec<(String, Face)> = Vec::new();
     for c in words.chars() {
@@ -156,7 +156,8 @@ fn runs(words: &str) -> Vec<(String, Face)> {
     runs
 }
 
-/// The arrow or hat above a letter. `at` is the left end of the letter on its baseline.
+/// Returns the arrow or hat above a letter; `None` if it has none. `at` is the left end of the letter on its baseline.
+/// `size` is the font size in pixels.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
     let tall = letter
         .letter
@@ -165,7 +166,7 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
     let high = if tall { 0.76 } else { 0.58 } * size;
     let wide = text::width(&letter.letter, Face::SerifItalic, size);
     let stroke = Stroke::new(ink, 0.045 * size);
-    // Italic letters lean to the right, so the accent is moved to the right of their middle.
+    // Italic letters are slanted to the right, so the accent is moved to the right of their middle.
     let middle = at.moved(0.5 * wide + 0.09 * size, -high);
     match letter.accent {
         Accent::None => None,

@@ -12,7 +12,7 @@ use skrifa::raw::{FileRef, FontRef};
 
 use super::{Colour, PagePoint};
 
-/// A font of ours, with which every word of every figure is set.
+/// A built-in font. All text of figures uses these fonts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
     /// Libertinus Serif.
@@ -37,7 +37,7 @@ impl Face {
         Face::SansBold,
     ];
 
-    /// The font file.
+    /// Returns the bytes of the font file.
     pub fn data(self) -> &'static [u8] {
         match self {
             Face::Serif => include_bytes!("../../../assets/fonts/LibertinusSerif-Regular.otf"),
@@ -48,7 +48,8 @@ impl Face {
         }
     }
 
-    /// The font families for CSS: the built-in family first, then replacements that the reader's system may have.
+    /// Returns the font families for CSS: first the built-in family, then replacements that the reader's system may
+    /// have.
     pub fn families(self) -> &'static str {
         match self {
             Face::Serif | Face::SerifItalic | Face::SerifBold => {
@@ -58,7 +59,7 @@ impl Face {
         }
     }
 
-    /// The weight, 100 … 900.
+    /// Returns the font weight, from 100 to 900.
     pub fn weight(self) -> u16 {
         match self {
             Face::Serif | Face::SerifItalic | Face::Sans => 400,
@@ -67,17 +68,17 @@ impl Face {
         }
     }
 
-    /// Whether it is slanted.
+    /// True for an italic face.
     pub fn italic(self) -> bool {
         self == Face::SerifItalic
     }
 
-    /// Whether the face has a glyph for a character.
+    /// True if the face has a glyph for a character.
     pub fn has(self, character: char) -> bool {
         self.font().charmap().map(character).is_some()
     }
 
-    /// The index of the glyph for a character in this face.
+    /// Returns the index of the glyph for a character in this face; `None` if there is none.
     pub fn glyph(self, character: char) -> Option<u16> {
         let glyph = self.font().charmap().map(character)?;
         u16::try_from(glyph.to_u32()).ok()
@@ -88,7 +89,7 @@ impl Face {
     }
 }
 
-/// Which end of a line of words its place is.
+/// The point of a line of text that lies at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Anchor {
     /// The left end.
@@ -99,12 +100,12 @@ pub enum Anchor {
     End,
 }
 
-/// A line of words.
+/// A line of text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Where: on the base line, at the end that `anchor` says.
+    /// The position of the anchor, on the baseline.
     pub at: PagePoint,
-    /// Which end lies there.
+    /// The point of the line that lies at `at`.
     pub anchor: Anchor,
     /// The words.
     pub words: String,
@@ -114,12 +115,12 @@ pub struct Text {
     pub size: f64,
     /// Colour.
     pub fill: Colour,
-    /// Colour and width in pixels of a seam around the letters that keeps them apart from what they lie on.
+    /// Colour and width in pixels of a border around the letters, which separates them from their background.
     pub halo: Option<(Colour, f64)>,
 }
 
 impl Text {
-    /// A text that begins at a point.
+    /// Creates a text that begins at a point on its baseline. `size` is in pixels.
     pub fn new(
         at: PagePoint,
         words: impl Into<String>,
@@ -143,7 +144,7 @@ impl Text {
         Text { anchor, ..self }
     }
 
-    /// The same text with a border (halo) around its letters.
+    /// The same text with a border (halo) around its letters; `width` is in pixels.
     pub fn with_halo(self, colour: Colour, width: f64) -> Text {
         Text {
             halo: Some((colour, width)),
@@ -155,12 +156,12 @@ impl Text {
 /// The space at which no line is broken.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// Whether the bytes are a font file or a font collection.
+/// True if the bytes are a font file or a font collection.
 pub fn opens(data: &[u8]) -> bool {
     FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
 }
 
-/// Whether a font, or one font of a collection, has a glyph for a character.
+/// True if the font, or one font of the collection, has a glyph for the character.
 pub fn covers(data: &[u8], character: char) -> bool {
     let Ok(file) = FileRef::new(data) else {
         return false;
@@ -169,7 +170,7 @@ pub fn covers(data: &[u8], character: char) -> bool {
     fonts.any(|font| font.charmap().map(character).is_some())
 }
 
-/// The width of a text in pixels.
+/// Returns the width of a text in pixels. `size` is the font size in pixels.
 pub fn width(words: &str, face: Face, size: f64) -> f64 {
     let common = common_advances(face);
     let advance = |c: char| match common.get(c as usize) {
@@ -179,7 +180,7 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     words.chars().map(advance).sum::<f64>() * size
 }
 
-/// The advance width of a character as a fraction of the font size.
+/// Returns the advance width of a character as a fraction of the font size.
 fn advance(font: &FontRef<'_>, c: char) -> f64 {
     let Some(glyph) = font.charmap().map(c) else {
         return elsewhere(c);
@@ -188,8 +189,8 @@ fn advance(font: &FontRef<'_>, c: char) -> f64 {
     f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
 }
 
-/// The estimated width of a character in a font that is not built in, as a fraction of the font size: 1 for scripts with
-/// square characters.
+/// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. It is 1 for
+/// scripts with square characters.
 fn elsewhere(c: char) -> f64 {
     match u32::from(c) {
         0x1100..=0x115F
@@ -203,7 +204,8 @@ fn elsewhere(c: char) -> f64 {
     }
 }
 
-/// The advance widths of the first 128 characters, computed once, because line breaking needs them often.
+/// Returns the advance widths of the first 128 characters as fractions of the font size. They are computed once,
+/// because line breaking needs them often.
 fn common_advances(face: Face) -> &'static [f64] {
     static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
         [const { OnceLock::new() }; Face::ALL.len()];
@@ -213,8 +215,8 @@ fn common_advances(face: Face) -> &'static [f64] {
     })
 }
 
-/// Breaks text into lines of at most `room` pixels. A word that is wider than a line is broken inside. Every sequence of
-/// white space counts as one space, except [`NO_BREAK`], which keeps its neighbours on one line. Empty text gives no lines.
+/// Breaks text into lines of at most `room` pixels. A word that is wider than a line is split. Every sequence of white
+/// space counts as one space, except [`NO_BREAK`], which keeps its neighbours on one line. Empty text gives no lines.
 pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -248,7 +250,7 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
 }
 
 /// Breaks text into as few lines as possible, at most `most`, each at most `room` pixels wide. The lines have about the
-/// same length, so that no single word is left on the last line.
+/// same length, so that the last line is not a single word.
 pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
     let count = lines.len();
@@ -267,7 +269,8 @@ pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> V
     lines
 }
 
-/// The first `most` lines. If there are more, the last one ends in "…".
+/// Returns the first `most` lines. If there are more, the last line returned is shortened to `room` pixels and ends in
+/// "…".
 pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
     if lines.len() > most {
         lines.truncate(most);

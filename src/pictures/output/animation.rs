@@ -1,7 +1,7 @@
-//! Pictures that follow one another and repeat without end: animated PNG and GIF.
+//! Animated PNG and GIF: pictures that follow one another and repeat without end.
 //!
-//! A picture is stored as the part that differs from the picture before it. Where every pixel is opaque, all pictures share
-//! one palette; both formats then need about as many bytes.
+//! A picture is stored as the part that differs from the picture before it. If every pixel is opaque, all pictures
+//! share one palette, and files of both formats are about equally large.
 
 mod palette;
 mod patch;
@@ -17,17 +17,18 @@ use super::png::{PngError, Size, rgba_in};
 /// A picture of an animation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// The picture.
+    /// The picture as SVG.
     pub svg: String,
-    /// How long it is shown, seconds.
+    /// The time for which it is shown, seconds.
     pub seconds: f64,
 }
 
-/// Steps of one size as an animated PNG that repeats without end. A program that knows no animated PNG shows the first.
+/// Writes steps of one size as an animated PNG that repeats without end. A program that cannot show animated PNG shows
+/// the first step.
 ///
 /// # Errors
-/// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render); [`PngError::Encode`] for an empty list,
-/// for several sizes, and for a time outside 0.01 to 600 seconds.
+/// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render). [`PngError::Encode`] if there
+/// are no steps, if they differ in size, or if a time is outside 0.01 to 600 seconds.
 pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let failed = |e: ::png::EncodingError| PngError::Encode(e.to_string());
@@ -52,7 +53,8 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
         .map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
     for (number, patch) in patches.iter().enumerate() {
-        // A position and a size must fit in the page together at every moment.
+        // The encoder checks after each call that the frame lies on the page. So move it to the corner before its size
+        // changes.
         writer.reset_frame_position().map_err(failed)?;
         writer
             .set_frame_dimension(patch.width, patch.height)
@@ -80,15 +82,16 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
     Ok(bytes)
 }
 
-/// Steps of one size as a GIF that repeats without end, in at most 255 colours.
+/// Writes steps of one size as a GIF that repeats without end, in at most 255 colours.
 ///
 /// # Errors
-/// As [`apng`]; also [`PngError::Encode`] for pictures in which the page shows through, and for a side above 65 535 pixels.
+/// As [`apng`]; also [`PngError::Encode`] for pictures with transparent pixels and for a side above 65 535 pixels.
 pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let wrong = |why: &str| PngError::Encode(why.to_owned());
-    let palette = Palette::new(&patches)
-        .ok_or_else(|| wrong("a GIF has no half-clear pixels; give the page a colour"))?;
+    let palette = Palette::new(&patches).ok_or_else(|| {
+        wrong("a GIF cannot have partly transparent pixels; give the page a colour")
+    })?;
     let side = |pixels: u32| {
         u16::try_from(pixels).map_err(|_| wrong("a GIF has at most 65535 pixels along a side"))
     };
@@ -119,7 +122,7 @@ pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErro
     Ok(bytes)
 }
 
-/// The patches of all steps, and the width and height of the pictures in pixels.
+/// Renders all steps. Returns their patches, and the width and height of the pictures in pixels.
 fn film(steps: &[Step], size: Size, fonts: &Fonts) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
     let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
     if steps.is_empty() {

@@ -1,11 +1,10 @@
 //! [`write_whole`]: writes files so that each is complete or does not exist.
 //!
-//! The only file that names tempfile. A file is written beside its place and then moved there in one step, so that nobody
-//! ever sees half of it, and so that a disk that runs full leaves the old file as it was. A link is followed and its
-//! target replaced, with the target's permissions. What is no ordinary file, a device or a pipe, is written to directly.
+//! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
+//! step. So nobody ever sees half a file, and a full disk leaves the old file unchanged. A link is followed, and its
+//! target is replaced; the new file has the same permissions. A device or a pipe is written to directly.
 //!
-//! Files beside their places are on a list for as long as they are there: `abandon` takes them away when the process is
-//! about to be ended by a signal.
+//! Temporary files are on a list as long as they exist. `abandon` deletes them before a signal ends the process.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
@@ -14,36 +13,36 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-/// What becomes of a file that is there already.
+/// What to do if a file already exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// It is replaced.
+    /// Replace it.
     Replace,
-    /// It stays, and nothing is written.
+    /// Keep it, and return an error.
     Keep,
 }
 
-/// A file that could not be written.
+/// The error for a file that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {why}", path.display())]
 pub struct WriteError {
-    /// Which.
+    /// The file.
     pub path: PathBuf,
     /// The system's reason.
     pub why: io::Error,
 }
 
-/// Links that lead to links are followed this many times; more mean that they lead in a circle.
+/// At most this number of links is followed; longer chains are taken to be circular.
 const MAX_LINKS: usize = 40;
 
-/// The files that lie beside their places.
+/// The temporary files that exist.
 static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes several files or none of them. All are written under temporary names before the first one is renamed.
 ///
 /// # Errors
-/// The first file that could not be written. Everything is then as it was, unless the system refuses one of the moves at
-/// the very end; files moved before that one stay.
+/// The first file that could not be written. In this case nothing has changed, unless the system refuses to rename a
+/// file at the end. Files that were renamed before that one remain.
 ///
 /// # Example
 /// ```
@@ -73,17 +72,18 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
     Ok(())
 }
 
-/// Deletes all temporary files and prevents new ones until the value is dropped. For a process that is about to end.
+/// Deletes all temporary files and prevents new ones until the returned value is dropped. A process calls this before
+/// it ends.
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {
-        // The file may already be gone. There is nobody to report an error to.
+        // The file may already be deleted. An error cannot be reported to anybody.
         let _ = fs::remove_file(path);
     }
     beside
 }
 
-/// Whether two paths lead to the same regular file, under any names or links. A path without a file equals no other.
+/// True if two paths lead to the same regular file, also through links. False if one of them leads to no file.
 pub(crate) fn same(a: &Path, b: &Path) -> bool {
     let (Ok(a_is), Ok(b_is)) = (fs::metadata(a), fs::metadata(b)) else {
         return false;
@@ -103,13 +103,13 @@ fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
 }
 
 fn beside() -> MutexGuard<'static, Vec<PathBuf>> {
-    // The list of paths is valid at every moment, even if a thread panicked while it held the lock.
+    // The list is valid even if a thread panicked while it held the lock.
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is ready to be put in its place.
+/// A file that is prepared for writing.
 enum Ready {
-    /// Its bytes lie beside the place.
+    /// Its bytes are in a temporary file.
     Beside(Beside),
     /// A device or a pipe, open for writing.
     Stream(File),
@@ -124,9 +124,9 @@ impl Ready {
     }
 }
 
-/// A file beside its place, on the list.
+/// A temporary file that is on the list, and the path that it will get.
 struct Beside {
-    /// `None` once it was moved.
+    /// `None` after it was renamed.
     file: Option<NamedTempFile>,
     target: PathBuf,
 }
@@ -137,7 +137,7 @@ impl Beside {
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
             .unwrap_or(Path::new("."));
-        // Lock the list before the file is created, so that no file exists without its entry.
+        // Lock the list before the file is created, so that no file exists without an entry in the list.
         let mut list = beside();
         let file = builder()
             .tempfile_in(folder)
@@ -151,7 +151,7 @@ impl Beside {
     }
 
     fn fill(&mut self, bytes: &[u8], old: Option<&Metadata>) -> io::Result<()> {
-        // Use the bare file, because the errors of tempfile contain the temporary name.
+        // Write to the standard file handle, because the errors of tempfile contain the temporary name.
         let Some(file) = self.file.as_mut().map(NamedTempFile::as_file_mut) else {
             return Ok(());
         };
@@ -188,7 +188,7 @@ impl Drop for Beside {
     }
 }
 
-/// The reason of the system, without the temporary name that tempfile adds.
+/// Returns the error of the system, without the temporary name that tempfile adds to its text.
 fn nameless(error: &io::Error) -> io::Error {
     let text = error.to_string();
     let reason = text.split(" at path ").next().unwrap_or_default();
@@ -206,7 +206,7 @@ fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
     file.set_permissions(old.permissions())
 }
 
-/// Creates everything that is needed to write a file in one step.
+/// Prepares the writing of a file: writes the temporary file, or opens the device or pipe.
 fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     let target = followed(path)?;
     let old = fs::metadata(&target).ok();
@@ -220,7 +220,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
         if existing == Existing::Keep {
             return Err(io::Error::new(
                 io::ErrorKind::AlreadyExists,
-                "it is there already",
+                "it already exists",
             ));
         }
         // Open the existing file without changing it: a file that this user may not write must not be replaced either.
@@ -234,7 +234,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     Ok(Ready::Beside(file))
 }
 
-/// The file to which a path leads: the target of a link, which need not exist.
+/// Follows links and returns the path of their target, which need not exist.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MAX_LINKS {
@@ -245,13 +245,13 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
         let target = fs::read_link(&path)?;
         path = path.parent().unwrap_or(Path::new("")).join(target);
     }
-    Err(io::Error::other("its links lead in a circle"))
+    Err(io::Error::other("its links are circular"))
 }
 
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".drystone-").suffix(".part");
-    // Only the owner may read a temporary file. This file needs the permissions of a new file of this user.
+    // By default only the owner may read a temporary file. Give it the permissions of an ordinary new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder

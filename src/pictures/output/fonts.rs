@@ -1,25 +1,25 @@
 //! [`Fonts`]: the built-in fonts, and fonts that a user adds for other scripts.
 //!
-//! Which fonts a machine has is never looked at: the same drawing and the same font files give the same picture
-//! everywhere. A character that none of them has would be an empty box; it is [spelled out](Fonts::spelled) instead.
+//! Fonts installed on the machine are never used, so the same drawing and the same font files give the same picture
+//! everywhere. A character that no font has is [replaced by its code point](Fonts::spelled).
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::drawing::{Face, text};
 
-/// Our fonts, and more where they are asked for.
+/// The built-in fonts and added fonts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fonts {
     more: Vec<Arc<Vec<u8>>>,
 }
 
 impl Fonts {
-    /// The built-in fonts and the given font files or collections (.ttf, .otf, .ttc). A character that the built-in fonts
-    /// do not have comes from the first file that has it.
+    /// Adds font files or collections (.ttf, .otf, .ttc) to the built-in fonts. A character that the built-in fonts do
+    /// not have comes from the first file that has it.
     ///
     /// # Errors
-    /// The number, from 0, of the first file that is no font.
+    /// The index, from 0, of the first file that is not a font.
     ///
     /// # Example
     /// ```
@@ -36,13 +36,13 @@ impl Fonts {
         })
     }
 
-    /// The added font files.
+    /// Returns the added font files.
     #[cfg(feature = "png")]
     pub(super) fn more(&self) -> &[Arc<Vec<u8>>] {
         &self.more
     }
 
-    /// Whether some font has the character. White space needs no font.
+    /// True if a font has the character. Always true for white space.
     pub fn has(&self, c: char) -> bool {
         (c.is_whitespace() && !c.is_control())
             || matches!(c, '\n' | '\t' | '\r')
@@ -50,7 +50,7 @@ impl Fonts {
             || self.more.iter().any(|data| text::covers(data, c))
     }
 
-    /// The characters of a text that no font has, each once, in the order of their appearance.
+    /// Returns the characters of a text that no font has, each once, in the order of their appearance.
     pub fn lacking(&self, text: &str) -> Vec<char> {
         let mut lacking = Vec::new();
         for c in text
@@ -64,8 +64,7 @@ impl Fonts {
         lacking
     }
 
-    /// The text with each character that no font has replaced by its code point, so that two different names stay
-    /// different.
+    /// Replaces each character that no font has by its code point, so that two different names stay different.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

@@ -1,5 +1,5 @@
-//! [`Format`]: the formats in which the command line writes a drawing. Each format is declared here once, with its ending,
-//! its help and its writer; the writer itself has a file of its own.
+//! [`Format`]: the formats in which the command line writes a drawing. Each format is declared here once, with its file
+//! ending, its help and its writer. The writers are in other files.
 
 use super::animation::{self, Step};
 use super::fonts::Fonts;
@@ -19,25 +19,25 @@ pub(crate) enum Format {
     Tikz,
 }
 
-/// The options of all formats; each writer takes those that concern it.
+/// The options of all formats. Each writer uses some of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings<'f> {
     /// Size of a picture in pixels.
     pub size: Size,
     /// Width in print, mm.
     pub width_mm: Option<f64>,
-    /// How an SVG writes words.
+    /// How an SVG contains text.
     pub words: Words,
-    /// How hard a PNG is compressed.
+    /// The compression of a PNG.
     pub compression: Compression,
-    /// Fonts for words that the writer lays out itself.
+    /// Fonts for text that the writer lays out.
     pub fonts: &'f Fonts,
 }
 
 /// Why a drawing could not be written.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FormatError {
-    /// The requested size is out of range; another one helps.
+    /// The requested size is out of range.
     #[error("{0}")]
     Size(String),
     /// The writer failed.
@@ -45,10 +45,10 @@ pub(crate) enum FormatError {
     Write(String),
 }
 
-/// A writer of pictures that follow one another.
+/// A function that writes an animation.
 pub(crate) type Animate = fn(&[Step], Size, &Fonts) -> Result<Vec<u8>, PngError>;
 
-/// What is known about a format, and how a drawing is written in it.
+/// The properties of a format, and its writer.
 struct Declaration {
     /// File ending, without its dot; also the name on the command line.
     ending: &'static str,
@@ -58,7 +58,7 @@ struct Declaration {
     is_text: bool,
     /// Whether the picture consists of pixels, so that a width in pixels makes sense.
     has_pixels: bool,
-    /// Whether the writer lays out words in the fonts of [`Settings::fonts`]; otherwise the program that opens the file
+    /// Whether the writer lays out text in the fonts of [`Settings::fonts`]. Otherwise the program that opens the file
     /// does.
     lays_out_words: bool,
     write: fn(&Drawing, &Settings<'_>) -> Result<Vec<u8>, FormatError>,
@@ -78,7 +78,7 @@ impl Format {
         match self {
             Format::Svg => Declaration {
                 ending: "svg",
-                help: "Drawn in lines, with titles that tell the numbers",
+                help: "Vector graphics, with titles that show the numbers",
                 is_text: true,
                 has_pixels: false,
                 lays_out_words: false,
@@ -86,7 +86,7 @@ impl Format {
             },
             Format::Png => Declaration {
                 ending: "png",
-                help: "Drawn in pixels, from that SVG",
+                help: "Pixel image, made from the SVG",
                 is_text: false,
                 has_pixels: true,
                 lays_out_words: true,
@@ -94,7 +94,7 @@ impl Format {
             },
             Format::Gif => Declaration {
                 ending: "gif",
-                help: "Drawn in pixels of at most 255 colours, for animations in any program",
+                help: "Pixel image with at most 255 colours, for animations in any program",
                 is_text: false,
                 has_pixels: true,
                 lays_out_words: true,
@@ -102,7 +102,7 @@ impl Format {
             },
             Format::Pdf => Declaration {
                 ending: "pdf",
-                help: "Drawn in lines, for print, from that SVG",
+                help: "Vector graphics for print, made from the SVG",
                 is_text: false,
                 has_pixels: false,
                 lays_out_words: true,
@@ -112,7 +112,7 @@ impl Format {
             },
             Format::Tikz => Declaration {
                 ending: "tikz",
-                help: "Drawn in TikZ, to be set by LaTeX in the fonts of its document",
+                help: "TikZ code for LaTeX, in the fonts of the document",
                 is_text: true,
                 has_pixels: false,
                 lays_out_words: false,
@@ -121,24 +121,24 @@ impl Format {
         }
     }
 
-    /// The file ending, without its dot; also the name on the command line.
+    /// Returns the file ending without its dot, which is also the name on the command line.
     pub(crate) fn ending(self) -> &'static str {
         self.declaration().ending
     }
 
-    /// The format of a file ending in small letters.
+    /// Returns the format with this file ending, in lower case without its dot.
     pub(crate) fn from_ending(ending: &str) -> Option<Format> {
         Format::ALL
             .into_iter()
             .find(|format| format.ending() == ending)
     }
 
-    /// One line of help.
+    /// Returns one line of help.
     pub(crate) fn help(self) -> &'static str {
         self.declaration().help
     }
 
-    /// How pictures that follow one another are written in this format; `None` for a format that holds one picture.
+    /// Returns the function that writes an animation in this format; `None` for a format without animations.
     pub(crate) fn animate(self) -> Option<Animate> {
         match self {
             Format::Png => Some(animation::apng),
@@ -147,26 +147,25 @@ impl Format {
         }
     }
 
-    /// Whether a picture in this format consists of pixels.
+    /// True if a picture in this format consists of pixels.
     pub(crate) fn has_pixels(self) -> bool {
         self.declaration().has_pixels
     }
 
-    /// Whether words are laid out here, in the given fonts, and not by the program that opens the file.
+    /// True if the writer lays out text in the given fonts. Otherwise the program that opens the file does.
     pub(crate) fn lays_out_words(self, words: Words) -> bool {
         self.declaration().lays_out_words || (self == Format::Svg && words == Words::Outlines)
     }
 
-    /// Why the format is not written to a terminal; `None` for a format that can be read there.
+    /// Returns a message that says why the format is not written to a terminal; `None` for a text format.
     pub(crate) fn unreadable(self) -> Option<String> {
         let declaration = self.declaration();
         let name = declaration.ending.to_ascii_uppercase();
-        (!declaration.is_text).then(|| {
-            format!("a {name} is not for reading on a terminal; send it to a file with -o")
-        })
+        (!declaration.is_text)
+            .then(|| format!("a {name} cannot be shown on a terminal; write it to a file with -o"))
     }
 
-    /// The bytes of a drawing in this format.
+    /// Returns the bytes of a drawing in this format.
     pub(crate) fn write(
         self,
         drawing: &Drawing,
@@ -187,7 +186,7 @@ fn write_svg(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, Form
 }
 
 fn write_png(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
-    // A picture that is too large is refused before its SVG is written, which takes far more memory than the drawing.
+    // Check the size before the SVG is written, because the SVG takes far more memory than the drawing.
     png::check(drawing.width, drawing.height, settings.size)?;
     let svg = svg::for_pixels(drawing);
     Ok(png::render_in(

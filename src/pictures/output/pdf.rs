@@ -1,7 +1,8 @@
-//! [`write()`]: a drawing as a PDF page of its size, with vector graphics and searchable text.
+//! [`write()`]: writes a drawing as a PDF page of its size, with vector graphics and searchable text.
 //!
-//! It is made from the SVG, as the PNG is, so that they cannot disagree. Only this file and its folder name krilla. Our fonts are
-//! embedded, cut down to the glyphs that are used. Nothing in it tells of a day or a machine: same drawing, same bytes.
+//! The PDF is made from the SVG, as the PNG is, so all show the same picture. Only this file and its folder use krilla.
+//! The built-in fonts are embedded, reduced to the glyphs that are used. The file contains neither date nor machine:
+//! the same drawing gives the same bytes.
 
 mod paint;
 mod structure;
@@ -27,7 +28,7 @@ use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
 use crate::drawing::{Drawing, Face, PagePoint, PageRect};
 use crate::text::line;
 
-/// Why there is no PDF.
+/// Why a PDF could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum PdfError {
     /// The page would be too large or too small.
@@ -36,28 +37,29 @@ pub enum PdfError {
          Choose another width"
     )]
     Size {
-        /// Width asked for, mm.
+        /// Requested width, mm.
         width: f64,
-        /// Height that follows from it, mm.
+        /// Height for this width, mm.
         height: f64,
     },
-    /// The drawing cannot be written so.
+    /// The PDF writer failed.
     #[error("the drawing cannot be written as PDF: {0}")]
     Write(String),
 }
 
 /// Shortest side of a page, mm.
 pub const MIN_SIDE_MM: f64 = 2.0;
-/// Longest side of a page, mm: readers open no page of more than 14 400 points.
+/// Longest side of a page, mm. PDF viewers do not open pages of more than 14 400 points.
 pub const MAX_SIDE_MM: f64 = 5080.0;
 
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// A drawing as a PDF of one page. The page is `width_mm` wide; for `None` one pixel is 1/96 inch.
+/// Writes a drawing as a PDF of one page. The page is `width_mm` wide; for `None` one pixel is 1/96 inch.
 ///
 /// # Errors
-/// [`PdfError::Size`] where a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`].
+/// [`PdfError::Size`] if a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`];
+/// [`PdfError::Write`] if the PDF writer fails.
 ///
 /// # Example
 /// ```
@@ -100,33 +102,33 @@ pub fn write_in(
     document(&[sheet], width / drawing.width, &heading, &[], fonts)
 }
 
-/// What is drawn on a page.
+/// The content of an inset.
 #[derive(Clone, Copy, Debug)]
 pub enum Content<'d> {
     /// A drawing.
     Drawing(&'d Drawing),
-    /// An SVG of ours, such as a chart, and what it shows.
+    /// An SVG of this crate, such as a chart, and a description for screen readers.
     Svg(&'d str, &'d str),
-    /// A drawing of groups with the ids `e0`, `e1`, … and the role of each.
+    /// A drawing of groups with the ids `e0`, `e1`, …, and the role of each group.
     Tagged(&'d Drawing, &'d [Role]),
 }
 
-/// What a group of a page is to a reader who cannot see it.
+/// The role of a group on a page, for screen readers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Role {
-    /// Nothing: a line or a page number.
+    /// An item that screen readers skip: a line or a page number.
     Artifact,
-    /// A heading of a level from 1, with its words.
+    /// A heading with its level, from 1, and its text.
     Heading(u8, String),
     /// A paragraph.
     Paragraph,
     /// A cell of a table.
     Cell {
-        /// The number of the table in the document or in its part.
+        /// The number of the table. Neighbouring tables must have different numbers.
         table: usize,
         /// The number of the row in the table.
         row: usize,
-        /// Whether it is the head of a column.
+        /// Whether it is a column header.
         head: bool,
     },
 }
@@ -134,33 +136,33 @@ pub enum Role {
 /// A link to a page of the same document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// The area that leads there, pixels.
+    /// The area of the link, pixels.
     pub place: PageRect,
     /// The page, counted from 0.
     pub page: usize,
-    /// Where it leads, in words.
+    /// A description of its target.
     pub words: String,
 }
 
 /// An entry in the list of bookmarks of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bookmark {
-    /// Its level: a higher one is a part of the last lower one.
+    /// Its level. A bookmark is part of the last bookmark before it with a lower level.
     pub level: u8,
     /// Its title.
     pub title: String,
     /// The page, counted from 0.
     pub page: usize,
-    /// The height on the page, pixels from above.
+    /// The position on the page, pixels from the top.
     pub y: f64,
 }
 
-/// A drawing or a chart in its place on a page.
+/// A drawing or a chart at its position on a page.
 #[derive(Clone, Copy, Debug)]
 pub struct Inset<'d> {
-    /// What is drawn.
+    /// The drawing or chart.
     pub content: Content<'d>,
-    /// Where its upper left corner lies, pixels of the page.
+    /// The position of its upper left corner, pixels of the page.
     pub at: PagePoint,
     /// Pixels of the page per pixel of the drawing.
     pub scale: f64,
@@ -173,22 +175,22 @@ pub struct Sheet<'d> {
     pub width: f64,
     /// Height in pixels.
     pub height: f64,
-    /// What is on it, the lowest first.
+    /// The drawings on it, the lowest first.
     pub parts: Vec<Inset<'d>>,
     /// Its links.
     pub links: Vec<Link>,
 }
 
-/// What a document says of itself.
+/// The metadata of a document.
 #[derive(Clone, Copy, Debug)]
 pub struct Heading<'t> {
     /// Its title.
     pub title: &'t str,
-    /// What is in it, in sentences.
+    /// A description in sentences.
     pub description: &'t str,
 }
 
-/// Several drawings as the pages of a PDF. One pixel is 1/96 inch.
+/// Writes a PDF of several pages. One pixel is 1/96 inch.
 ///
 /// # Errors
 /// As [`write()`], for any of its pages.
@@ -201,14 +203,14 @@ pub fn write_sheets(
     document(sheets, natural, heading, bookmarks, &Fonts::default())
 }
 
-/// The width and height in pixels of an SVG that this crate wrote; `None` for any other text.
+/// Returns the width and height in pixels of an SVG; `None` for text that is not SVG.
 pub fn svg_size(text: &str) -> Option<(f64, f64)> {
     let tree = tree::read(text, &Fonts::default()).ok()?;
     let size = tree.size();
     Some((f64::from(size.width()), f64::from(size.height())))
 }
 
-/// A document of several pages with `mm_per_pixel` millimetres per pixel.
+/// Writes a document of several pages with `mm_per_pixel` millimetres per pixel.
 fn document(
     sheets: &[Sheet<'_>],
     mm_per_pixel: f64,
@@ -271,7 +273,7 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
     let PageRect { at, width, height } = link.place;
     let (x, y) = (scale * at.x as f32, scale * at.y as f32);
     let (wide, high) = (scale * width as f32, scale * height as f32);
-    // Sides of at least a point: an area cannot be empty.
+    // Each side is at least one point long, because an area must not be empty.
     let area = Rect::from_xywh(x, y, wide.max(1.0), high.max(1.0));
     let top = XyzDestination::new(link.page, Point::from_xy(0.0, 0.0));
     let target = Target::Destination(Destination::Xyz(top));
@@ -281,10 +283,10 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
     Annotation::new_link(LinkAnnotation::new(area, target), Some(line(&link.words)))
 }
 
-/// The tags of a document in its order: the role of what they wrap, if it has one, and the content.
+/// The tagged contents of a document in reading order, each with its role if it has one.
 type Tags = Vec<(Option<Role>, Node)>;
 
-/// Draws one part of a page and notes its tags.
+/// Draws one part of a page, and appends its tags to `tags`. `scale` is in points per pixel.
 fn inset(
     surface: &mut Surface<'_>,
     part: &Inset<'_>,
@@ -371,7 +373,7 @@ impl PdfPainter<'_, '_> {
                 usvg::Node::Group(group) => self.group(group),
                 usvg::Node::Path(path) => self.path(path),
                 usvg::Node::Text(text) => self.text(text),
-                // A drawing has none.
+                // A drawing contains no images.
                 usvg::Node::Image(_) => {}
             }
         }
@@ -385,7 +387,7 @@ impl PdfPainter<'_, '_> {
             return;
         };
         let (fill, stroke) = (path.fill().and_then(fill), path.stroke().and_then(stroke));
-        // PDF paints the stroke above the fill, but most figures need it below.
+        // PDF draws the stroke above the fill, but most figures need it below, so draw them separately.
         for (fill, stroke) in passes(fill, stroke, path.paint_order()) {
             self.surface.set_fill(fill);
             self.surface.set_stroke(stroke);
@@ -408,7 +410,7 @@ impl PdfPainter<'_, '_> {
                     continue;
                 };
                 for (fill, stroke) in passes(fill.clone(), stroke.clone(), span.paint_order) {
-                    // The halo around letters is drawn as outlines, so that the text is not there twice.
+                    // Draw the halo around letters as outlines. Otherwise the document would contain the text twice.
                     let outlined = fill.is_none();
                     self.surface.set_fill(fill);
                     self.surface.set_stroke(stroke);

@@ -10,13 +10,13 @@ use self::pack::{encode, straight};
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, tree};
 
-/// How large a picture is.
+/// The size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Size {
     /// One pixel per unit of the drawing.
     Natural,
-    /// Width in pixels; the height follows from the drawing.
+    /// Width in pixels; the height keeps the proportions of the drawing.
     Width(u32),
     /// Pixels per unit of the drawing.
     Scale(f64),
@@ -29,18 +29,18 @@ pub enum Size {
     },
 }
 
-/// How hard a PNG is compressed. The pixels are the same.
+/// The compression of a PNG. It does not change the pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
     /// Small files.
     #[default]
     Small,
-    /// A fourth of the time, for files a third larger. Meant for thousands of pictures.
+    /// A quarter of the time, and files that are a third larger; for thousands of pictures.
     Quick,
 }
 
 impl Compression {
-    /// The compression level of deflate.
+    /// Returns the compression level of deflate.
     fn level(self) -> u8 {
         match self {
             Compression::Small => 6,
@@ -72,16 +72,16 @@ pub enum PngError {
     Encode(String),
 }
 
-/// Most pixels in a picture.
+/// Largest number of pixels of a picture.
 pub const MAX_PIXELS: u64 = 100_000_000;
-/// Most pixels along a side.
+/// Largest number of pixels along a side.
 pub const MAX_SIDE: u32 = 32_000;
 
-/// An SVG drawing as PNG. It is transparent where the drawing is empty.
+/// Draws an SVG as PNG. The picture is transparent where the SVG is empty.
 ///
 /// # Errors
-/// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no pixel at
-/// all; [`PngError::Svg`] for text that is not SVG.
+/// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no
+/// pixels; [`PngError::Svg`] for text that is not SVG.
 ///
 /// # Example
 /// ```
@@ -108,7 +108,7 @@ pub fn render_in(
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
-/// The resolution of a picture for print, in pixels per metre.
+/// Returns the resolution of a picture for print, in pixels per metre; `None` for other sizes.
 fn per_metre(size: Size) -> Option<u32> {
     match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
@@ -123,7 +123,7 @@ pub struct Raster {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Red, green, blue and alpha of each, row by row from the upper left corner, not premultiplied.
+    /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied.
     pub rgba: Vec<[u8; 4]>,
 }
 
@@ -148,7 +148,7 @@ pub(super) fn rgba_in(svg: &str, size: Size, fonts: &Fonts) -> Result<Raster, Pn
     })
 }
 
-/// Checks before drawing that a drawing of this width and height gives a PNG of a possible size.
+/// Checks that a drawing of this width and height in pixels gives a PNG of an allowed size.
 ///
 /// # Errors
 /// [`PngError::Size`] if the size is out of range.
@@ -156,7 +156,7 @@ pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
-/// The width and height of a picture in whole pixels, from those of its drawing.
+/// Returns the width and height of a picture in whole pixels, from those of its drawing.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
@@ -179,7 +179,7 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
     }
 }
 
-/// The pixels of an SVG.
+/// Draws an SVG as pixels.
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
     let natural = (
@@ -189,7 +189,7 @@ fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let (width, height) = pixels(natural.0, natural.1, size)?;
     let mut pixels =
         Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
-    // Stretch the drawing to whole pixels, by less than one pixel in total, so that no edge of the page is half
+    // Stretch the drawing by less than one pixel to whole pixels, so that the edges of the page are not partly
     // transparent.
     let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
     resvg::render(&tree, scale, &mut pixels.as_mut());

@@ -1,7 +1,7 @@
-//! [`write()`]: a drawing as SVG text. It only uses features that resvg and browsers treat alike.
+//! [`write()`]: writes a drawing as SVG text. It only uses features that resvg and browsers treat in the same way.
 //!
-//! Attributes stand in a fixed order and every number goes through one printer, so that the same drawing is the same
-//! bytes. Names of elements begin with a mark made from the drawing's own content: several figures can share a page.
+//! Attributes have a fixed order, and one function formats all numbers, so the same drawing gives the same bytes. Ids
+//! of elements begin with a hash of the drawing, so that several figures can be on one page.
 
 #[cfg(feature = "embed")]
 mod font;
@@ -24,15 +24,15 @@ use super::tree;
 use crate::drawing::{Drawing, Face, Group, Item, Join, PageRect, Path, Stroke};
 use crate::text::xml;
 
-/// Words that could not be laid out, or a font that could not be cut.
+/// The error for text that could not be laid out, or for a font that could not be subset.
 #[derive(Debug, thiserror::Error)]
 #[error("the words of the drawing cannot be written so: {0}")]
 pub struct OutlineError(String);
 
-/// A drawing as an SVG document with its text as text.
+/// Writes a drawing as an SVG document with its text as text.
 ///
 /// # Panics
-/// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
+/// If a number of the drawing is not finite. No valid scene causes this.
 ///
 /// # Example
 /// ```
@@ -61,16 +61,17 @@ pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
 }
 
-/// Like [`write()`]. Each line of text gets its number as its id: `t1`, `t2` …
+/// Like [`write()`]. Each line of text gets its number as its id, in the order of drawing: `t1`, `t2` …
 #[cfg(feature = "png")]
 pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// A drawing as an SVG document with a size for print, or with text that does not depend on the fonts of the reader.
+/// Writes a drawing as an SVG document, with a size for print, or with text that does not depend on the fonts of the
+/// reader.
 ///
 /// # Errors
-/// [`OutlineError`] where resvg cannot lay out the drawing's words.
+/// [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.
 ///
 /// # Panics
 /// As [`write()`].
@@ -112,14 +113,14 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, Outlin
     }
 }
 
-/// The drawing as a tree with each line of text laid out; the number of the line is its id.
+/// Lays out all text of the drawing. Returns it as a tree in which each line of text has the id `t1`, `t2` …
 #[cfg(feature = "png")]
 fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, OutlineError> {
     tree::read(&numbered(drawing), &options.fonts).map_err(OutlineError)
 }
 
-/// A short hash that makes ids unique: other drawings, and other forms of this drawing, have another one with high
-/// probability.
+/// Returns the prefix of all ids: [`Options::mark`], or else a short hash of drawing and options. Different drawings
+/// and options very probably have different hashes.
 fn mark_of(drawing: &Drawing, options: &Options) -> String {
     if let Some(mark) = &options.mark {
         return mark.clone();
@@ -135,29 +136,29 @@ fn mark_of(drawing: &Drawing, options: &Options) -> String {
     format!("d{:08x}", fold(&text))
 }
 
-/// How a document's words are written down.
+/// How the text of a document is written.
 #[derive(Clone, Copy)]
 enum Form<'f> {
-    /// In fonts by their names.
+    /// As text, in fonts by their names.
     Names,
-    /// Likewise, and nothing beside them that is not seen.
+    /// Like `Names`, without anything that is not visible.
     #[cfg(all(feature = "cli", feature = "png"))]
     Pixels,
-    /// Likewise, and each line of words has its number as its name.
+    /// Like `Names`; each line of text has its number as its id.
     #[cfg(feature = "png")]
     Numbered,
-    /// In the fonts of a style sheet.
+    /// As text, in the fonts of this style sheet.
     #[cfg(feature = "embed")]
     Embedded(&'f str),
-    /// As outlines, by the numbers of the lines of words.
+    /// As the path data of each line of text, by its number.
     #[cfg_attr(
         not(feature = "png"),
-        expect(dead_code, reason = "made where words are laid out")
+        expect(dead_code, reason = "only used if text can be laid out")
     )]
     Outlines(&'f BTreeMap<usize, String>),
 }
 
-/// The face of most words; the others say theirs.
+/// The face of most text; text in another face names it.
 const USUAL: Face = Face::Sans;
 
 fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {
@@ -176,7 +177,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
             format!("{}mm", number(mm * drawing.height / drawing.width)),
         ),
     };
-    // The attributes that most shapes and texts share are written once.
+    // Write attributes that most shapes and texts share only once, here.
     svg.put(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
@@ -228,7 +229,7 @@ impl Writer<'_> {
         let _ = write!(self.text, " {name}=\"{value}\"");
     }
 
-    /// Whether only visible items are written.
+    /// True if only visible items are written.
     fn is_bare(&self) -> bool {
         match self.form {
             #[cfg(all(feature = "cli", feature = "png"))]
@@ -287,7 +288,7 @@ impl Writer<'_> {
         id
     }
 
-    /// Writes the attributes of a group: id, class, what readers for the blind need, clip and camera.
+    /// Writes the attributes of a group: id, class, attributes for screen readers, clip path and camera.
     fn group_attributes(&mut self, group: &Group, clip: Option<String>) {
         if let Some(id) = &group.id {
             let id = format!("{}-{}", self.mark, xml(id));
@@ -297,7 +298,7 @@ impl Writer<'_> {
             self.attribute("class", &xml(&group.class));
         }
         if !group.title.is_empty() {
-            // Readers enter a group that contains titles; any other group is one picture.
+            // Screen readers read the parts of a group that contains titles. Any other group is one image for them.
             let is_group = holds_titles(&group.items);
             self.attribute("role", if is_group { "group" } else { "img" });
         }
@@ -309,7 +310,8 @@ impl Writer<'_> {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
         if let Some(camera) = &group.camera {
-            // Pixels per metre and the position of the origin, with all digits, so that the scene can be read back.
+            // Write pixels per metre and the position of the origin with all digits, so that the scene can be read
+            // back.
             let origin = camera.origin();
             self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
             self.attribute(
@@ -360,7 +362,7 @@ fn holds_titles(items: &[Item]) -> bool {
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
 }
 
-/// A 32-bit hash of a text: both halves of a 64-bit hash, combined.
+/// Returns a 32-bit hash of a text: the exclusive or of both halves of its 64-bit hash.
 fn fold(text: &str) -> u32 {
     let hash = crate::text::hash(text.as_bytes());
     (hash ^ (hash >> 32)) as u32

@@ -1,6 +1,6 @@
-//! [`write()`]: a drawing as a TikZ picture for LaTeX documents. Its text uses the fonts of the document.
+//! [`write()`]: writes a drawing as a TikZ picture for LaTeX documents. Its text uses the fonts of the document.
 //!
-//! It needs the packages `tikz` and nothing else; `\input` the file where the figure is to stand.
+//! It only needs the package `tikz`. Include the file with `\input`.
 
 use std::fmt::Write as _;
 
@@ -10,13 +10,13 @@ use crate::drawing::{
     Text,
 };
 
-/// PostScript points per inch, of which TeX has its own name.
+/// PostScript points per inch; TeX calls them big points (`bp`).
 const BIG_POINTS: f64 = 72.0;
 
-/// A drawing as a `tikzpicture`, `width_mm` wide; for `None` one pixel is 1/96 inch.
+/// Writes a drawing as a `tikzpicture`, `width_mm` wide; for `None` one pixel is 1/96 inch.
 ///
 /// # Panics
-/// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
+/// If a number of the drawing is not finite. No valid scene causes this.
 ///
 /// # Example
 /// ```
@@ -189,7 +189,7 @@ fn steps(outline: &Outline) -> String {
     steps
 }
 
-/// A number with at most three decimals and no exponent, which TeX does not read.
+/// Formats a number with at most three decimals and without an exponent, which TeX cannot read.
 fn number(value: f64) -> String {
     assert!(
         value.is_finite(),
@@ -201,7 +201,7 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// The first line of a text, for a comment after a percent sign.
+/// Replaces control characters by spaces, so that the text is one line and can be a comment.
 fn comment(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() { ' ' } else { c })

@@ -1,8 +1,8 @@
 //! [`read`]: reads an SVG with resvg, with all text laid out in the built-in and added fonts.
 //!
-//! What is drawn in pixels, written as PDF or turned into outlines all begins here, so that words stand in the same
-//! places everywhere. Whatever fonts the machine has, none of them is looked at but those that were given. A character that
-//! no font has shows as a question mark, never as an empty box.
+//! Pixel images, PDF and text outlines are all made from this tree, so text has the same position in all of them. Only
+//! the built-in and the added fonts are used, never those of the machine. A character that no font has is drawn as a
+//! question mark.
 
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
@@ -16,7 +16,7 @@ use crate::drawing::Face;
 /// Reads an SVG document as a tree of shapes and laid-out text.
 ///
 /// # Errors
-/// What resvg has against the text.
+/// The message of resvg if it cannot read the SVG.
 pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     let svg = &legible(svg, more);
     let options = usvg::Options {
@@ -32,7 +32,7 @@ pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     usvg::Tree::from_str(svg, &options).map_err(|e| e.to_string())
 }
 
-/// The text with question marks for the characters that no font has.
+/// Replaces characters that no font has by question marks.
 fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
     let lacking = fonts.lacking(svg);
     if lacking.is_empty() {
@@ -42,7 +42,7 @@ fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
     Cow::Owned(svg.chars().map(shown).collect())
 }
 
-/// The built-in fonts, followed by the added ones.
+/// Returns the built-in fonts, followed by the added fonts.
 fn database(more: &Fonts) -> Arc<fontdb::Database> {
     let ours = &fonts().0;
     if more.more().is_empty() {
@@ -55,14 +55,14 @@ fn database(more: &Fonts) -> Arc<fontdb::Database> {
     Arc::new(all)
 }
 
-/// Whether a glyph of a line of text comes from an added font.
+/// True if a glyph of a line of text comes from an added font.
 pub(super) fn foreign(text: &usvg::Text) -> bool {
     let spans = text.layouted().iter();
     let mut glyphs = spans.flat_map(|span| &span.positioned_glyphs);
     glyphs.any(|glyph| face(glyph.font).is_none())
 }
 
-/// The texts of a tree in the order of drawing.
+/// Returns the texts of a tree in the order of drawing.
 pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
     let mut found = Vec::new();
     for node in group.children() {
@@ -75,18 +75,18 @@ pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
     found
 }
 
-/// A glyph where it stands.
+/// A glyph and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Placed {
-    /// Its number in its font.
+    /// Its index in its font.
     pub glyph: u16,
-    /// The characters it stands for.
+    /// The characters that it represents.
     pub characters: String,
-    /// Where it begins, pixels to the right and down.
+    /// Its origin, pixels to the right and down.
     pub at: (f64, f64),
 }
 
-/// Glyphs of one face and size beside each other, in the order in which they stand.
+/// Consecutive glyphs of one face and size, in their order.
 #[derive(Clone, Debug)]
 pub(super) struct Run {
     /// Their font.
@@ -97,7 +97,7 @@ pub(super) struct Run {
     pub glyphs: Vec<Placed>,
 }
 
-/// The glyphs of a line of text, grouped by font.
+/// Returns the glyphs of a span of text that come from built-in fonts, as runs of one face.
 pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for glyph in &span.positioned_glyphs {
@@ -124,7 +124,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     runs
 }
 
-/// The built-in face of a font in the tree.
+/// Returns the built-in face of a font in the tree; `None` for an added font.
 pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
     known
@@ -133,7 +133,7 @@ pub(super) fn face(id: fontdb::ID) -> Option<Face> {
         .map(|(_, face)| *face)
 }
 
-/// Our fonts, and the name under which resvg knows each.
+/// The built-in fonts, and the id that resvg gave each.
 type Ours = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
 
 fn fonts() -> &'static Ours {

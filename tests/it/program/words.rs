@@ -257,7 +257,7 @@ fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
     for words in [
         "error: bad.json: failur: unknown key",
         "the nearest known key is `failure`",
-        "error: bad.json: ink: the text \"blak\" is no colour",
+        "error: bad.json: ink: the text \"blak\" is not a colour",
         "negative weight -3",
     ] {
         assert!(ran.err.contains(words), "{words}\n{}", ran.err);

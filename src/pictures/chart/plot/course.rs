@@ -9,7 +9,7 @@ use crate::chart::{Course, SMALL, round_step};
 
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Draws a course.
+/// Draws a course chart.
 pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Drawn {
     let area = small(svg);
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
@@ -53,7 +53,7 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Draws the lines, and returns the heights of their ends with their names.
+/// Draws the lines. Returns the vertical position of the end of each line on the page, and its name.
 fn draw_lines<'c>(
     axes: &mut Axes<'_, '_>,
     chart: &'c Course,
@@ -80,7 +80,7 @@ fn draw_lines<'c>(
     Ok(ends)
 }
 
-/// Draws the names at the ends of their lines, pushed apart where these meet.
+/// Draws the names at the ends of their lines. Names that would overlap are moved down.
 fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> Drawn {
     ends.sort();
     let mut free = i32::MIN;

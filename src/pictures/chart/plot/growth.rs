@@ -1,4 +1,4 @@
-//! Draws lines that grow with the size of a task, with their names at their ends.
+//! Draws lines on two logarithmic axes, with their names at their ends.
 
 use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
@@ -23,7 +23,7 @@ struct LineEnd<'c> {
     line: &'c Growing,
 }
 
-/// Draws what grows.
+/// Draws a growth chart.
 pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
     let area = large(svg);
     area.fill(&WHITE)?;
@@ -69,17 +69,17 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Colour and width of a line.
+/// Returns the colour and the width in pixels of a line.
 fn style(ours: bool) -> (RGBColor, i32) {
     if ours { (DARK, 3) } else { (PALE, 1) }
 }
 
-/// The pen that crosses wrong points out.
+/// Returns the stroke of the crosses on wrong points.
 fn crossing_pen() -> ShapeStyle {
     INK.stroke_width(2 * FINE as u32)
 }
 
-/// Draws the lines, ours above the others, and returns their ends.
+/// Draws the lines, the important ones on top. Returns their ends.
 fn draw_lines<'c>(
     axes: &mut LogAxes<'_, '_>,
     lines: &'c [Growing],
@@ -106,7 +106,7 @@ fn draw_lines<'c>(
     Ok(ends)
 }
 
-/// Draws the names of the lines to the right of the picture, joined to the ends of their lines.
+/// Draws the names of the lines to the right of the picture. A thin line joins each name to the end of its line.
 fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
     for (y, end) in name_heights(ends).into_iter().zip(ends) {
         let (colour, _) = style(end.line.ours);
@@ -130,16 +130,17 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
     Ok(())
 }
 
-/// The heights of the names, in the order of the lines' ends, pushed apart.
+/// Returns the vertical positions of the names on the page, moved apart so that names do not overlap. `ends` is sorted
+/// from top to bottom.
 fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
-    // Downwards: no name covers the one above it.
+    // From top to bottom: move each name below the name above it.
     let mut heights: Vec<i32> = ends.iter().map(|end| end.y).collect();
     let mut free = 40 * FINE;
     for height in &mut heights {
         *height = (*height).max(free);
         free = *height + NAMES_APART;
     }
-    // Upwards: names that were pushed down make room for each other, so that none is far from its line.
+    // From bottom to top: move names up again, so that none is far from its line.
     let mut below = (SIZE.1 - 66) * FINE;
     for (height, end) in heights.iter_mut().zip(ends).rev() {
         *height = (*height)
@@ -150,7 +151,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     heights
 }
 
-/// A power of ten with a space between thousands: `10 000`, `0.1`.
+/// Formats a power of ten with a space before the thousands: `10 000`, `0.1`.
 fn grouped(value: f64) -> String {
     let text = tick(value);
     match text.strip_suffix("000").filter(|_| !text.contains('.')) {

@@ -1,4 +1,4 @@
-//! Draws a scatter.
+//! Draws a scatter chart.
 
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -9,7 +9,7 @@ use crate::chart::{SIZE, Scatter, power_of_ten};
 /// The colour of the front.
 const GOLD: RGBColor = RGBColor(240, 190, 60);
 
-/// Draws a scatter.
+/// Draws a scatter chart.
 pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> Drawn {
     let area = large(svg);
     area.fill(&WHITE)?;
@@ -28,7 +28,7 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
             (ten(low)..ten(high)).log_scale(),
         )?;
     let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
-    // plotters takes the number as an upper bound that includes both ends.
+    // The number of labels is an upper bound for plotters, which counts both ends.
     let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
     axes.configure_mesh()
         .x_labels(every(left, right))
@@ -49,12 +49,12 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
     Ok(())
 }
 
-/// The pen that crosses wrong points out.
+/// Returns the stroke of the crosses on wrong points.
 fn red() -> ShapeStyle {
     RGBColor(215, 20, 30).stroke_width(4 * FINE as u32)
 }
 
-/// The front below everything else, then the series, then crosses on wrong points.
+/// Draws the front, above it the series, and on top the crosses on wrong points.
 fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     let front = stair(&chart.front.1);
     axes.draw_series(LineSeries::new(front, GOLD.stroke_width(6 * FINE as u32)))?;
@@ -74,8 +74,7 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     Ok(())
 }
 
-/// The front as a stair: between two of its points the error of the slower one is the best that the time of the faster one
-/// can buy.
+/// Returns the corners of the front as a stair: y keeps its value until the next point begins.
 fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut stair: Vec<(f64, f64)> = Vec::new();
     for (x, y) in front {
@@ -87,7 +86,7 @@ fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     stair
 }
 
-/// The legend, to the right of the picture, where no point can be.
+/// Draws the legend to the right of the picture, where there are no points.
 fn draw_legend(area: &Page<'_>, chart: &Scatter) -> Drawn {
     let (name, front) = &chart.front;
     let mut y = 60 * FINE;

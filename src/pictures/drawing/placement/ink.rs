@@ -1,4 +1,5 @@
-//! [`Ink`]: convex pieces that labels keep clear of, in a uniform grid, so that a test looks at nearby pieces only.
+//! [`Ink`]: convex shapes that labels must not cover. They are stored in a uniform grid, so that a test only looks at
+//! nearby shapes.
 //!
 //! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A figure
 //! tests hundreds of positions for each label, so a test allocates nothing, and each side stores its own projection.
@@ -23,7 +24,7 @@ pub struct Ink {
 
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Whether it is a label, which a crossing leader would strike out, or a leader, which a reader could follow by mistake.
+    /// Whether it is a label or a leader of a label. Other leaders should not cross it.
     is_label: bool,
     /// The range of its corners and sides.
     first: usize,
@@ -72,7 +73,8 @@ impl Ink {
         }
     }
 
-    /// Whether `matches` holds for any piece whose box overlaps a box. It is called once for each of them.
+    /// True if `matches` is true for a piece whose bounding box overlaps the box from `min` to `max`. `matches` is
+    /// called at most once for each of these pieces.
     fn any_near(
         &self,
         min: PagePoint,
@@ -104,7 +106,7 @@ impl Ink {
         false
     }
 
-    /// Adds a line `width` pixels wide.
+    /// Adds a line `width` pixels wide. A line without length is ignored.
     pub fn line(&mut self, from: PagePoint, to: PagePoint, width: f64) {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let length = libm::hypot(dx, dy);
@@ -120,7 +122,7 @@ impl Ink {
         ]);
     }
 
-    /// Adds a disc, as the octagon around it.
+    /// Adds a disc, as its circumscribed regular octagon.
     pub fn disc(&mut self, centre: PagePoint, radius: f64) {
         let reach = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
@@ -162,11 +164,11 @@ impl Ink {
         }
     }
 
-    /// Whether an upright rectangle overlaps no ink.
+    /// True if a rectangle overlaps no ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // The boxes overlap, so the sides of the rectangle separate nothing. Only the sides of the piece remain to be
-        // tested.
+        // The bounding boxes overlap, so no side of the rectangle separates the two. Only the sides of the piece remain
+        // to be tested.
         let meets = |piece: &Piece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))
@@ -174,7 +176,7 @@ impl Ink {
         !self.any_near(min, max, meets)
     }
 
-    /// How many labels and how many other pieces a line touches.
+    /// Returns how many labels and leaders, and how many other pieces, a line touches.
     pub(super) fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
         let (min, max) = (
             PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
@@ -211,7 +213,7 @@ struct Side {
     along: (f64, f64),
     /// The least and the greatest [`Side::offset`] of the piece's corners.
     own: (f64, f64),
-    /// [`TOUCH_TOL`] in the same measure.
+    /// [`TOUCH_TOL`] times the length of the side, to compare with offsets.
     touch: f64,
 }
 
@@ -230,7 +232,7 @@ impl Side {
         }
     }
 
-    /// The distance of a point from the line of the side, times the length of the side.
+    /// Returns the signed distance of a point from the line through this side, times the length of the side.
     fn offset(&self, p: PagePoint) -> f64 {
         self.along.0 * (p.y - self.from.y) - self.along.1 * (p.x - self.from.x)
     }
@@ -244,14 +246,14 @@ impl Side {
         (low, high)
     }
 
-    /// Whether the line of the side separates its piece from these points.
+    /// True if the line through this side separates its piece from these points.
     fn separates(&self, others: &[PagePoint]) -> bool {
         self.apart(self.reach(others))
     }
 
-    /// Whether the line of the side separates its piece from an upright box.
+    /// True if the line through this side separates its piece from the box from `min` to `max`.
     fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
-        // The signs of the side's direction decide at which corners the offset is least and greatest.
+        // The signs of the side's direction determine the corners with the least and the greatest offset.
         let (below, above) = if self.along.0 >= 0.0 {
             (min.y, max.y)
         } else {
@@ -272,7 +274,7 @@ impl Side {
     }
 }
 
-/// Whether a side of the convex `piece` separates it from the other points.
+/// True if a side of the convex `piece` separates it from the other points.
 pub(super) fn separated(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
         let next = piece[(i + 1) % piece.len()];
@@ -313,7 +315,7 @@ struct Cells {
 
 impl Grid {
     fn new(pieces: &[Piece]) -> Grid {
-        // A page is a few thousand pixels wide. Everything far outside shares the outermost cells.
+        // A page is a few thousand pixels wide. Pieces far outside the page share the outermost cells.
         let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
         let ends =
             |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
@@ -325,7 +327,7 @@ impl Grid {
             x = ends(x, piece.min.x, piece.max.x);
             y = ends(y, piece.min.y, piece.max.y);
         }
-        // Without pieces the grid has one cell.
+        // If there are no pieces, the grid has one cell.
         let count = |(first, last): (f64, f64)| ((last - first).max(0.0) as usize) + 1;
         let first = |(first, _): (f64, f64)| if first.is_finite() { first } else { 0.0 };
         let mut grid = Grid {
@@ -355,7 +357,7 @@ impl Grid {
         }
     }
 
-    /// The cells that a box touches; what lies beyond the grid belongs to the cells at its edge.
+    /// Returns the cells that a box touches. Parts outside the grid count to the cells at its border.
     fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
         let cell = |v: f64, first: f64, count: usize| {
             (((v / CELL).floor() - first).max(0.0) as usize).min(count - 1)

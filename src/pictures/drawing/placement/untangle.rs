@@ -1,7 +1,7 @@
-//! [`untangle`]: two labels whose leaders cross exchange their positions where that leaves fewer crossings.
+//! [`untangle`]: exchanges the positions of two labels whose leaders cross if that leaves fewer crossings.
 //!
-//! Labels are placed one after the other, so the last ones of a crowd may end up behind those of their neighbours. This is
-//! a local search over pairs (2-opt): it stops when no exchange helps, or after a few rounds.
+//! Labels are placed one after the other, so the last labels in a crowd may lie behind labels of their neighbours. This
+//! is a local search over pairs (2-opt). It stops when no exchange helps, or after a few rounds.
 
 use super::ink::separated;
 use super::{CLEARANCE, Ink, LabelRequest, Placed, centred, corners, within};
@@ -10,7 +10,7 @@ use crate::drawing::{PagePoint, PageRect};
 /// Rounds over all pairs. The second rarely changes anything; the limit keeps crowded figures fast.
 const MAX_ROUNDS: usize = 4;
 
-/// Exchanges positions of labels while that leaves fewer crossings. Returns whether any label moved.
+/// Exchanges the positions of labels as long as this reduces the number of crossings. Returns whether any label moved.
 pub(super) fn untangle(
     ink_without_labels: &Ink,
     page: PageRect,
@@ -18,7 +18,7 @@ pub(super) fn untangle(
     placed: &mut [Option<Placed>],
     avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
-    // The label of a request where another one stands, if it fits there.
+    // The label of a request at the position of another label; `None` if it does not fit there.
     let moved = |number: usize, to: PageRect| {
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
@@ -44,7 +44,8 @@ pub(super) fn untangle(
     any_moved
 }
 
-/// Exchanges the positions of two labels with leaders if both fit and fewer leaders cross. Returns whether it did.
+/// Exchanges the positions of labels `i` and `j` if both have leaders, both fit, and there are then fewer crossings.
+/// Returns whether they were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,
@@ -77,7 +78,8 @@ fn exchange(
     better
 }
 
-/// How often the leaders of two labels cross other leaders or labels, and how often other leaders cross these labels.
+/// Returns the number of crossings of labels `i` and `j` with all other labels. A crossing is a leader that crosses
+/// another leader or a label.
 fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
     let mut count = 0;
     for own in [i, j] {

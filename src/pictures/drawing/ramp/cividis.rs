@@ -1,5 +1,5 @@
 //! The colour ramp cividis of matplotlib, by Jamie R. Nuñez, Christopher R. Anderton and Ryan S. Renslow
-//! ([Nunez18](crate::doc::references)). It looks nearly the same with and without colour blindness.
+//! ([Nunez18](crate::doc::references)). It looks nearly the same to readers with and without colour blindness.
 
 /// 256 colours from dark blue over grey to yellow, as 0xrrggbb.
 #[rustfmt::skip]

@@ -1,7 +1,7 @@
-//! Reads style files: JSON or TOML files that describe a theme, or its differences from another theme.
+//! Reads and writes style files: JSON or TOML files that describe a theme, or its differences from another theme.
 //!
-//! The keys are the names of the fields of [`Theme`], with `theme` for the one that is started from. Everything may be left
-//! out. All that is wrong is reported at once.
+//! The keys are the names of the fields of [`Theme`], and `theme` for the theme that the file changes. All keys are
+//! optional. All problems are reported at once.
 
 mod reading;
 mod value;
@@ -14,7 +14,7 @@ use super::{Sizes, Theme, Widths};
 use reading::Reading;
 use value::Value;
 
-/// How a style file is written.
+/// The format of a style file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Notation {
@@ -25,28 +25,28 @@ pub enum Notation {
     Toml,
 }
 
-/// One thing that is wrong with a style file.
+/// A problem of a style file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct StyleProblem {
-    /// Where, such as `widths.force` or `arrows[2]`; empty for the file as a whole.
+    /// The path to the value, such as `widths.force` or `arrows[2]`; empty for the file as a whole.
     pub path: String,
-    /// What was found.
+    /// What is wrong.
     pub message: String,
-    /// What is expected; empty where the message says it.
+    /// What is expected; empty if the message says it.
     pub help: String,
 }
 
-/// All that is wrong with a style file, in the file's order; never empty.
+/// All problems of a style file, in the order of the file; never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
-    /// Reads the theme that a style file describes. The file changes the theme `base`. If `base` is `None`, it changes the
-    /// theme that the file names, or else the default theme.
+    /// Reads the theme that a style file describes. The values of the file replace those of the theme `base`. If `base`
+    /// is `None`, they replace those of the theme that the file names, or else of the default theme.
     ///
     /// # Errors
-    /// All that is wrong with the file.
+    /// All problems of the file.
     ///
     /// # Example
     /// ```
@@ -75,7 +75,7 @@ impl Theme {
         let Value::Table(entries) = value else {
             reading.note(
                 "",
-                format!("{} is no style", value.stated()),
+                format!("{} is not a style", value.stated()),
                 "give a table of keys and values".into(),
             );
             return Err(StyleProblems(reading.problems));
@@ -90,7 +90,7 @@ impl Theme {
         }
     }
 
-    /// The whole theme as a style file in JSON. Reading it gives the same theme.
+    /// Writes the whole theme as a style file in JSON. Reading this file gives the same theme.
     ///
     /// ```
     /// use drystone::drawing::{Theme, style::format::Notation};
@@ -197,9 +197,9 @@ const SIZES: [SizeField; 7] = [
 /// Smaller letters cannot be read, larger ones leave no room for the figure.
 const LETTERS: [f64; 2] = [8.0, 100.0];
 
-/// The smallest number of evenly spaced stops that reproduce a ramp; in the worst case all 256 colours.
+/// Returns the smallest list of evenly spaced stops that reproduces a ramp; in the worst case all 256 colours.
 fn stops(ramp: &[Colour]) -> Vec<Colour> {
-    // Only steps that divide 255 meet whole entries.
+    // With steps that divide 255, each stop is an entry of the ramp.
     for step in [255, 85, 51, 17, 15, 5, 3] {
         let stops: Vec<Colour> = ramp.iter().step_by(step).copied().collect();
         if ramp::between(&stops) == ramp {

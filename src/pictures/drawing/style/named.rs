@@ -8,7 +8,7 @@ impl Theme {
     /// The names of the themes, the default first: [`Theme::named`] knows each of them.
     pub const NAMES: [&str; 4] = ["thesis", "paper", "colourblind", "dark"];
 
-    /// A built-in theme by its name; `None` for a name that is not in [`Theme::NAMES`].
+    /// Returns the built-in theme with this name; `None` for a name that is not in [`Theme::NAMES`].
     ///
     /// ```
     /// use drystone::drawing::Theme;
@@ -25,7 +25,7 @@ impl Theme {
         }
     }
 
-    /// The colours of the source on a white page.
+    /// The colours of the thesis on a white page.
     pub fn thesis() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -53,8 +53,8 @@ impl Theme {
         }
     }
 
-    /// A theme for print in colour or grey: things that may touch differ in lightness. Arrows are dark and blocks light;
-    /// robots are lighter than failures, and failures are lighter than forces.
+    /// A theme for print in colour or grey: items that may touch differ in lightness. Arrows of forces are dark and
+    /// blocks are light. Robots are lighter than failures, and failures are lighter than forces.
     pub fn paper() -> Theme {
         Theme {
             page: Colour::WHITE,

@@ -312,8 +312,8 @@ fn all_that_is_wrong_is_told_at_once_with_its_place() {
     for words in [
         "the nearest is dark",
         "the nearest known key is `failure`",
-        "the text \"white\" is no colour",
-        "the number 7 is no colour",
+        "the text \"white\" is not a colour",
+        "the number 7 is not a colour",
         "the nearest is viridis",
         "the nearest known key is `force`",
         "the number 0 cannot be drawn",
@@ -329,14 +329,14 @@ fn texts_that_are_no_style_are_refused_in_words() {
     for (text, notation, words) in [
         ("{ \"page\": }", Notation::Json, "line 1"),
         ("a = 1\nb = ", Notation::Toml, "line 2"),
-        ("[]", Notation::Json, "no style"),
-        ("", Notation::Json, "no JSON"),
-        ("ink = 2020-01-01", Notation::Toml, "no colour"),
+        ("[]", Notation::Json, "not a style"),
+        ("", Notation::Json, "not JSON"),
+        ("ink = 2020-01-01", Notation::Toml, "not a colour"),
         ("[widths]\nforce = nan", Notation::Toml, "cannot be drawn"),
         (
             "{ \"sizes\": { \"key\": 1e999 } }",
             Notation::Json,
-            "no JSON",
+            "not JSON",
         ),
     ] {
         let described = Theme::read(text, notation, None)

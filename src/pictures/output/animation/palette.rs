@@ -1,27 +1,27 @@
-//! [`Palette`]: at most 255 colours for all pictures of an animation, and one number for pixels that do not change.
+//! [`Palette`]: at most 255 colours for all pictures of an animation, and one index for pixels that do not change.
 
 use std::collections::BTreeMap;
 
 use super::patch::Patch;
 
-/// The number of a pixel that stays as it is.
+/// The index of a pixel that does not change.
 pub(super) const UNCHANGED: u8 = 0;
-/// Most colours beside it.
+/// Largest number of other indices.
 const MAX_COLOURS: usize = 255;
-/// Where there are more, this number of the most frequent ones is exact: fills and lines are.
+/// If there are more colours, this number of the most frequent ones is kept exactly: fills and lines.
 const EXACT_COLOURS: usize = 96;
-/// Others share one colour where they agree in the leading bits of each channel, fewer bits than this.
+/// The others are grouped by the leading bits of each channel; fewer bits than this are compared.
 const BITS: u32 = 7;
 
 /// The colours of an animation.
 pub(super) struct Palette {
-    /// In the order of their numbers, from 1.
+    /// In the order of their indices, from 1.
     colours: Vec<[u8; 3]>,
     numbers: BTreeMap<[u8; 3], u8>,
 }
 
 impl Palette {
-    /// The palette of opaque pictures; `None` where something shows through a picture.
+    /// Creates the palette of some pictures; `None` if a changed pixel is not opaque.
     pub fn new(patches: &[Patch]) -> Option<Palette> {
         let counts = counts(patches)?;
         let colours = chosen(&counts);
@@ -37,18 +37,18 @@ impl Palette {
         })
     }
 
-    /// The number of colours, that of unchanged pixels included.
+    /// Returns the number of indices, including that of unchanged pixels.
     pub fn len(&self) -> usize {
         self.colours.len() + 1
     }
 
-    /// Red, green and blue of every colour.
+    /// Returns red, green and blue of every index.
     pub fn bytes(&self) -> Vec<u8> {
         let all = [[0; 3]].into_iter().chain(self.colours.iter().copied());
         all.flatten().collect()
     }
 
-    /// The numbers of the pixels of a patch.
+    /// Returns the indices of the pixels of a patch.
     pub fn indices(&self, patch: &Patch) -> Vec<u8> {
         let mut known = ([0; 3], None);
         let number = |(colour, changed): &([u8; 4], bool)| {
@@ -69,7 +69,7 @@ fn opaque([red, green, blue, _]: [u8; 4]) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// How many changed pixels have each colour; `None` where one is not opaque.
+/// Counts the changed pixels of each colour; `None` if one of them is not opaque.
 fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     let mut counts = BTreeMap::new();
     let changed = |patch: &'_ Patch| -> Vec<[u8; 4]> {
@@ -87,8 +87,8 @@ fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     Some(counts)
 }
 
-/// The colours that the palette has: all where there are few; else the most frequent ones, and one for each group of like
-/// colours among the others.
+/// Returns the colours of the palette. If there are at most [`MAX_COLOURS`], these are all. Otherwise they are the most
+/// frequent ones, and one for each group of similar colours among the others.
 fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
     let mut colours: Vec<([u8; 3], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
     if colours.len() > MAX_COLOURS {
@@ -99,7 +99,8 @@ fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
     colours.into_iter().map(|(colour, _)| colour).collect()
 }
 
-/// The first colour of each group of like colours, in groups so wide that there are at most `most` of them.
+/// Returns the first colour of each group of similar colours. The groups are as small as possible such that there are
+/// at most `most` of them.
 fn reduced(colours: &[([u8; 3], usize)], most: usize) -> Vec<([u8; 3], usize)> {
     for bits in (1..BITS).rev() {
         let mut groups = BTreeMap::new();

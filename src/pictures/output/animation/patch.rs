@@ -15,19 +15,19 @@ pub(super) struct Patch {
     pub height: u32,
     /// Row by row: the new colour, and whether it differs from the old one.
     pub pixels: Vec<([u8; 4], bool)>,
-    /// How long the picture is shown, hundredths of a second.
+    /// The time for which the picture is shown, hundredths of a second.
     pub hundredths: u16,
 }
 
 impl Patch {
-    /// The colours of all its pixels, changed or not.
+    /// Returns red, green, blue and opacity of all its pixels, changed or not.
     pub fn all_pixels(&self) -> Vec<u8> {
         self.pixels.iter().flat_map(|(colour, _)| *colour).collect()
     }
 }
 
-/// The patches of pictures of one size and their seconds, and the width and height of the pictures. A picture that is like
-/// the one before it prolongs that one.
+/// Converts pictures with their times in seconds to patches. Returns the patches and the width and height of the
+/// pictures in pixels. A picture that equals the one before it only makes that one last longer.
 pub(super) fn patches(
     rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>,
 ) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
@@ -56,7 +56,8 @@ pub(super) fn patches(
     Ok((patches, size))
 }
 
-/// What of a picture differs from the one before it; `None` where nothing does.
+/// Returns the smallest patch with all pixels that differ from the picture before it; `None` if no pixel differs.
+/// Without a picture before it, the patch is the whole picture.
 fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Patch> {
     let across = raster.width as usize;
     let Some(before) = before else {

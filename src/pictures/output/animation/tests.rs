@@ -75,7 +75,7 @@ fn what_cannot_be_shown_is_refused_with_its_reason() {
         svg: "<svg xmlns='http://www.w3.org/2000/svg' width='6' height='4'/>".to_owned(),
         seconds: 1.0,
     };
-    assert!(refused(&[clear]).contains("half-clear"));
+    assert!(refused(&[clear]).contains("transparent"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Paints, outlines and transforms of a drawing in the types of krilla.
+//! Converts paints, outlines and transforms to the types of krilla.
 
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Transform};
@@ -7,7 +7,8 @@ use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash
 use resvg::tiny_skia::PathSegment;
 use resvg::usvg;
 
-/// The paints in the order in which they are drawn: each once, the fill last if it covers the line.
+/// Splits fill and stroke into passes in the order of drawing. Each pass has only one of the two; the fill is last if
+/// `order` says so.
 pub(super) fn passes(
     fill: Option<Fill>,
     stroke: Option<Stroke>,
@@ -29,17 +30,17 @@ pub(super) fn passes(
 fn paint(paint: &usvg::Paint) -> Option<Paint> {
     match paint {
         usvg::Paint::Color(c) => Some(rgb::Color::new(c.red, c.green, c.blue).into()),
-        // A drawing has plain colours only.
+        // A drawing has neither gradients nor patterns.
         _ => None,
     }
 }
 
-/// An opacity from 0 to 1.
+/// Converts an opacity from 0 to 1.
 pub(super) fn share(share: usvg::Opacity) -> NormalizedF32 {
     NormalizedF32::new(share.get()).unwrap_or(NormalizedF32::ONE)
 }
 
-/// The fill of a shape; `None` if it is no plain colour.
+/// Converts a fill; `None` if its paint is not a plain colour.
 pub(super) fn fill(of: &usvg::Fill) -> Option<Fill> {
     Some(Fill {
         paint: paint(of.paint())?,
@@ -51,7 +52,7 @@ pub(super) fn fill(of: &usvg::Fill) -> Option<Fill> {
     })
 }
 
-/// The line of a shape; `None` if it is no plain colour.
+/// Converts a stroke; `None` if its paint is not a plain colour.
 pub(super) fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
     Some(Stroke {
         paint: paint(of.paint())?,
@@ -75,12 +76,12 @@ pub(super) fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
     })
 }
 
-/// The same transform for krilla.
+/// Converts a transform.
 pub(super) fn transform(t: usvg::Transform) -> Transform {
     Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
 }
 
-/// The outlines of all shapes of a group as one path.
+/// Joins the outlines of the shapes directly in a group into one path; `None` if there are none.
 pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     let mut pen = PathBuilder::new();
     for node in group.children() {
@@ -91,7 +92,7 @@ pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     pen.finish()
 }
 
-/// The outline of one shape.
+/// Converts the outline of a shape; `None` if it is empty.
 pub(super) fn outline(data: &resvg::tiny_skia::Path) -> Option<Path> {
     let mut pen = PathBuilder::new();
     put(&mut pen, data);

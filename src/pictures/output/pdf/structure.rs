@@ -1,4 +1,4 @@
-//! The structure of a document for readers who cannot see it: tagged headings, paragraphs and tables, and bookmarks.
+//! The structure of a document for screen readers: tagged headings, paragraphs and tables, and bookmarks.
 
 use std::num::NonZeroU16;
 
@@ -12,10 +12,10 @@ use super::{Bookmark, Role, Tags};
 /// The rows of a table: the number and the cells of each.
 type Rows = Vec<(usize, Vec<Node>)>;
 
-/// The tags of a document as a tree: cells in rows, rows in tables.
+/// Builds the tag tree of a document: cells are put in rows, and rows in tables.
 pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     let mut nodes = Vec::new();
-    // The table that is being collected: its number, and its rows with their numbers.
+    // The table whose cells are being collected: its number, and its rows with their numbers.
     let mut open: Option<(usize, Rows)> = None;
     for (role, content) in tags {
         if let Some(Role::Cell { table, row, head }) = role {
@@ -58,7 +58,7 @@ fn table_of((_, rows): (usize, Vec<(usize, Vec<Node>)>)) -> Node {
     TagGroup::with_children(Tag::Table, rows.collect()).into()
 }
 
-/// The bookmarks as a tree; `scale` is in points per pixel.
+/// Builds the tree of bookmarks; `scale` is in points per pixel.
 pub(super) fn outline(bookmarks: &[Bookmark], scale: f32) -> Outline {
     let mut outline = Outline::new();
     let mut rest = bookmarks;
@@ -69,7 +69,8 @@ pub(super) fn outline(bookmarks: &[Bookmark], scale: f32) -> Outline {
     outline
 }
 
-/// The first bookmark with its parts, and the bookmarks after them.
+/// Returns the first bookmark with all bookmarks that are part of it, and the bookmarks after these. Returns `None` for
+/// an empty list. `scale` is in points per pixel.
 fn branch(bookmarks: &[Bookmark], scale: f32) -> Option<(OutlineNode, &[Bookmark])> {
     let (first, mut rest) = bookmarks.split_first()?;
     let place = Point::from_xy(0.0, scale * first.y as f32);

@@ -4,11 +4,11 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::{Compression, PngError};
 
-/// The number by which a row says that it has no filter. Figures are flat: differences of neighbours, which help
-/// photographs, cost time here and make files larger.
+/// The filter type "none" of a row. Filters store differences of neighbouring pixels. That helps photographs, but makes
+/// files of figures larger and costs time.
 const NO_FILTER: u8 = 0;
 
-/// A picture as PNG, with its resolution in pixels per metre.
+/// Writes a picture as PNG. `per_metre` is its resolution in pixels per metre.
 pub(super) fn encode(
     pixels: Pixmap,
     per_metre: Option<u32>,
@@ -25,7 +25,8 @@ pub(super) fn encode(
     let rows = fewest(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    // Compress all rows at once: row by row, zeroing the buffers doubles the cost.
+    // Compress all rows at once. For single rows the compressor would clear its buffers each time, which doubles the
+    // cost.
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
     writer
         .write_chunk(png::chunk::IDAT, &packed)
@@ -34,8 +35,8 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// The rows of pixels, each after the number of its filter: one byte per pixel for at most 256 colours, three bytes for
-/// opaque pictures, otherwise four.
+/// Sets the colour type of the encoder, and returns the rows of pixels, each after its filter type. A pixel takes one
+/// byte if there are at most 256 colours, three bytes in other opaque pictures, otherwise four.
 fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
     let mut table = Table::default();
     if let Some(runs) = runs(&pixels, &mut table) {
@@ -61,18 +62,19 @@ fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u
         }
         return rows;
     }
-    // Tests several pixels at once, without looking at each.
+    // Without an early exit the compiler can test several pixels at once.
     let all = pixels.data().as_chunks::<4>().0;
     if all.iter().fold(u8::MAX, |least, pixel| least & pixel[3]) == u8::MAX {
         encoder.set_color(png::ColorType::Rgb);
-        // In an opaque picture premultiplied colours equal the plain colours.
+        // In an opaque picture premultiplied colours equal straight colours.
         return rows(&pixels, |p| [p.red(), p.green(), p.blue()]);
     }
     encoder.set_color(png::ColorType::Rgba);
     rows(&pixels, straight)
 }
 
-/// The picture row by row as runs: the index of a colour and the number of pixels. `None` if there are too many colours.
+/// Returns the picture as runs of equal pixels, row by row: the index of the colour in `table` and the number of
+/// pixels. Returns `None` for more than [`MAX_COLOURS`] colours.
 fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     let mut runs = Vec::new();
     for row in pixels.pixels().chunks_exact(pixels.width() as usize) {
@@ -86,8 +88,8 @@ fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     Some(runs)
 }
 
-/// The number of pixels at the beginning of a row that equal the first. Figures have large areas of one colour, so several
-/// pixels are compared at once.
+/// Returns the number of pixels at the beginning of `row` that equal `first`. Figures have large areas of one colour,
+/// so eight pixels are compared at once.
 fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     let (eights, _) = row.as_chunks::<8>();
     let same = |eight: &&[PremultipliedColorU8; 8]| {
@@ -97,15 +99,15 @@ fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     whole + row[whole..].iter().take_while(|p| **p == first).count()
 }
 
-/// Most colours of a palette: a pixel is one byte.
+/// Largest number of colours of a palette, because a pixel is one byte.
 const MAX_COLOURS: usize = 256;
-/// Size of the hash table of colours, a power of two, so that most places stay free.
+/// Size of the hash table of colours: a power of two, and large enough that most slots stay free.
 const TABLE_SIZE: usize = 4 * MAX_COLOURS;
 
 /// Colours in the order in which they were found.
 struct Table {
     found: Vec<PremultipliedColorU8>,
-    /// Numbers of colours, each at the place that its bits say or behind it.
+    /// Indices of colours, each in the slot of its hash or in a slot after it.
     places: [Option<u8>; TABLE_SIZE],
 }
 
@@ -119,7 +121,7 @@ impl Default for Table {
 }
 
 impl Table {
-    /// The index of a colour; a new colour gets the next index. `None` if all indices are used.
+    /// Returns the index of a colour; a new colour gets the next index. Returns `None` if all indices are used.
     fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
         let bits =
             u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
@@ -154,7 +156,7 @@ fn rows<const N: usize>(
     rows
 }
 
-/// Red, green, blue and opacity, not premultiplied.
+/// Returns red, green, blue and opacity of a pixel, not premultiplied.
 pub(super) fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
     let c = pixel.demultiply();
     [c.red(), c.green(), c.blue(), c.alpha()]

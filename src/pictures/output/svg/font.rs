@@ -1,8 +1,7 @@
-//! [`embedded`]: subsets of the built-in fonts with the letters of a drawing, as data inside the SVG.
+//! [`embedded`]: embeds subsets of the built-in fonts with the characters of a drawing in the SVG.
 //!
-//! The cut drops the tables by which a font sets words (which glyph a character has, how pairs are kerned), since the
-//! writers of PDF do that themselves. A browser needs them, so they are made anew from the places at which the words of
-//! this drawing stand in its picture.
+//! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them. A
+//! browser does. So they are computed again from the positions of the glyphs in this drawing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,10 +15,10 @@ use write_fonts::types::{GlyphId, Tag};
 use crate::drawing::Face;
 use crate::output::tree::Run;
 
-/// A style sheet with the fonts of some text. The name of each family begins with `mark`.
+/// Returns a style sheet with the fonts of some text. The name of each family begins with `mark`.
 ///
 /// # Errors
-/// What stands against cutting a font.
+/// The reason why a font could not be subset.
 pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     let mut sheet = String::new();
     for face in Face::ALL {
@@ -44,7 +43,8 @@ pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     Ok(sheet)
 }
 
-/// The family name of a face in one drawing. Other drawings on the same page contain other subsets.
+/// Returns the family name of a face in one drawing. It contains `mark`, because other drawings on the same page
+/// contain other subsets.
 pub(super) fn family(face: Face, mark: &str) -> String {
     match face {
         Face::Serif | Face::SerifItalic | Face::SerifBold => format!("{mark}-serif"),
@@ -52,7 +52,7 @@ pub(super) fn family(face: Face, mark: &str) -> String {
     }
 }
 
-/// A face with the glyphs of some text only.
+/// Returns a font file with only those glyphs of a face that some text uses.
 fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
     let mut characters = BTreeMap::new();
@@ -107,7 +107,8 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     Ok(font.build())
 }
 
-/// The kerning of glyph pairs in font units: negative if the second glyph is closer than without kerning.
+/// Returns the kerning of the glyph pairs in some text, in font units. It is negative if the second glyph is closer
+/// than without kerning.
 fn kerning(
     font: &FontRef<'_>,
     face: Face,
@@ -119,7 +120,7 @@ fn kerning(
     for run in runs {
         for pair in run.glyphs.windows(2) {
             let [a, b] = pair else { continue };
-            // The glyph of a ligature is not in the subset and has no kerning for its letters.
+            // True if the glyph belongs to one character. The glyph of a ligature is not in the subset.
             let own = |placed: &crate::output::tree::Placed| {
                 let mut characters = placed.characters.chars();
                 let only = characters.next().filter(|_| characters.next().is_none());
@@ -129,7 +130,7 @@ fn kerning(
                 continue;
             };
             let by = (b.at.0 - a.at.0) / run.size * units - f64::from(alone);
-            // Less than half a unit is rounding.
+            // Values up to half a unit are rounding errors.
             if own(a) && own(b) && by.abs() > 0.5 {
                 pairs.entry((a.glyph, b.glyph)).or_insert(by.round() as i16);
             }
@@ -138,7 +139,8 @@ fn kerning(
     Ok(pairs)
 }
 
-/// A `kern` table, version 0, with one horizontal subtable of pairs (format 0); `None` if there are no pairs.
+/// Returns a `kern` table, version 0, with one horizontal subtable of pairs (format 0). Returns `None` if there are no
+/// pairs, or more than 10 000.
 fn kern(pairs: &BTreeMap<(u16, u16), i16>) -> Option<Vec<u8>> {
     let count = u16::try_from(pairs.len())
         .ok()

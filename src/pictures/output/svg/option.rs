@@ -2,44 +2,44 @@
 
 use crate::output::fonts::Fonts;
 
-/// How words are written.
+/// How text is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Words {
-    /// As words, in fonts by their names: small, and set by whoever opens the file in what he has of them.
+    /// As text, in fonts by their names. The file is small, but its look depends on the fonts of the reader.
     #[default]
     Names,
-    /// As words, with the letters that are used in the file: for browsers.
+    /// As text, with the used glyphs embedded in the file; for browsers.
     #[cfg(feature = "embed")]
     Embedded,
-    /// As outlines: the same everywhere, and no text for searching or editing any more.
+    /// As outlines. The file looks the same everywhere, but its text cannot be searched or edited.
     #[cfg(feature = "png")]
     Outlines,
 }
 
-/// What else there is to choose.
+/// The options of an SVG file.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Width in print, mm; where nothing is given a pixel is a 96th of an inch.
+    /// Width in print, mm; for `None` one pixel is 1/96 inch.
     pub width_mm: Option<f64>,
-    /// How words are written.
+    /// How text is written.
     pub words: Words,
-    /// The fonts in which words become outlines.
+    /// The fonts for text that is embedded or written as outlines.
     pub fonts: Fonts,
-    /// What the names of its elements begin with, letters and digits; made from the drawing's content where nothing is
-    /// said. Two drawings of the same content on one page need marks of their own.
+    /// The prefix of the ids of all elements, of letters and digits; for `None` a hash of the drawing. If a page
+    /// contains the same drawing twice, each copy needs a prefix of its own.
     pub mark: Option<String>,
 }
 
 impl Options {
     setters! {
-        words: Words, "How words are written.";
-        fonts: Fonts, "The fonts in which words become outlines.";
+        words: Words, "How text is written.";
+        fonts: Fonts, "The fonts for text that is embedded or written as outlines.";
     }
 
     optional_setters! {
         width_mm: f64, "Width in print, mm.";
-        mark: String, "What the names of its elements begin with, letters and digits.";
+        mark: String, "The prefix of the ids of all elements, of letters and digits.";
     }
 }

@@ -2,11 +2,10 @@
 
 use crate::drawing::{Outline, PagePoint, Segment};
 
-/// Writes a number with at most two decimals (1/100 pixel), without trailing zeros and without −0. All numbers of an SVG
-/// are written here.
+/// Formats a number with at most two decimals (1/100 pixel), without trailing zeros and without −0.
 ///
 /// # Panics
-/// For a number that is not finite.
+/// If the number is not finite.
 pub(super) fn number(value: f64) -> String {
     assert!(
         value.is_finite(),
@@ -18,7 +17,7 @@ pub(super) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// Writes the path data of an outline.
+/// Appends the path data of an outline to `data`.
 pub(super) fn steps(data: &mut String, outline: &Outline) {
     let mut pen = Steps {
         data: std::mem::take(data),
@@ -35,11 +34,11 @@ pub(super) fn steps(data: &mut String, outline: &Outline) {
     *data = pen.data;
 }
 
-/// Path data in the making. Steps are told from where the last one ended, which takes fewer digits than places on the
-/// page, and count in whole hundredths, so that roundings do not add up.
+/// Collects path data. Coordinates are relative to the end of the last segment, which takes fewer digits. They are
+/// whole hundredths of a pixel, so that rounding errors do not add up.
 #[derive(Default)]
 pub(super) struct Steps {
-    /// What is written so far.
+    /// The path data so far.
     pub data: String,
     begin: (i64, i64),
     at: (i64, i64),
@@ -59,7 +58,7 @@ impl Steps {
         let to = hundredths(to);
         let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
         match (x, y) {
-            // Keep a line without length: it is drawn as a dot if its ends are round.
+            // Do not omit a line without length: with round ends it is drawn as a dot.
             (_, 0) => self.put('h', &[x]),
             (0, _) => self.put('v', &[y]),
             _ => self.put('l', &[x, y]),
@@ -87,7 +86,8 @@ impl Steps {
     }
 
     fn put(&mut self, letter: char, numbers: &[i64]) {
-        // Do not repeat a letter. After `M` the same letter would mean a line.
+        // Omit a command letter that equals the last one. Always write `M`, because coordinates after it would mean a
+        // line.
         let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
         if !stated {
             self.data.push(letter);
@@ -103,7 +103,7 @@ impl Steps {
         self.more(more);
     }
 
-    /// Adds numbers after another number.
+    /// Appends numbers after another number.
     fn more(&mut self, numbers: &[i64]) {
         for number in numbers {
             if *number >= 0 {
@@ -114,21 +114,21 @@ impl Steps {
     }
 }
 
-/// A point in whole hundredths of a pixel.
+/// Rounds a point to whole hundredths of a pixel.
 fn hundredths(point: PagePoint) -> (i64, i64) {
     let whole = |value: f64| {
         assert!(
             value.is_finite(),
             "a drawing holds the number {value}; every number of a drawing is finite"
         );
-        // `as` saturates, far beyond any page.
+        // `as` saturates, but only for numbers far outside any page.
         (value * 100.0).round() as i64
     };
     (whole(point.x), whole(point.y))
 }
 
-/// Writes hundredths as a decimal number without trailing zeros. A drawing has thousands of numbers, so this avoids the
-/// formatter.
+/// Writes hundredths as a decimal number without trailing zeros. A drawing has thousands of numbers, and this is faster
+/// than `format!`.
 fn put(data: &mut String, hundredths: i64) {
     let (whole, part) = (
         hundredths.unsigned_abs() / 100,
@@ -152,7 +152,7 @@ fn put(data: &mut String, hundredths: i64) {
     }
 }
 
-/// The last digit of a number.
+/// Returns the last decimal digit of a number.
 fn digit(number: u64) -> char {
     char::from(b'0' + (number % 10) as u8)
 }

@@ -1,4 +1,4 @@
-//! Texts of a drawing as SVG.
+//! Writes the texts of a drawing as SVG.
 
 #[cfg(feature = "embed")]
 use super::font;
@@ -60,7 +60,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The font families of a face, for `font-family`.
+    /// Returns the font families of a face, for `font-family`.
     pub(super) fn families(&self, face: Face) -> String {
         match self.form {
             #[cfg(feature = "embed")]

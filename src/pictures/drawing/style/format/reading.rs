@@ -1,4 +1,4 @@
-//! [`Reading`]: the keys of a style file, and everything that is wrong with them.
+//! [`Reading`]: reads the keys of a style file and collects all problems.
 
 use super::value::Value;
 use super::{AMPLITUDES, COLOURS, LETTERS, LISTS, PIXELS, SIZES, StyleProblem, Theme, WIDTHS};
@@ -6,14 +6,14 @@ use crate::drawing::colour::Colour;
 use crate::drawing::ramp;
 use crate::text::nearest;
 
-/// Reads the keys of a file and notes all problems.
+/// Reads the keys of a file and collects all problems.
 #[derive(Default)]
 pub(super) struct Reading {
     pub(super) problems: Vec<StyleProblem>,
 }
 
 impl Reading {
-    /// Notes a problem.
+    /// Adds a problem.
     pub(super) fn note(&mut self, path: &str, message: String, help: String) {
         self.problems.push(StyleProblem {
             path: path.to_owned(),
@@ -22,7 +22,7 @@ impl Reading {
         });
     }
 
-    /// The theme that a file names. An invalid name is reported when its key is read.
+    /// Returns the theme that a file names. An invalid name gives `None`; it is reported when its key is read.
     pub(super) fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
         let named = |(key, value): &(String, Value)| match value {
             Value::Text(name) if key == "theme" => Theme::named(name),
@@ -68,7 +68,7 @@ impl Reading {
         }
     }
 
-    /// Reports a duplicate key.
+    /// Reports the key with this index if the same key occurs before it.
     fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
         let key = &entries[number].0;
         if entries[..number].iter().any(|e| e.0 == *key) {
@@ -88,7 +88,7 @@ impl Reading {
         self.note(path, "unknown key".into(), help);
     }
 
-    /// Reads a name that must be one of the known names.
+    /// Reports a problem if the value is not one of the known names.
     fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
         let Value::Text(name) = value else {
             return self.note(
@@ -115,20 +115,20 @@ impl Reading {
             let help = "give #rrggbb or #rgb in quotes, such as \"#d55e00\" or \"#d50\"";
             self.note(
                 path,
-                format!("{} is no colour", value.stated()),
+                format!("{} is not a colour", value.stated()),
                 help.into(),
             );
         }
         colour
     }
 
-    /// Reads a list of at least `least` colours.
+    /// Reads a list of at least `least` colours. Returns `None` if the value is not a list or an entry is not a colour.
     fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
         let Value::List(list) = value else {
             let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
             self.note(
                 path,
-                format!("{} is no list of colours", value.stated()),
+                format!("{} is not a list of colours", value.stated()),
                 help.into(),
             );
             return None;
@@ -153,7 +153,7 @@ impl Reading {
         Some(ramp::between(&stops))
     }
 
-    /// Reads an object of numbers. `known` gives each key with its range and unit. Returns each number with the index of
+    /// Reads a table of numbers. `known` gives each key with its range and unit. Returns each number with the index of
     /// its key in `known`.
     fn numbers(
         &mut self,
@@ -167,7 +167,7 @@ impl Reading {
             let help = format!("give a table with some of {}", keys.join(", "));
             self.note(
                 path,
-                format!("{} is no table of {path}", value.stated()),
+                format!("{} is not a table of {path}", value.stated()),
                 help,
             );
             return numbers;

@@ -7,25 +7,25 @@ use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::StyleProblem;
 
-/// What a style file holds, before it is known what it means.
+/// A value of a style file, before its key is interpreted.
 #[derive(Debug)]
 pub(super) enum Value {
     Number(f64),
     Text(String),
     List(Vec<Value>),
-    /// In the file's order, a key perhaps twice.
+    /// Keys and values in the order of the file; a key may occur twice.
     Table(Vec<(String, Value)>),
     Other(&'static str),
 }
 
 impl Value {
-    /// The value as text for messages.
+    /// Returns a description of the value for messages.
     pub(super) fn stated(&self) -> String {
         match self {
             Value::Number(number) => format!("the number {number}"),
             Value::Text(text) if text.chars().count() <= 30 => format!("the text {text:?}"),
             Value::Text(_) => "a long text".into(),
-            Value::List(list) => format!("a list of {}", list.len()),
+            Value::List(list) => format!("a list with {} entries", list.len()),
             Value::Table(_) => "a table".into(),
             Value::Other(what) => (*what).into(),
         }
@@ -36,8 +36,8 @@ impl Value {
 pub(super) fn json(text: &str) -> Result<Value, StyleProblem> {
     serde_json::from_str(text).map_err(|error| StyleProblem {
         path: String::new(),
-        message: format!("no JSON: {error}"),
-        help: "a style in TOML goes into a file that ends in .toml".into(),
+        message: format!("not JSON: {error}"),
+        help: "the name of a style file in TOML must end in .toml".into(),
     })
 }
 
@@ -49,8 +49,8 @@ pub(super) fn toml(text: &str) -> Result<Value, StyleProblem> {
         let line = before.map_or(1, |before| before.matches('\n').count() + 1);
         StyleProblem {
             path: String::new(),
-            message: format!("no TOML: {} at line {line}", error.message()),
-            help: "a style in JSON goes into a file that ends in .json".into(),
+            message: format!("not TOML: {} at line {line}", error.message()),
+            help: "the name of a style file in JSON must end in .json".into(),
         }
     })
 }
