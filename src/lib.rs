@@ -1,8 +1,8 @@
-//! Does a structure of dry-laid rigid blocks stand, how do the forces run, and a figure that shows it.
+//! Works out whether a structure of dry-laid rigid blocks stands and how forces run through it, and draws both.
 //!
-//! Plane statics: blocks with outlines of any shape, ground, friction, robots that hold blocks, and loads go in. Out comes,
-//! for every step of a construction, a verdict with its proof, the force at every interface, what would have to stick where
-//! it falls, the motion by which it does, and a figure of all that.
+//! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots that hold
+//! blocks. For every step of a construction, the analysis gives a verdict with its proof and the force at every interface.
+//! If the structure falls, it also gives the forces that are missing and the motion. Figures show all of this.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, analysis::Verdict, figure, output};
@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The same scene made in code; what is wrong with it is told by its path, as that of a file is by its line:
+//! The same scene, built in code. A problem in it is reported with its path; a problem in a file also with its line.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, scene::format::BlockEntry};
@@ -40,56 +40,55 @@
 //! # Ok::<(), drystone::scene::SceneError>(())
 //! ```
 //!
-//! # What a verdict says, and what it does not
+//! # What a verdict means
 //!
-//! *Stable* says that a balance of forces **exists**: some set of forces that contacts and robots can give holds every block
-//! at rest. It does not say that
+//! *Stable* means that equilibrium is **possible**: there are forces that the contacts and robots can exert and that balance
+//! every block. It does not mean that
 //!
-//! - this is the balance that nature finds. With friction, a structure for which a balance exists may still slide apart as
-//!   it is built ([Gilbert06](doc::references)); a balance that lives on wedging, blocks pressed against each other by nothing
-//!   but their own tightness, counts as one;
+//! - these forces occur. With friction, a structure for which equilibrium is possible may still slide apart while it is
+//!   built ([Gilbert06](doc::references)). The forces may also be due to wedging: blocks that press against each other although
+//!   no load requires it;
 //! - the blocks are strong enough. They are rigid and never break, and their edges bear any pressure;
-//! - it survives a knock. Nothing here moves in time: no impact, no earthquake, no settling ground.
+//! - the structure survives a shock. The model has no dynamics: no impact, no earthquake, no settling ground.
 //!
-//! And there is no cohesion: nothing sticks, unless it is said to fail by as much.
+//! There is no cohesion. Sticking forces only show which force is missing in a structure that falls.
 //!
 //! # From a scene to a picture
 //!
-//! One noun per stage, and one verb that makes it:
-//!
-//! | | makes | from |
+//! | function or module | output | input |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
-//! | [`Scene::builder`] | [`Scene`], checked | calls that read like the file |
+//! | [`Scene::builder`] | [`Scene`], checked | calls, one for each part of the file |
 //! | [`starter`] | a scene file | a few lengths and counts |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
-//! | [`interface`] | what touches what | a scene |
-//! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, by the effects it calls for |
-//! | [`program`] | the balance in pure numbers | an assembly |
+//! | [`interface`] | pairs of bodies that touch, and where | a scene |
+//! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, with the effects that it needs |
+//! | [`program`] | the equilibrium in numbers without units | an assembly |
 //! | [`solve`] | forces, or a motion | a program |
-//! | [`proof`] | how well that is proved | an assembly and forces alone |
-//! | [`resultant`] | one force per interface | its corner forces |
-//! | [`Analysis`] | all that was found out | all of the above |
+//! | [`proof`] | the errors of these forces or this motion | an assembly, and forces or a motion |
+//! | [`resultant`] | one force per interface | the forces at the interface's ends |
+//! | [`Analysis`] | verdict, forces, failures, motion and margins | a scene |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
-//! | [`output::png::render`] | PNG bytes | that text |
-//! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
+//! | [`output::png::render`] | PNG bytes | SVG text |
+//! | [`output::pdf::write`] | a PDF page | a drawing |
 //! | [`study::study`] | times and errors of solvers and tolerances | scenes |
 //! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
 //! | [`snapshot`] | a comparison with stored references | scenes and their figures |
 //! | [`text`] | escaped text for each output format | untrusted text |
 //!
-//! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
-//! [`doc::numerics`].
+//! [`doc::design`] gives the reasons for this structure, [`doc::conventions`] axes, units and signs, and [`doc::numerics`]
+//! tolerances and numerical difficulties.
 
-// What only the program or another feature uses is no fault where these are left out; with all of them nothing is unused.
+// Code that only the program or another feature uses would be reported as unused if that feature is off. With all
+// features nothing is unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
-// Blank lines keep the order of reading: the formatter would sort them.
+// Blank lines keep the modules in reading order: the formatter would sort them.
 
-// Types that callers fill and that will grow are `#[non_exhaustive]`: from outside they begin with their default, and each
-// field has a method that gives back what it was called on. These macros write them, for every room below.
+// Types with public fields that may get more fields are `#[non_exhaustive]`. Other crates start from the default value
+// and call one method for each field. These macros write these methods for all modules below.
 
 /// Methods that set a field.
 macro_rules! setters {
@@ -136,7 +135,7 @@ mod entry;
 #[doc(hidden)]
 pub mod internals;
 
-// Every module of a group is also named by its short path, `crate::scene` for `crate::mechanics::scene`.
+// Every module of a group also has a short path, such as `crate::scene` for `crate::mechanics::scene`.
 pub use mechanics::{analysis, scene, session};
 pub use pictures::{drawing, output};
 #[cfg(feature = "snapshot")]

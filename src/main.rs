@@ -1,4 +1,4 @@
-//! The `drystone` program: everything is in the library's `cli`.
+//! The `drystone` program. It only calls the library's `cli` module.
 
 use std::process::ExitCode;
 

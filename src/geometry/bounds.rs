@@ -23,7 +23,7 @@ impl Bounds {
         })
     }
 
-    /// The smallest rectangle around two rectangles.
+    /// The smallest rectangle that contains both rectangles.
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds {
             min: self.min.inf(&other.min),
@@ -55,7 +55,7 @@ impl Bounds {
         self.max.y - self.min.y
     }
 
-    /// Whether the two rectangles share a point; rectangles that only touch do.
+    /// True if the two rectangles share at least one point. Rectangles that only touch share points.
     pub fn intersects(self, other: Bounds) -> bool {
         self.min.x <= other.max.x
             && other.min.x <= self.max.x

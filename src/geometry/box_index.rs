@@ -53,7 +53,7 @@ impl<const D: usize> Aabb<D> {
         max: [f64::NEG_INFINITY; D],
     };
 
-    /// Whether the two boxes share a point; boxes that only touch do.
+    /// True if the two boxes share at least one point. Boxes that only touch share points.
     pub(crate) fn intersects(&self, other: &Aabb<D>) -> bool {
         (0..D).all(|d| self.min[d] <= other.max[d] && self.max[d] >= other.min[d])
     }
@@ -66,7 +66,7 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Twice the box's centre in coordinate `d`. It is used only to order boxes, so the factor of 2 does not matter.
+    /// Twice the box's centre in coordinate `d`. Only the order of boxes uses it, so the factor of 2 does not matter.
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
@@ -157,7 +157,8 @@ impl<T, const D: usize> BoxTree<T, D> {
     }
 
     fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
-        // A depth-first walk without a stack: `skip_to` leads past a subtree whose box misses the query.
+        // Walk depth-first without a stack. If the box of a node does not intersect the query, `skip_to` leads to the
+        // next node outside its subtree.
         let (mut node, mut leaf) = (0, [].iter());
         std::iter::from_fn(move || {
             loop {
@@ -209,9 +210,9 @@ fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] 
     std::array::from_fn(|d| max[d] - min[d])
 }
 
-/// Sorts boxes into the order of the leaves and appends the nodes of their subtree.
+/// Sorts the boxes in `order` into the order of the leaves, and appends the nodes of their subtree to `nodes`.
 ///
-/// `begin` is the index of the first of these boxes among all.
+/// `begin` is the position of the first box of `order` in the list of all boxes.
 fn build<const D: usize>(
     order: &mut [(Aabb<D>, usize)],
     begin: usize,
@@ -273,7 +274,8 @@ impl<T, const D: usize> BoxIndex<T, D> {
         sorted.chain(tree.flat_map(move |tree| tree.intersecting(query)))
     }
 
-    /// Exactly one of the two is `Some`. Callers chain both, so that one iterator type serves both variants.
+    /// Returns the variant that this index is, and `None` for the other. Callers chain both, so that one iterator type
+    /// serves both variants.
     fn variants(&self) -> (Option<&SortedBoxes<T, D>>, Option<&BoxTree<T, D>>) {
         match self {
             BoxIndex::Sorted(list) => (Some(list), None),

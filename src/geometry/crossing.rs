@@ -1,4 +1,4 @@
-//! [`crossings`]: pairs of sides that cross or touch although a simple polygon does not allow it.
+//! [`crossings`]: finds the pairs of sides that cross or touch, which the sides of a simple polygon must not do.
 //!
 //! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`]. The answer therefore
 //! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
@@ -39,7 +39,8 @@ impl Side {
         self.edge.bounds()
     }
 
-    /// A point that this side and a later side have in common although a simple polygon does not allow it.
+    /// Returns a common point of this side and a later side, or `None`. The common corner of two neighbours does not
+    /// count.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
         // Neighbours share a corner. They cross only if the second one folds back onto the first.
@@ -79,7 +80,7 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
                 });
             }
         };
-        // Test each pair once: only with sides that come later in the list.
+        // Test each pair only once: skip the sides that are earlier in the list.
         let bounds = a.bounds();
         match &index {
             None => (sides[number + 1..].iter())
@@ -110,7 +111,7 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
     let a_to = orientation(b.from, b.to, a.to);
     let b_from = orientation(a.from, a.to, b.from);
     let b_to = orientation(a.from, a.to, b.to);
-    // An end of one segment on the other: it is on the line, and between the two ends.
+    // An end of one segment lies on the other segment if it is on its line and between its two ends.
     let is_between = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
     for (turn, edge, point) in [
         (a_from, b, a.from),

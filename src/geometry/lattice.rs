@@ -46,7 +46,7 @@ pub(crate) type Node = (i64, i64);
 pub(crate) type LatticeEdge = (Node, Node);
 
 impl Cell {
-    /// The nodes at the corners, anticlockwise.
+    /// The nodes at the cell's corners, anticlockwise.
     pub fn corners(self) -> Vec<(i64, i64)> {
         let (x, y) = (self.x, self.y);
         match self.shape {
@@ -109,7 +109,7 @@ impl Cell {
         unreachable!("a lattice triangle has a horizontal edge")
     }
 
-    /// The edges, anticlockwise.
+    /// The cell's edges, anticlockwise.
     pub(crate) fn edges(self) -> impl Iterator<Item = LatticeEdge> {
         let corners = self.corners();
         let n = corners.len();
@@ -229,8 +229,8 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
         while std::mem::replace(&mut unused[at], false) {
             let (a, b) = edges[at];
             ring.push(a);
-            // Where two rings touch in a node, turn as far left as possible, so that each ring stays with its own cells.
-            // At most one continuation turns left; if none does, one goes straight on.
+            // At a node where two rings touch, take the leftmost turn, so that each ring stays with its own cells. At
+            // most one of the edges turns left. If none does, one goes straight on.
             let begin = edges.partition_point(|edge| edge.0 < b);
             let candidates = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
             let next = (candidates.filter(|k| unused[*k])).max_by_key(|k| turn(a, b, edges[*k].1));
@@ -251,7 +251,7 @@ fn turn(a: Node, b: Node, c: Node) -> i64 {
     ((b.0 - a.0) * (c.1 - b.1) - (b.1 - a.1) * (c.0 - b.0)).signum()
 }
 
-/// The nodes of a ring at which it turns.
+/// Returns the nodes of a ring at which its direction changes.
 fn without_collinear_nodes(ring: &[Node]) -> Vec<Node> {
     let n = ring.len();
     (0..n)
@@ -271,7 +271,7 @@ fn doubled_area(ring: &[Node]) -> i64 {
         .sum()
 }
 
-/// Whether every cell can be reached from every other cell across common edges; false if there are no cells.
+/// True if every cell can be reached from every other cell across common edges. False if there are no cells.
 fn is_connected(cells: &[Cell]) -> bool {
     let mut owner: BTreeMap<LatticeEdge, Cell> = BTreeMap::new();
     for cell in cells {

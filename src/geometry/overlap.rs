@@ -53,14 +53,15 @@ impl<'p> Piece<'p> {
         })
     }
 
-    /// Whether the other piece lies outside this one's extent across its longest side.
+    /// True if the other piece lies entirely on one side of this piece's extent along `across`. The pieces are then
+    /// disjoint.
     fn is_separated_from(&self, other: &Piece<'_>) -> bool {
         let [min, max] = extent(&other.corners, self.across);
         min > self.extent[1] || max < self.extent[0]
     }
 }
 
-/// The smallest and the largest product of a vector with some points.
+/// The smallest and the largest dot product of the vector `along` with the coordinates of some points.
 fn extent(points: &[Point], along: Vector) -> [f64; 2] {
     points
         .iter()
@@ -180,9 +181,9 @@ fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     (area, moment)
 }
 
-/// The smallest distance, over the sides of the convex polygon `a`, by which `b` reaches behind a side; metres.
+/// Returns how far `b` reaches behind the sides of the convex polygon `a`, in metres: the smallest value of all sides.
 ///
-/// It is at most 0 if a side separates the two polygons.
+/// It is at most 0 if a side of `a` separates the two polygons.
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
     let mut depth = f64::INFINITY;
     for i in 0..a.len() {

@@ -53,7 +53,7 @@ pub enum PolygonError {
 }
 
 impl Polygon {
-    /// A polygon from the corners of its outline and its holes, each in either direction of rotation.
+    /// Builds a polygon from the corners of its outline and of its holes. Each ring may run in either direction.
     ///
     /// # Errors
     /// Every [`PolygonError`] that was found. A ring with a non-finite coordinate is reported as one of zero area.
@@ -148,7 +148,7 @@ impl Polygon {
             == 1
     }
 
-    /// Whether the polygon has no holes and its outline never turns right.
+    /// True if the polygon has no holes and its outline never turns right.
     pub fn is_convex(&self) -> bool {
         let ring = &self.rings[0];
         self.rings.len() == 1
@@ -196,7 +196,7 @@ struct CheckedRings {
     without_area: Vec<PolygonError>,
 }
 
-/// Drops repeated corners and checks each ring by itself: number of corners, finite coordinates, not all on one line.
+/// Drops repeated corners and checks each ring alone: at least three corners, finite coordinates, not all on one line.
 fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonError>> {
     let mut errors = Vec::new();
     let mut checked = CheckedRings::default();
@@ -229,9 +229,11 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
     }
 }
 
-/// Reports sides that cross or touch, or else rings without area.
+/// Returns an error for each pair of sides that cross or touch. If there is none, returns an error for each ring
+/// without area.
 ///
-/// The areas on both sides of a crossing can cancel. Then only the crossing is reported, not the missing area.
+/// If sides cross, the areas on both sides of the crossing can cancel. Only the crossing is then reported, not the zero
+/// area.
 fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Vec<PolygonError>> {
     let error = |crossing: Crossing| {
         let listed =
@@ -253,7 +255,8 @@ fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Ve
     }
 }
 
-/// Reports holes that do not lie in the material. No rings cross here, so one corner decides for the whole hole.
+/// Returns an error for each hole outside the outline or inside another hole. The rings do not cross, so it is enough
+/// to test one corner of each hole.
 fn check_holes(rings: &[Vec<Point>]) -> Result<(), Vec<PolygonError>> {
     let mut errors = Vec::new();
     for ring in 1..rings.len() {
@@ -292,7 +295,7 @@ impl DroppedCorners {
         }
     }
 
-    /// The number that a kept corner had in the caller's list.
+    /// Returns the index that a kept corner had in the caller's list, before repeated corners were dropped.
     fn listed(&self, ring: usize, kept: usize) -> usize {
         let dropped = self.0.iter().filter(|dropped| dropped.0 == ring);
         dropped.fold(kept, |number, (_, d)| number + usize::from(*d <= number))
@@ -308,7 +311,7 @@ fn signed_area(ring: &[Point]) -> f64 {
         / 2.0
 }
 
-/// Whether a point lies inside a ring: a ray from the point to the right crosses the ring an odd number of times.
+/// True if a point lies inside a ring: a ray from the point to the right crosses the ring an odd number of times.
 fn ring_contains(ring: &[Point], p: Point) -> bool {
     let mut inside = false;
     for e in ring_edges(ring) {

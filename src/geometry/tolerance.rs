@@ -65,7 +65,8 @@ impl Tolerance {
         }
     }
 
-    /// The length in metres that two edges must have in common to form an interface; `edge` is the shorter edge's length.
+    /// The length in metres that two edges must have in common to form an interface. `edge` is the length of the
+    /// shorter edge in metres.
     pub fn min_contact_length(&self, edge: f64) -> f64 {
         self.min_length
             .min(Self::LENGTH_PER_EDGE * edge)

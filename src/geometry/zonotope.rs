@@ -39,7 +39,7 @@ const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 /// With ten times this value, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The smallest τ for which `point` lies in the zonotope scaled by τ; infinite if there is none.
+/// The smallest τ for which `point` lies in the zonotope scaled by τ. It is infinite if there is no such τ.
 ///
 /// The answer is exact up to rounding for at most 40 generators that are not parallel, and never too small. If there are
 /// more, generators of similar direction are added up, and the answer may be too large.
@@ -64,7 +64,7 @@ pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
     gauge_over_normals(&reduced, scaled(&point))
 }
 
-/// An upper bound of [`zonotope_gauge`]; the gauge itself for up to 12 generators.
+/// Returns an upper bound of [`zonotope_gauge`]. For up to 12 generators it is the gauge itself.
 ///
 /// The bound is the largest coefficient |aᵢ| of the combination Σ aᵢ gᵢ = `point` with the least Σ aᵢ², found from the
 /// normal equations. `None` if the generators are too close to a plane for these to be solved accurately.
@@ -102,16 +102,17 @@ pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         .iter()
         .map(|g| dot(g.map(|v| v / longest), y).abs())
         .fold(0.0, f64::max);
-    // The reserve covers the digits that the division by a small determinant loses.
+    // The factor covers the digits that the division by a small determinant loses.
     Some(max * (1.0 + 1e-5))
 }
 
-/// An upper bound of what [`zonotope_gauge`] returns, for any number of generators up to 40; cheaper and wider than
-/// [`zonotope_gauge_bound`].
+/// Returns an upper bound of the result of [`zonotope_gauge`]. It is cheaper to compute than [`zonotope_gauge_bound`],
+/// and larger.
 ///
-/// The combination of least squares does not depend on the units of the axes. Each axis is therefore scaled by the
-/// generators' root sum of squares along it: the forces on a body that is pushed sideways without friction are then not a
-/// nearly flat zonotope. `None` if rounding could exceed the bound, or if there are too many generators.
+/// The least-squares combination does not depend on the units of the axes. Each axis is therefore scaled by the
+/// generators' root sum of squares along it. Otherwise the forces on a body that is pushed sideways without friction
+/// form a nearly flat zonotope. `None` if the bound would not be reliable because of rounding, or if there are more
+/// than 40 generators.
 pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     if generators.len() > MAX_GENERATORS {
         return None;
@@ -160,7 +161,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     is_reliable.then_some(bound)
 }
 
-/// The largest |n·r| / Σ |n·gᵢ| over all normals n that can bound the zonotope; generators have lengths of at most 1.
+/// The largest |n·point| / Σ |n·gᵢ| over all normals n that can bound the zonotope. No generator gᵢ may be longer than
+/// 1.
 fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
     let by_length = |a: &Vec3, b: &Vec3| norm(*a).total_cmp(&norm(*b));
     let Some(longest) = generators.iter().copied().max_by(by_length) else {
@@ -184,7 +186,8 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
             try_normal(cross(*a, *b));
         }
     }
-    // The plane of a flat zonotope; of a line segment, any plane through it.
+    // The normal of the plane of a flat zonotope. For a line segment, it is the normal of any plane that contains the
+    // segment.
     let plane = generators
         .iter()
         .map(|g| cross(longest, *g))
@@ -195,7 +198,7 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
         let across = axes.map(|axis| cross(longest, axis));
         across.into_iter().max_by(by_length).unwrap_or_default()
     });
-    // The normal of that plane, and within it the normals of the sides and the directions along them.
+    // Try this normal. Then try, within the plane, the normals of the zonotope's sides and the directions of the sides.
     try_normal(plane);
     try_normal(longest);
     for g in generators {
@@ -215,8 +218,9 @@ struct Rounding {
     width: f64,
 }
 
-/// The lower bound |n·r| / Σ |n·gᵢ| of the gauge: 0 if |n·r| may be rounding alone. Rounding is subtracted from the
-/// width Σ |n·gᵢ|, so that the result is never too small; it is infinite if no width is left.
+/// Returns |n·point| / Σ |n·gᵢ|, a lower bound of the gauge; 0 if |n·point| is not larger than its rounding. Rounding
+/// is subtracted from the width Σ |n·gᵢ|, so that the gauge is never too small. The result is infinite if no width is
+/// left.
 fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> f64 {
     let distance = dot(normal, point).abs();
     if distance <= rounding.distance {
@@ -231,10 +235,10 @@ fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> 
     }
 }
 
-/// At most [`MAX_GENERATORS`] generators whose zonotope lies within that of the given ones.
+/// Returns at most [`MAX_GENERATORS`] generators, whose zonotope lies within the zonotope of the given generators.
 ///
-/// The sum of two generators spans a part of their zonotope, so that the gauge can only grow. Parallel generators are
-/// added up without any loss.
+/// If two generators are replaced by their sum, the zonotope can only become smaller and the gauge larger. Parallel
+/// generators are added up without any such loss.
 fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
     // Sum generators by direction cell if there are very many; otherwise sum only parallel ones.
     let use_cells = generators.len() > MAX_PAIRED_GENERATORS;
@@ -258,12 +262,12 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
         }
     }
     reduced.extend(cell_sums.into_iter().filter(|g| norm(*g) > 0.0));
-    // Merge the pair that loses least, until few enough are left.
+    // Merge the pair with the smallest loss until the number of generators is small enough.
     while reduced.len() > MAX_GENERATORS {
         let mut best = (f64::INFINITY, 0, 1);
         for i in 0..reduced.len() {
             for j in i + 1..reduced.len() {
-                // The loss is the part of the shorter one that is perpendicular to the longer one.
+                // The loss is the length of the shorter generator's part that is perpendicular to the longer generator.
                 let (a, b) = (reduced[i], reduced[j]);
                 let loss = norm(cross(a, b)) / norm(a).max(norm(b));
                 if loss < best.0 {
@@ -293,7 +297,7 @@ fn direction_cell(g: Vec3) -> usize {
     (axis * CELLS_PER_SIDE + place(1)) * CELLS_PER_SIDE + place(2)
 }
 
-/// The sum of two generators; the second one is reversed if it points away from the first.
+/// The sum of two generators. The second one is reversed if the angle between them exceeds 90°.
 fn aligned_sum(a: Vec3, b: Vec3) -> Vec3 {
     let sign = if dot(a, b) < 0.0 { -1.0 } else { 1.0 };
     [a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2]]

@@ -1,4 +1,4 @@
-//! Does a structure stand, and why: from a scene file to an analysis. Knows nothing of pictures.
+//! Decides whether a structure stands, and why. Leads from a scene file to an analysis, and uses no module that draws.
 //!
 //! The modules are listed in the order of dependency: each uses only those above it.
 

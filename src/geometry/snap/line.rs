@@ -65,7 +65,8 @@ impl Fit {
 }
 
 impl Lines {
-    /// The lines for straight sides; `on` lists the nodes on each side, which is given by its two end nodes.
+    /// Determines the lines. `on` maps each straight side, given by its two end nodes, to the other nodes that lie on
+    /// it.
     ///
     /// Sides that share two nodes get one common line if it passes all their nodes within the nodes' gaps; otherwise
     /// each side gets its own line.
@@ -101,7 +102,7 @@ impl Lines {
         for i in 0..sets.len() {
             joined.entry(root(&group, i)).or_default().push(i);
         }
-        // One line for each group, or one for each side of a group that is not straight.
+        // Make one line for each group. If one line does not fit the whole group, make one for each of its sides.
         let mut lines = Vec::new();
         for members in joined.into_values() {
             let line = |members: &[usize]| {
@@ -118,7 +119,8 @@ impl Lines {
         Lines(lines)
     }
 
-    /// Moves the nodes onto their lines. Fixed nodes stay, as do nodes that would move farther than two gaps.
+    /// Moves the nodes onto their lines. Fixed nodes do not move. A node that would move farther than two gaps does not
+    /// move either.
     pub(super) fn settle(&self, nodes: &mut Nodes) {
         let mut lines_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, line) in self.0.iter().enumerate() {
@@ -154,9 +156,11 @@ impl Lines {
 }
 
 impl Line {
-    /// The line for some nodes and the sides that they lie on; `None` if no line passes all nodes within their gaps.
+    /// Returns the line for the nodes `members`, which lie on `sides`. `None` if no line passes all nodes within their
+    /// gaps.
     ///
-    /// The longest side is preferred. Otherwise the line is fitted, and made level or upright if the nodes allow it.
+    /// The line along the longest side is preferred. Otherwise the line is fitted, and made level or upright if the
+    /// nodes allow it.
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
@@ -247,7 +251,8 @@ impl Line {
     }
 }
 
-/// The shortest step from a point that minimises the sum of squared distances to some lines, metres.
+/// Returns the step, in metres, that minimises the sum of squared distances from a point to some lines. If several
+/// steps do, it returns the shortest.
 fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
     // The normal equations [p q; q r] · step = pull.
     let (mut p, mut q, mut r) = (0.0, 0.0, 0.0);

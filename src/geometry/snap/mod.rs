@@ -81,7 +81,7 @@ pub(crate) struct Gaps<'g> {
 }
 
 impl<'g> Gaps<'g> {
-    /// Gaps that do not depend on the lengths of sides.
+    /// Limits moves only by the bodies' gaps, in metres, and not by the lengths of sides.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -113,7 +113,8 @@ pub(crate) struct Moved {
     pub(crate) to: BTreeSet<usize>,
 }
 
-/// Snaps corners and sides that lie within the gaps onto each other. Of two corners, that of the earlier body stays.
+/// Snaps corners and sides that lie within the gaps onto each other. If two corners merge, the one of the earlier body
+/// stays.
 ///
 /// A body marked in `fixed` does not change. Corners of other bodies move onto it, but its corners do not move onto
 /// their sides. Overlaps of up to `noise` times the gap between two bodies are ignored.
@@ -233,7 +234,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     rebuild_bodies(bodies, &nodes, taken, touching, gaps)
 }
 
-/// Finds all nodes within the gap of a side of another body.
+/// Finds all nodes that lie within the gap of a side of another body.
 ///
 /// The index contains the nodes, and each side is a query. The other way round would be slower: the boxes of the sides
 /// of thin stones overlap each other by the hundreds, whereas nodes are points.
@@ -355,8 +356,8 @@ fn rebuild_bodies(
     }
 }
 
-/// The bodies that snapping damaged: invalid polygons, those that shrank too much, and pairs that overlap more than
-/// before.
+/// Returns the numbers of the bodies that snapping damaged: invalid polygons, bodies that shrank too much, and pairs
+/// that overlap more than before.
 fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();

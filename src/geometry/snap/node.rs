@@ -57,7 +57,7 @@ fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item 
 }
 
 impl Nodes {
-    /// Merges corners of different bodies that lie within their gaps of each other into nodes, the closest pairs first.
+    /// Merges corners of different bodies whose distance is at most their gaps into nodes, the closest pairs first.
     ///
     /// A node lies at the corner of a body marked in `kept`, or else at the corner of its earliest body.
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
@@ -101,7 +101,7 @@ impl Nodes {
         &self.bodies[node.bodies.clone()]
     }
 
-    /// The number of a corner's node.
+    /// The index in `all` of the node of a corner.
     pub(super) fn number(&self, body: usize, ring: usize, corner: usize) -> usize {
         self.of_corner[self.first_corner[self.first_ring[body] + ring] + corner]
     }
@@ -124,7 +124,8 @@ impl Clusters {
 
     /// Merges the clusters whose first corners are `a` and `b`; `a` must be the lower number.
     fn join(&mut self, a: usize, b: usize) {
-        // Walk around the list of `b`, then link the two circular lists by exchanging their successors.
+        // Assign every corner in the list of `b` to `a`. Then link the two circular lists by exchanging their
+        // successors.
         let mut k = b;
         while self.first[k] != a {
             self.first[k] = a;
@@ -134,7 +135,8 @@ impl Clusters {
     }
 }
 
-/// The nodes of clusters of corners, their bodies, and for the first corner of each cluster the number of its node.
+/// Makes a node of each cluster. Returns the nodes, the list of their bodies, and for each cluster's first corner the
+/// index of its node.
 fn merge(
     corners: &[UnplacedCorner],
     joined: &Clusters,
@@ -180,7 +182,7 @@ fn merge(
     (all, bodies, number)
 }
 
-/// Clusters corners of different bodies that lie within their gaps of each other, the closest pairs first.
+/// Clusters corners of different bodies whose distance is at most their gaps, the closest pairs first.
 fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
     let mut clusters = Clusters {
         first: (0..corners.len()).collect(),
@@ -209,7 +211,8 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
     clusters
 }
 
-/// The pairs of corners of different bodies within their gaps of each other: (distance in metres, corner, corner).
+/// Returns the pairs of corners of different bodies whose distance is at most the smaller of their gaps, as (distance
+/// in metres, corner, corner).
 ///
 /// They are sorted by distance, then by number, so that the result does not depend on the order of the index.
 fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {

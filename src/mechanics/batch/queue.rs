@@ -22,7 +22,8 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// The limits for a number of threads: 64 items for each, so that a slow item stops no other thread, and 64 MiB.
+    /// Capacity for `threads` workers: 64 items per worker, so that a slow item does not stop the others, and 64 MiB in
+    /// total.
     pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
         Capacity {
@@ -67,12 +68,13 @@ impl<T> Shared<T> {
     }
 }
 
-/// Calls `work` for every item of a stream and `receive` for every answer, in the order of the stream.
+/// Calls `work` for every item of a stream, and calls `receive` for every answer in the order of the stream.
 ///
-/// `receive` gets `None` whenever no answer is ready, which is the time to flush an output. It stops everything with
-/// `Break`. A reader that is waiting for input at that moment keeps its thread until the input comes.
+/// `receive` is called with `None` whenever no answer is ready; that is the time to flush an output. If it returns
+/// `Break`, everything stops. A thread that is reading input at that moment stays until the input arrives.
 ///
 /// # Panics
+///
 /// `work` must not panic: `in_order` would wait for its answer for ever.
 pub fn in_order<T, R>(
     input: impl Iterator<Item = T> + Send + 'static,
@@ -112,7 +114,7 @@ pub fn in_order<T, R>(
     shared.space.notify_all();
 }
 
-/// The reader: queues items while there is space for them.
+/// Runs in the reading thread: queues items while the capacity allows it.
 fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, capacity: Capacity) {
     for (number, item) in (0..).zip(input) {
         let size = item.byte_size();
@@ -139,7 +141,7 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, cap
     shared.work.notify_all();
 }
 
-/// A worker: takes items and sends their answers until the input has ended.
+/// Runs in each worker thread: takes items and sends their answers until the input has ended.
 fn answer_all<T: ByteSize, R>(
     shared: &Shared<T>,
     work: &impl Fn(T) -> R,
@@ -170,13 +172,13 @@ fn answer_all<T: ByteSize, R>(
     }
 }
 
-/// The receiver: puts the answers into order and passes them on.
+/// Runs in the calling thread: puts the answers into order and passes them on.
 fn receive_all<T, R>(
     shared: &Shared<T>,
     answers: &Receiver<(u64, usize, R)>,
     receive: &mut impl FnMut(Option<R>) -> ControlFlow<()>,
 ) {
-    // Answers that arrived before those of earlier items.
+    // Answers that have arrived, but wait for the answers of earlier items.
     let mut early: BTreeMap<u64, (usize, R)> = BTreeMap::new();
     let mut next = 0;
     loop {

@@ -52,7 +52,7 @@ impl fmt::Debug for Input {
 }
 
 impl Input {
-    /// An input that reads scenes from the lines of an open stream.
+    /// Returns an input that reads one scene from each line of an open stream.
     pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
         Input::Lines {
             file,
@@ -83,7 +83,7 @@ impl fmt::Debug for Open {
 }
 
 impl Records {
-    /// The records of some inputs.
+    /// Returns an iterator over the records of the given inputs, in order.
     pub fn new(inputs: Vec<Input>) -> Records {
         Records {
             inputs: inputs.into_iter(),
@@ -92,7 +92,7 @@ impl Records {
         }
     }
 
-    /// A shared counter of the bytes read so far, for progress displays.
+    /// Returns a counter of the bytes read so far. It is shared with this reader, so that it can show progress.
     pub fn read(&self) -> Arc<AtomicU64> {
         Arc::clone(&self.read)
     }
@@ -177,7 +177,8 @@ impl Iterator for Records {
     }
 }
 
-/// The next line, and the number of bytes it took with its line ending: 0 at the end of the stream.
+/// Returns the size in bytes of the next line with its line ending, and the line without it. The size is 0 at the end
+/// of the stream and after an error.
 fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
     let mut line = Vec::new();
     let mut size = 0;
@@ -192,7 +193,7 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         }
         let end = found.iter().position(|b| *b == b'\n');
         let piece = &found[..end.unwrap_or(found.len())];
-        // Read the rest of a line that is too long, but do not keep it.
+        // A line that is too long is read to its end, but not kept.
         if size + piece.len() <= MAX_RECORD_BYTES {
             line.extend_from_slice(piece);
         }

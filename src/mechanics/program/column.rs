@@ -59,7 +59,7 @@ pub enum Force {
 }
 
 impl Force {
-    /// Whether the force is sticking: a contact or robot cannot exert it, and it only shows which force is missing.
+    /// True if the force is sticking: a contact or robot cannot exert it. Such a force only shows what is missing.
     pub fn is_adhesion(&self) -> bool {
         matches!(
             self,
@@ -103,7 +103,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The nonzero entries as (row, value).
+    /// The nonzero entries as (row, value) pairs.
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.filled().iter().copied()
     }
@@ -112,7 +112,7 @@ impl Column {
         &self.places[..self.count]
     }
 
-    /// Whether another column has the same values and limit, regardless of the rows.
+    /// True if another column has the same values and the same limit. The rows may differ.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
         let mut pairs = self.filled().iter().zip(other.filled());
         self.count == other.count
@@ -120,7 +120,8 @@ impl Column {
             && self.limit == other.limit
     }
 
-    /// The inner product with virtual velocities `y`: the velocity of the point of application along the force.
+    /// The inner product with virtual velocities `y` of the bodies: the velocity of the point of application along the
+    /// force. If the force acts between two bodies, it is their relative velocity.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (row, value) in self.filled() {
@@ -155,7 +156,7 @@ impl Column {
         blocks(other).iter().any(|block| own.contains(block))
     }
 
-    /// Adds `amount` times the column to the vector `sum`.
+    /// Adds `amount` times this column to the vector `sum`, which has one entry per row.
     pub fn add_to(&self, sum: &mut [f64], amount: f64) {
         for (row, value) in self.filled() {
             sum[*row] += amount * value;
@@ -189,7 +190,7 @@ impl Column {
         }
     }
 
-    /// Appends the entries of a force on a body and of its moment about the body's centroid.
+    /// Appends the entries of a force on body `block` and of its moment about the body's centroid.
     fn enter(&mut self, block: usize, force: Vector, moment: f64) {
         for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
             if value != 0.0 {
@@ -253,7 +254,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // Scale to |N| + |T| = 1 per unit, so that columns have similar sizes for every friction coefficient.
+                // Scale each generator so that its normal force and its friction add up to 1. Columns then have similar
+                // sizes for every friction coefficient.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
                 } else {
@@ -334,7 +336,8 @@ pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// The column of a force at an application point of a contact; the other body receives the opposite force.
+/// Builds the column of a force at an application point of a contact. The other body, if there is one, receives the
+/// opposite force.
 fn contact_column(
     contact: &ContactTerm,
     point: usize,
@@ -351,7 +354,7 @@ fn contact_column(
     column
 }
 
-/// The column of a force or torque of a robot, along `sign` times the component.
+/// Builds the column of a component of a robot's force or torque, in the direction `sign`.
 fn grip_column(grip: &GripTerm, component: usize, sign: f64, force: Force, limit: f64) -> Column {
     let mut column = Column::new(force, 1.0, limit);
     let direction = match component {

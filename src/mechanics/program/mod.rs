@@ -78,7 +78,7 @@ pub struct GripTerm {
 }
 
 impl Program {
-    /// The program of an assembly in the units of a scale. Contacts and grips keep their order.
+    /// Builds the program of an assembly in the units of `scale`. Contacts and grips keep their order.
     pub fn new(assembly: &Assembly, scale: Scale) -> Program {
         let arms = |body: usize, points: [Point; 2]| {
             let centroid = assembly.bodies[body].centroid;
@@ -121,8 +121,8 @@ impl Program {
     /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
     const NON_BINDING: f64 = 10.0;
 
-    /// The program without limits that are far above the loads and hardly ever bind; `None` if there are no such
-    /// limits.
+    /// Returns the program without the robots' limits that are far above the loads and hardly ever bind. `None` if
+    /// there are no such limits.
     ///
     /// A limit adds a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. If a result
     /// violates an omitted limit, its proof fails, and the program is solved again with all limits.
@@ -144,7 +144,7 @@ impl Program {
         })
     }
 
-    /// Whether the given grip forces are within this program's limits, up to rounding.
+    /// True if the given grip forces, in scaled units, are within this program's limits up to rounding.
     pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
         self.grips.iter().zip(grips).all(|(term, given)| {
             term.limits

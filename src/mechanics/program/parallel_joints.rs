@@ -1,4 +1,4 @@
-//! [`Program::with_parallel_joints`]: makes joints that are parallel or perpendicular up to rounding exactly so.
+//! [`Program::with_parallel_joints`]: makes joints exactly parallel or perpendicular if they are nearly so.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -14,7 +14,8 @@ const SAME_DIRECTION: f64 = 1e-5;
 const ROUNDING: f64 = 1e-12;
 
 impl Program {
-    /// The program with nearly parallel joints made parallel; `None` if this changes nothing.
+    /// Returns the program with all nearly parallel or perpendicular joints made exactly so. `None` if this changes
+    /// nothing.
     ///
     /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only with
     /// velocities of 10⁶, and the solver ends without a status. It solves the program if the faces are exactly
@@ -33,7 +34,8 @@ impl Program {
     }
 }
 
-/// The rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly so.
+/// Returns the rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly
+/// so.
 ///
 /// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). Each cluster is turned to its mean
 /// angle.

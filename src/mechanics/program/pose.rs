@@ -63,7 +63,7 @@ pub fn kinematic_dual(
             && columns[k].limit.is_infinite()
             && cost(&columns[k]) == 0.0
     };
-    // The equalities first: one for each pair of opposite columns without cost and limit.
+    // First the equalities: one for each pair of opposite columns without cost and limit.
     let mut k = 0;
     while k < columns.len() {
         if is_free_pair(k) {
@@ -74,7 +74,7 @@ pub fn kinematic_dual(
         k += 1;
     }
     dual.equalities = dual.bound.len();
-    // The inequalities of all other columns.
+    // Then the inequalities of all other columns.
     let mut k = 0;
     while k < columns.len() {
         if row_of[k] != usize::MAX {
@@ -85,7 +85,7 @@ pub fn kinematic_dual(
         dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
-    // The unknowns w of the limits, with their rows w ≥ 0.
+    // Last the unknowns w for the limits, with their rows w ≥ 0.
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
             let w = dual.unknowns;
@@ -99,7 +99,7 @@ pub fn kinematic_dual(
     (dual, row_of)
 }
 
-/// Whether columns k and k + 1 are the positive and the negative direction of one grip component.
+/// True if columns k and k + 1 are the positive and the negative direction of one grip component.
 fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     let next = columns.get(k + 1).map(|column| column.force);
     match columns[k].force {
@@ -157,8 +157,8 @@ pub fn nearest_factor_dual(
 
 /// The dual of  min Σ |residual of the balance|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
-/// It always has an optimum. Its multipliers are the forces with the least residual; its solution y is the motion along
-/// which the loads have the largest power.
+/// It always has an optimum. Its multipliers are the forces with the least residual. Its solution y gives the
+/// velocities −y for which the loads have the largest power.
 pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
@@ -170,7 +170,7 @@ pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgr
     (problem, row_of)
 }
 
-/// The least change d of velocities:  min ½ |d|²  s.t.  columnᵀd = value for the first `equalities` columns, and
+/// Finds the least change d of velocities: min ½ |d|² s.t. columnᵀd = value for the first `equalities` columns, and
 /// columnᵀd ≥ value for the others.
 pub fn least_change(
     unknowns: usize,
@@ -197,7 +197,7 @@ pub fn least_change(
     problem
 }
 
-/// The problem of the amounts, of either sign, with the least Σ amount² that balance `loads`.
+/// The problem of finding amounts, of either sign, that balance `loads` with the least Σ amount².
 pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     QuadraticProgram {
@@ -221,7 +221,7 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// The problem of the amounts ≥ 0 with the least sum of squared forces that balance `loads`.
+/// The problem of finding amounts ≥ 0 that balance `loads` with the least sum of squared forces.
 ///
 /// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
 /// The result therefore does not depend on how the friction cone is divided into columns.
@@ -238,7 +238,8 @@ pub fn least_squares(
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
     }
-    // The columns of one contact are consecutive, so the products end at the first column of the contact.
+    // The columns of one contact are consecutive. The inner loop therefore stops at the first column of another
+    // contact.
     let squared = if correction.is_some() { &[] } else { columns };
     for (j, column) in squared.iter().enumerate() {
         for (i, other) in columns[..=j].iter().enumerate().rev() {
@@ -278,8 +279,8 @@ pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 /// The static (primal) form, in which the forces are the unknowns: min Σ cost·amount  s.t.  Σ amount·column = `loads`,
 /// 0 ≤ amount ≤ limit.
 ///
-/// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max: the second stage of a lexicographic program. Near
-/// the limit of standing this form takes fewer iterations than the kinematic dual.
+/// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max, for the second stage of a lexicographic
+/// optimisation. If the structure is close to its limit, this form takes fewer iterations than the kinematic dual.
 pub fn force_primal(
     loads: &[f64],
     columns: &[Column],
@@ -317,7 +318,7 @@ enum Site {
     GripAdhesion(usize),
 }
 
-/// Where a unit force acts, and its components there: (N1, N2, T) of a contact, (F_x, F_y, M) of a grip.
+/// Returns where a unit force acts, and its components there: (N1, N2, T) for a contact, (F_x, F_y, M) for a grip.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

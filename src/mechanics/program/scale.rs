@@ -17,7 +17,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The scale of an assembly, from its length L and its heaviest load.
+    /// Chooses the scale of an assembly from its length L and its heaviest load.
     pub fn from_assembly(assembly: &Assembly) -> Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
@@ -25,7 +25,8 @@ impl Scale {
     /// The heaviest load of a frame in scaled units. A tenth of it and ten times its value also gave right verdicts.
     pub const HEAVIEST: f64 = 300.0;
 
-    /// The scale for a median interface length (m) and a heaviest load (N). A frame without loads is scaled by 1 N.
+    /// Chooses the scale from a median interface length (m) and a heaviest load (N). Without loads, 1 N is used as the
+    /// load.
     pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
         Scale {

@@ -62,7 +62,7 @@ struct SourceUnknowns {
     limits: Vec<(usize, f64)>,
 }
 
-/// Vallat's unknowns, derived from the columns of programs with μ = 1 and without limits.
+/// Derives Vallat's unknowns from the columns of two programs: one with μ = 1, and one with grips without limits.
 fn source_unknowns(program: &Program) -> SourceUnknowns {
     let mut unknowns = SourceUnknowns {
         columns: Vec::new(),
