@@ -1,7 +1,7 @@
-//! The analysis of all frames of a scene, one after the other.
+//! Analyses all frames of a scene, one after the other.
 //!
-//! Each frame: assemble it, split it into components, decide the components that no earlier frame had, put them together, and
-//! then look for wedging and margins if they were asked for.
+//! For each frame: assemble it, split it into components, decide the components that no earlier frame had, and
+//! combine the results. Then look for wedging and margins if they are requested.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -24,18 +24,18 @@ use crate::program::UnknownCounts;
 use crate::scene::{RobotId, Scene};
 use crate::solve::{DeadlineGuard, Effort};
 
-/// Fewer components than this are decided on one thread: starting several costs more than it saves.
+/// Fewer components than this are decided on one thread: starting several threads costs more than it saves.
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL_COMPONENTS: usize = 17;
 
-/// What is known of the components of earlier frames.
+/// Results for the components of earlier frames.
 #[derive(Default)]
 pub(super) struct Known {
     findings: BTreeMap<Key, Findings>,
     intervals: BTreeMap<Key, ComponentIntervals>,
 }
 
-/// A component of a frame and what was found out about it.
+/// A component of a frame with its findings.
 struct Solved<'a> {
     component: &'a Assembly,
     key: &'a Key,
@@ -72,7 +72,7 @@ pub(super) fn analyse_frames(
         .collect()
 }
 
-/// Analyses one frame.
+/// Analyses one frame. Components in `known` are not decided again; new ones are added to it.
 pub(super) fn analyse_frame(
     context: &FrameContext,
     options: Options,
@@ -80,7 +80,7 @@ pub(super) fn analyse_frame(
 ) -> FrameAnalysis {
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    // Bodies, contacts and loads; components cannot influence each other.
+    // Assemble bodies, contacts and loads. Split them into components, which cannot influence each other.
     let (assembly, reports) = effect::assemble(context);
     let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();
@@ -88,7 +88,7 @@ pub(super) fn analyse_frame(
         assembly: seconds(),
         ..Stages::default()
     };
-    // Verdict and forces of each component.
+    // Decide each component.
     let (effort, fresh) = decide_fresh(&components, &keys, options, &mut known.findings);
     let solved = (components.iter().zip(&keys)).map(|(component, key)| {
         let found = known.findings.get(key)?;
@@ -99,7 +99,7 @@ pub(super) fn analyse_frame(
         })
     });
     let solved: Vec<Solved> = solved.flatten().collect();
-    // Verdict and forces of the frame.
+    // Combine the verdicts and forces of the components.
     let mut analysis = combine(context, &assembly, reports, &solved, options);
     stages.solution = seconds() - stages.assembly;
     analysis.solve = SolveReport {
@@ -111,7 +111,7 @@ pub(super) fn analyse_frame(
         seconds: 0.0,
         stages,
     };
-    // What else was asked for.
+    // Check wedging and compute margins, if they are requested.
     let _until = DeadlineGuard::new(options.deadline);
     let before = seconds();
     let wedging = find_wedging(context.scene, &mut analysis, &solved, options);
@@ -135,7 +135,8 @@ pub(super) fn analyse_frame(
     analysis
 }
 
-/// Decides the components that no earlier frame had; returns the effort, and the number of these components.
+/// Decides the components that are not in `known`, and adds their findings to it. Returns the total effort and the
+/// number of these components.
 fn decide_fresh(
     components: &[Assembly],
     keys: &[Key],
@@ -146,11 +147,11 @@ fn decide_fresh(
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| {
-        // A deadline belongs to a thread.
+        // A deadline guard is valid only on its own thread.
         let _until = DeadlineGuard::new(options.deadline);
         decide_component(&components[*k], options)
     };
-    // The order of the results is that of the components, with several threads too.
+    // The results are in the order of the components, also with several threads.
     #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
         fresh.par_iter().map(one).collect()
@@ -168,7 +169,7 @@ fn decide_fresh(
     (effort, fresh.len())
 }
 
-/// The frame from its components.
+/// Combines the findings of the components into the analysis of the frame.
 fn combine(
     context: &FrameContext,
     assembly: &Assembly,
@@ -193,7 +194,8 @@ fn combine(
     analysis
 }
 
-/// Whether the frame stands only by wedging, if that was asked for and the frame stands.
+/// Checks whether a stable frame stands only by wedging, if this is requested. Writes the answer to `analysis` and
+/// returns the outcome for the effect report.
 fn find_wedging(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
@@ -212,7 +214,8 @@ fn find_wedging(
     }
 }
 
-/// Adds the margins to a frame if they were asked for; returns the number of changed components that were judged for them.
+/// Adds the margins to a frame. Returns the number of changed components that were decided for them; `None` if
+/// margins are not requested.
 fn find_margins(
     scene: &Scene,
     analysis: &mut FrameAnalysis,

@@ -1,4 +1,4 @@
-//! [`SolveReport`]: the methods, programs and times that the solution of a frame took.
+//! [`SolveReport`]: the method, the number of programs and the time that solved a frame.
 
 use super::Method;
 
@@ -6,11 +6,11 @@ use super::Method;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SolveReport {
-    /// How the component that was hardest to decide was decided.
+    /// The method that decided the hardest component: the greatest [`Method`] of all components.
     pub method: Method,
     /// Iterations of all programs together.
     pub iterations: usize,
-    /// Programs solved for this frame; 0 where closed forms or earlier frames answered it.
+    /// Programs solved for this frame; 0 if closed forms or earlier frames answered it.
     pub programs: usize,
     /// Components: blocks that cannot influence each other.
     pub groups: usize,
@@ -18,21 +18,21 @@ pub struct SolveReport {
     pub reused: usize,
     /// Wall time in seconds.
     pub seconds: f64,
-    /// What that time was spent on.
+    /// The part of this time that each stage took.
     pub stages: Stages,
 }
 
-/// Where the wall time of a frame went, seconds. An effect that is left out brings no unknowns, so it costs nothing in any
-/// of these.
+/// The wall time of each stage of a frame, in seconds. An effect that is not simulated adds no unknowns and takes no
+/// time in any stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stages {
-    /// Posing the frame: contacts, loads and grips from what each effect contributes.
+    /// Assembling the frame: contacts, loads and grips from the contributions of all effects.
     pub assembly: f64,
-    /// Solving and proving: the verdict, the forces, what fails and the motion.
+    /// Solving and proving: verdict, forces, failures and mechanism.
     pub solution: f64,
-    /// Whether it stands by wedging only.
+    /// Checking whether the frame stands only by wedging.
     pub wedging: f64,
-    /// The margins.
+    /// Computing the margins.
     pub margins: f64,
 }

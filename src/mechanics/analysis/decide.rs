@@ -1,25 +1,25 @@
 //! How a verdict is reached: every route, in the order in which it is tried.
 //!
-//! A verdict is believed for its proof alone ([`crate::proof`]): forces that balance every body, or a motion that nothing
-//! stops. A route may save time; it can never decide without a proof. All routes for one component end in a [`Decision`]
-//! or in [`Findings`].
+//! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
+//! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a
+//! [`Decision`] or in [`Findings`].
 //!
 //! For one component, by [`decide_component`]:
 //!
 //! | | route | file | decides because |
 //! |---|---|---|---|
-//! | 1 | closed form | `decide.rs`, `solve::determinate` | no load, nothing to rest on, or forces that balance alone determines |
-//! | 2 | without idle limits | `decide.rs` | most robots stay far below their limits; without these the program is smaller |
+//! | 1 | closed form | `decide.rs`, `solve::determinate` | no load, no support, or forces that the balance equations alone determine |
+//! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these the program is smaller |
 //! | 3 | programs in order | `programs.rs`, `strategy/` | each may give forces or a motion, whose proof is then computed |
 //! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the whole may leave a light body unbalanced; it is solved again in its own scale |
-//! | 3b | – free a motion of the solver's error | `motion.rs`, `pieces.rs` | a motion must open or hold every contact exactly |
-//! | 4 | complete | `complete.rs` | least force of what stands, least adhesion of what falls |
+//! | 3b | – remove the solver's error from a motion | `motion.rs`, `pieces.rs` | a motion must not violate any contact, not even by rounding |
+//! | 4 | complete | `complete.rs` | forces of least sum if the component stands, least adhesion if it falls |
 //!
-//! Route 4 can turn a fall into *stable*, and only if the program of least adhesion finds forces that balance every body.
-//! Then both proofs hold. A motion is believed within a tolerance, and so the forces win.
+//! Route 4 can change *unstable* to *stable*, but only if the program of least adhesion finds forces that balance
+//! every body. Then both proofs hold. The proof of a motion has a tolerance, so the forces decide.
 //!
-//! Where only the verdict counts, by [`decide_verdict`]: first forces and motions of similar components
-//! (`proof_cache.rs`), then routes 1 to 3. Margins use it.
+//! If only the verdict is needed, by [`decide_verdict`]: first forces and motions of similar components
+//! (`proof_cache.rs`), then routes 1 to 3. Margins use this.
 //!
 //! For whole frames:
 //!
@@ -56,23 +56,23 @@ use programs::Decision;
 pub use strategy::Method;
 pub(super) use strategy::Place;
 
-/// Bodies slower than this are left out of a reported mechanism; the fastest point has speed 1. A solver's motion of resting
-/// bodies is 1e-9 and below, so ten times less would list bodies at rest, and ten times more hides slow ones in a picture
-/// of a thousand pixels not yet.
+/// Bodies slower than this are left out of a reported mechanism; the fastest point has speed 1. Solver noise on
+/// resting bodies reaches 1e-9, so a value ten times smaller could list bodies at rest. Even a value ten times larger
+/// would hide no visible motion in a picture of a thousand pixels.
 const MIN_SHOWN_SPEED: f64 = 1e-7;
 
 /// Components of a velocity below this are reported as 0: they are the solver's rounding.
 const SPEED_NOISE: f64 = 1e-9;
 
-/// What was found out about one component, forces in the order of its contacts and grips.
+/// The findings for one component. Forces are in the order of its contacts and grips.
 #[derive(Clone, Debug)]
 pub(super) struct Findings {
     pub verdict: Verdict,
     pub doubt: Option<UndecidedReason>,
     pub forces: Forces,
-    /// The sum that admissible forces must have at least to balance, N, where it was shown.
+    /// A proved lower bound for the sum of balancing forces, N; `None` if none was proved.
     pub force_bound: Option<f64>,
-    /// Whether the forces are shown to be those of least sum, and not just some that balance.
+    /// Whether the forces are proved to have the least sum.
     pub least_force: bool,
     pub failures: Vec<Failure>,
     pub total_sticking: f64,
@@ -81,7 +81,7 @@ pub(super) struct Findings {
     pub proof: Proof,
     pub method: Method,
     pub effort: Effort,
-    /// The unknowns of its program, and those that sticking has or would have.
+    /// The numbers of unknowns of its program and of its adhesion, for each effect.
     pub count: UnknownCounts,
 }
 
@@ -92,25 +92,26 @@ struct Component<'a> {
     scale: Scale,
     /// The solver's settings, in the order in which they are tried.
     settings: Vec<SolverSettings>,
-    /// What a proof must show to be believed.
+    /// The thresholds that a proof must meet.
     demand: ProofThreshold,
     /// Whether forces of least sum and failures are computed after the verdict.
     complete_result: bool,
-    /// What is known of its distance from the limit of stability.
+    /// What is known about its distance from the limit of stability.
     place: Place,
 }
 
-/// Decides one component and computes what belongs to its verdict.
+/// Decides one component and computes its forces, failures and mechanism.
 pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Findings {
     let component = Component::new(assembly, options);
     let program = Program::new(assembly, component.scale);
-    // Reported for each effect, also for those without a program to solve.
+    // The unknowns are reported for each effect, even if no program has to be solved.
     let count = UnknownCounts::new(&program, &columns(&program))
         .plus(&UnknownCounts::new(&program, &adhesion_columns(&program)));
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
-    // Robot limits that can hardly be reached are left out first. If the answer reaches one of them, decide again with all.
+    // Robot limits that can hardly be reached are left out first. If the result exceeds one of them, decide again
+    // with all limits.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
@@ -128,7 +129,7 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
 }
 
 impl<'a> Component<'a> {
-    /// A component in its own scale.
+    /// Creates a component with its own scale and the solver settings of `options`.
     fn new(assembly: &'a Assembly, options: Options) -> Component<'a> {
         Component {
             assembly,
@@ -144,7 +145,7 @@ impl<'a> Component<'a> {
         proof.meets(self.demand)
     }
 
-    /// Route 1: what can be answered without a solver.
+    /// Route 1: decides without a solver. `None` if no closed form applies, or if its forces have no proof.
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
         let found = if self.assembly.heaviest_load() == 0.0 {
             // No load: no force is needed.
@@ -158,7 +159,7 @@ impl<'a> Component<'a> {
                 ..self.stands(self.prove_forces(&Amounts::none(program)))
             }
         } else {
-            // Forces that balance alone determines, as in a stack.
+            // Forces that the balance equations determine uniquely, as in a stack.
             let carried = self.prove_forces(&determinate(program)?);
             if !self.believes(&carried.proof) {
                 return None;
@@ -168,7 +169,7 @@ impl<'a> Component<'a> {
         Some(found)
     }
 
-    /// Findings of a component that stands by forces found in closed form.
+    /// Returns the findings of a stable component whose forces were found in closed form.
     fn stands(&self, carried: forces::ProvedForces) -> Findings {
         Findings {
             verdict: Verdict::Stable,
@@ -187,9 +188,9 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// A decision in metres and newtons.
+    /// Converts a decision from program units to findings in metres and newtons.
     fn findings(&self, decision: Decision) -> Findings {
-        // What is missing: each adhesion above the noise, in newtons.
+        // List each missing adhesion above the noise, in newtons.
         let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
         if let (Some(adhesion), Verdict::Unstable) = (&decision.adhesion, decision.verdict) {
             failures = self.failures(adhesion);
@@ -207,12 +208,13 @@ impl<'a> Component<'a> {
                 .is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED)
         });
         for motion in &mut mechanism {
-            // Velocities of the solver's rounding become 0. The spin is compared as the speed of a point at distance L.
+            // Set velocities that are only rounding of the solver to 0. The spin is measured as the speed of a point
+            // at distance L.
             let plain = |v: f64| if v.abs() < SPEED_NOISE { 0.0 } else { v };
             motion.velocity = motion.velocity.map(plain);
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
-        // The forces of a falling component balance together with the adhesion that is missing.
+        // The forces on a falling component balance it only together with the missing adhesion.
         let forces = match (decision.verdict, &decision.adhesion) {
             (Verdict::Unstable, _) if !self.complete_result => Forces::none(self.assembly),
             (Verdict::Unstable, Some(adhesion)) => {

@@ -1,4 +1,4 @@
-//! The forces of a frame at its interfaces and robots, and those that are missing.
+//! The forces of a frame at its interfaces and robots, and the missing forces.
 
 use crate::geometry::{Point, Vector};
 use crate::interface::Interface;
@@ -17,13 +17,13 @@ pub struct Contact {
     pub normal_forces: [f64; 2],
     /// Friction force, N, signed along (−n_y, n_x).
     pub friction_force: f64,
-    /// The interface's one force.
+    /// The resultant of these forces.
     pub resultant: Resultant,
     /// |T| / (μ ΣN), 0 without force.
     pub friction_used: f64,
 }
 
-/// What a robot gives to the block it holds.
+/// The force and the torque of a robot on the block that it holds.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct RobotForce {
@@ -37,28 +37,28 @@ pub struct RobotForce {
     pub force: Vector,
     /// Torque on the block, N·m.
     pub torque: f64,
-    /// Largest share of a limit that is used, 0 where nothing is limited.
+    /// The largest used fraction of a limit; 0 if there are no limits.
     pub limit_used: f64,
 }
 
-/// One thing that would have to stick, or one thing a robot would have to give beyond its limits.
+/// A missing force: adhesion at a joint, or a force or torque of a robot beyond its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
-    /// A pull across an interface, at one of its application points.
+    /// Tension across an interface, at one of its application points.
     Tension {
         /// The two bodies; `force` acts on the first.
         bodies: [BodyId; 2],
-        /// Where.
+        /// The application point, metres.
         at: Point,
-        /// The pull on `bodies[0]`, N.
+        /// The tensile force on `bodies[0]`, N.
         force: Vector,
     },
-    /// Friction beyond what the pressure allows, drawn at the middle of the interface.
+    /// Friction beyond the limit μN, drawn at the middle of the interface.
     Friction {
         /// The two bodies; `force` acts on the first.
         bodies: [BodyId; 2],
-        /// Where.
+        /// The middle of the interface, metres.
         at: Point,
         /// The force on `bodies[0]`, N.
         force: Vector,
@@ -98,7 +98,8 @@ impl Failure {
         }
     }
 
-    /// How much is missing: the length of a joint's force, `|Fx| + |Fy|` of a robot's, N; the size of a torque, N·m.
+    /// Returns the missing amount: the norm of a joint force, N; `|Fx| + |Fy|` of a robot force, N; or the magnitude
+    /// of a torque, N·m.
     pub fn amount(&self) -> f64 {
         match *self {
             Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),

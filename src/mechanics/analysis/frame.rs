@@ -6,7 +6,8 @@ use crate::effect::{EffectName, FrameContext, mechanism, sticking};
 use crate::program::UnknownCounts;
 use crate::proof::Proof;
 
-/// The worse numbers of two proofs of the same kind. Of two kinds, the proof by a mechanism.
+/// Combines two proofs. Of two proofs of the same kind, takes the worse value of each number. Otherwise returns the
+/// proof by a mechanism.
 pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     match (a, b) {
         (
@@ -57,12 +58,12 @@ pub(super) fn settle(
     if analysis.verdict != Verdict::Undecided {
         analysis.doubts.clear();
     }
-    // The unknowns are those of the programs that were solved.
+    // Set the number of unknowns of each simulated effect.
     for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
         report.unknowns = counts.get(report.effect);
     }
     let blocks = situation.frame.placed.len();
-    // Adhesion was sought only in a frame that falls and whose failures were wanted.
+    // Adhesion is computed only if the frame falls and its failures are requested.
     let sought = match verdict_only {
         true if unstable => Sought::NotAsked,
         _ if analysis.failures.is_empty() => Sought::NotNeeded,
@@ -77,7 +78,7 @@ pub(super) fn settle(
     add_notices(analysis, situation, verdict_only);
 }
 
-/// Adds what a reader should know about the result: what was not searched, and what no adhesion can hold.
+/// Adds notices about the result: what was not computed, and which blocks no adhesion can hold.
 fn add_notices(analysis: &mut FrameAnalysis, situation: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(

@@ -1,11 +1,11 @@
 //! Route 5: verdicts that depend on small gaps and overlaps become undecided.
 //!
-//! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may have
-//! been meant to touch, and so may bodies that overlap by as little. Where there are such places a frame is judged both
-//! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed, if need be as far as
-//! the corners beside them may be off. If the verdicts
-//! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
-//! it. If they agree an overlap is reported next to the verdict. A tolerance that somebody gave settles it already.
+//! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may
+//! have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:
+//! as it is written, where neither gaps nor overlaps carry force, and with all of them closed. Closing goes as far as
+//! rounded corners may be off, if necessary. If the verdicts differ, the intended structure is unknown. The frame is
+//! then undecided, and the reason lists the places and the tolerance that would decide. If the verdicts agree, an
+//! overlap is reported next to the verdict. If the scene gives a tolerance, no second verdict is needed.
 
 use super::analyse::{analyse, analyse_frames};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
@@ -17,15 +17,16 @@ use crate::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceS
 const MAX_NAMED_PLACES: usize = 3;
 /// The largest number of gaps that are nearly contacts and have a note of their own.
 const MAX_NOTED_GAPS: usize = 10;
-/// The widest gap or overlap times this closes all of them: one percent more than needed, so that rounding opens none.
+/// All places are closed by the widest gap or overlap times this factor: one percent more than needed, so that
+/// rounding leaves none open.
 const ENOUGH: f64 = 1.01;
-/// A corner that is off by rounding is farther from its place than from either of its edges, along which gaps and overlaps
-/// are measured. Closing may need this times the widest of them.
+/// A rounded corner is farther from its true position than from either of its edges, and gaps and overlaps are
+/// measured from the edges. Closing may therefore need the widest of them times this factor.
 const CORNERS: f64 = 2.5;
-/// Bodies that are meant to touch are at most this part of the smallest block's size apart.
+/// Bodies that are meant to touch are at most this fraction of the smallest block's size apart.
 const NARROW: f64 = 0.01;
 
-/// Where two bodies may have been meant to touch.
+/// A place where two bodies may have been meant to touch.
 #[derive(Clone, Copy)]
 struct Place {
     bodies: [BodyId; 2],
@@ -67,7 +68,7 @@ pub(super) fn recheck(
     if scene.healed.source == ToleranceSource::Given {
         return;
     }
-    // A verdict that is missing cannot change.
+    // Undecided verdicts stay undecided.
     if frames.iter().all(|frame| is_undecided(frame.verdict)) {
         return;
     }
@@ -95,7 +96,7 @@ pub(super) fn recheck(
     }
 }
 
-/// For each frame the places where two of its bodies may have been meant to touch.
+/// Returns, for each frame, the places where two of its bodies may have been meant to touch.
 fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     let touching = ContactsByBody::new(&found.all);
     let in_frame = |frame: &Frame| {
@@ -107,7 +108,7 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
-        // A gap that a stone between the two bodies keeps open is meant to be there.
+        // A gap that a pinning stone between the two bodies keeps open is intended.
         let gaps = (found.near_misses.iter())
             .filter(|gap| gap.bodies.iter().all(stands))
             .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
@@ -119,8 +120,9 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     scene.frames.iter().map(in_frame).collect()
 }
 
-/// The frames with everything closed: by a little more than the widest place and, if some frame then has the same verdict as
-/// before, once more by as much as corners may be off. Each with the length by which it was closed, metres.
+/// Analyses the scene with all places closed by a little more than the widest. If some frame keeps its verdict,
+/// analyses it once more, closed by as much as corners may be off. Returns each closing length in metres with its
+/// frames.
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
@@ -145,8 +147,8 @@ fn closed_verdicts(
     all
 }
 
-/// Makes a frame undecided if its verdict is another with the places closed; else reports overlaps. `closed` has the lengths
-/// by which the places were closed, and the verdicts; the places are sorted by size, the largest first.
+/// Makes a frame undecided if a verdict with the places closed differs; otherwise reports overlaps. `closed` contains
+/// each closing length in metres with its verdict. The places are sorted by size, the largest first.
 fn compare_verdicts(
     scene: &Scene,
     frame: &mut FrameAnalysis,
@@ -154,12 +156,12 @@ fn compare_verdicts(
     closed: &[(f64, Verdict)],
 ) {
     let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
-    // The first closing with a verdict that differs, else the first of all.
+    // Use the first closing whose verdict differs, otherwise the first closing.
     let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;
     };
-    // Where bodies overlap, a verdict has to be reached both ways.
+    // A frame in which bodies overlap keeps its verdict only if the verdict with closed places is known, too.
     let unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
     if frame.verdict != other && !unsure {
         frame.doubts = vec![gaps(scene, [frame.verdict, other], places, closing)];
@@ -173,7 +175,7 @@ fn compare_verdicts(
     }
 }
 
-/// The options for a second verdict, which has neither margins nor wedging.
+/// Returns the options without margins and wedging, for a second analysis.
 fn without_extras(options: &Options) -> Options {
     Options {
         margins: false,
@@ -186,7 +188,8 @@ fn is_undecided(verdict: Verdict) -> bool {
     verdict == Verdict::Undecided
 }
 
-/// No time is left to judge overlaps both ways. A verdict next to an overlap needs both.
+/// Makes every frame with an overlap undecided. After the deadline, the second verdict that it needs cannot be
+/// computed.
 fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
     for (frame, played) in frames.iter_mut().zip(&scene.frames) {
         let placed = |body: &BodyId| match body {
@@ -336,7 +339,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
     )
 }
 
-/// The first places of a list, and the number of the others.
+/// Describes the first places of a list, and counts the others.
 fn listed(scene: &Scene, places: &[Place]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };

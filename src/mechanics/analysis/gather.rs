@@ -10,7 +10,7 @@ use crate::interface::Interface;
 use crate::resultant::{friction_used, from_corner_forces};
 use crate::scene::Hold;
 
-/// The frame before the first component is added: every contact and grip, with zero force.
+/// Returns the frame before the first component is added: with every contact and grip, at zero force.
 pub(super) fn gathered(
     situation: &FrameContext,
     assembly: &Assembly,
@@ -57,7 +57,7 @@ pub(super) fn gathered(
     }
 }
 
-/// An interface without force.
+/// Returns a contact with zero force.
 fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
     Contact {
         interface: interface.clone(),
@@ -69,7 +69,7 @@ fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
     }
 }
 
-/// A robot without force.
+/// Returns a robot's hold with zero force.
 fn unloaded_robot(hold: &Hold) -> RobotForce {
     RobotForce {
         robot: hold.robot,
@@ -89,8 +89,8 @@ pub(super) fn add(
     kernel: f64,
 ) {
     add_forces(analysis, component, found, kernel);
-    // The bounds of the components add up, because no force acts on two components. One bound that is unknown leaves the sum
-    // unknown.
+    // The bounds of the components add up, because no force acts on two components. If one bound is unknown, the sum
+    // is unknown.
     analysis.force_bound = match (analysis.force_bound, found.force_bound) {
         (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
         _ => None,
@@ -114,7 +114,7 @@ pub(super) fn add(
     analysis.verdict = analysis.verdict.max(found.verdict);
 }
 
-/// Enters the forces at the contacts and grips of one component, and adds them to the total.
+/// Sets the forces at the contacts and grips of one component, and adds them to the total.
 fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
     // Contacts: normal forces, friction and their resultant.
     for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
@@ -126,7 +126,7 @@ fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findin
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
-    // Robots: force, torque, and the largest share of a limit.
+    // Robots: force, torque, and the largest used fraction of a limit.
     for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {

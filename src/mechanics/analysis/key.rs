@@ -1,13 +1,13 @@
-//! [`Key`]: what makes a component the same as one of an earlier frame.
+//! [`Key`]: identifies equal components of different frames, so that each is decided only once.
 
 use crate::assembly::Assembly;
 use crate::scene::{BlockId, RobotId};
 
-/// What makes one component the same as one of an earlier frame: its blocks, which robot holds which block where (by the bits
-/// of the coordinates), and the bits of L.
+/// Components with the same key have the same findings. The key contains the blocks, each hold (robot, block, and the
+/// bits of the grip point's coordinates), and the bits of L.
 pub(super) type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-/// The key of a component.
+/// Returns the key of a component.
 pub(super) fn key(component: &Assembly) -> Key {
     let blocks = component.bodies.iter().map(|body| body.block);
     let holds = component.grips.iter().map(|grip| {

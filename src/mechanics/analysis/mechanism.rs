@@ -1,13 +1,13 @@
 //! [`Analysis::elementary`]: replaces the collapse mechanism of each falling part by one elementary mechanism.
 //!
-//! The motion that proves a fall opens every contact where that is possible: it is the surest proof, but a sum of many
-//! mechanisms. A thin arch then shows eight hinges on seven bodies where four are enough. An elementary mechanism is an
-//! extreme ray of the cone of motions that no admissible force can object to; it proves the fall as well, if a little
-//! less clearly, and is the one that a textbook draws.
+//! The motion that proves a fall opens every contact that can open. This gives the strongest proof, but the motion is
+//! a sum of many mechanisms. A thin arch then shows eight hinges on seven bodies, although four are enough. An
+//! elementary mechanism is an extreme ray of the cone of motions that no admissible force can stop. It also proves
+//! the fall, with slightly less power, and it is the mechanism that textbooks draw.
 //!
-//! That motion lifts a block by μ for every metre that it slides: the price of a law of friction that makes equilibrium
-//! a linear program (the associated flow). A real block slides along its joint. So for drawing, where a motion exists
-//! that keeps hinges closed and goes along the joints that slip, it takes the place of the lifting one.
+//! In this motion a block that slides also rises, by μ metres for every metre. The reason is the associated flow
+//! rule, which makes equilibrium a linear program. A real block slides along its joint. For drawing, a motion that
+//! slides along the joints and keeps hinges closed therefore replaces the rising motion, if there is one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,33 +17,35 @@ use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::extreme_ray::{self, Row};
 
-/// A part of more blocks keeps the motion that proves its fall: one by one its contacts would take too long to close.
+/// A part with more blocks keeps the motion that proves its fall, because closing its contacts one by one would take
+/// too long.
 const MOST_BLOCKS: usize = 300;
-/// How far beyond the edge gravity is turned to find the mechanism there, degrees.
+/// How far gravity is rotated beyond the limit to find the mechanism there, degrees.
 const BEYOND: f64 = 0.05;
-/// A contact is closed, and does not slide, up to this share of the fastest speed.
+/// A contact counts as closed, or as not sliding, up to this fraction of the largest velocity.
 const CLOSED: f64 = 1e-5;
-/// A motion along the joints is drawn where it keeps at least this share of the lifting one.
+/// A motion along the joints is drawn if its norm is at least this fraction of the norm of the rising motion.
 const KEPT: f64 = 0.5;
 
-/// In which direction a frame is followed until it falls.
+/// The parameter that is changed until the frame falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Toward {
-    /// Gravity turns: degrees, positive where its tip moves to the right; loads do not turn.
+    /// The rotation of gravity in degrees, positive if its tip moves to the right; loads do not rotate.
     #[default]
     Tilt,
-    /// A share of each weight acts across gravity beside the weight itself, positive to the right.
+    /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; positive to the
+    /// right.
     HorizontalLoad,
-    /// The listed loads grow: the factor on them.
+    /// The factor on the listed loads.
     LoadFactor,
 }
 
 impl Analysis {
-    /// The same analysis with one elementary mechanism in place of each falling part's motion, as it is drawn: where a
-    /// block slides it goes along its joint. The proofs and all else are those of the motions found.
+    /// Returns a copy of the analysis in which one elementary mechanism replaces the motion of each falling part, for
+    /// drawing. Sliding blocks move along their joints if possible. The proofs and all other results are unchanged.
     ///
-    /// Units: velocities are per speed of the fastest point, as in [`FrameAnalysis::mechanism`].
+    /// Units: the fastest point has speed 1, as in [`FrameAnalysis::mechanism`].
     pub fn elementary(&self) -> Analysis {
         let mut analysis = self.clone();
         for (number, frame) in analysis.frames.iter_mut().enumerate() {
@@ -54,15 +56,16 @@ impl Analysis {
         analysis
     }
 
-    /// The tilt of gravity at which a frame (from 0) falls, and its mechanism. See [`Analysis::edge`].
+    /// Returns the tilt of gravity at which a frame (numbered from 0) falls, and its mechanism. See
+    /// [`Analysis::edge`].
     ///
-    /// Units: degrees. Signs: positive where gravity's tip moves to the right.
+    /// Units: degrees. Signs: positive if the tip of the gravity vector moves to the right.
     pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
         self.edge(frame, Toward::Tilt)
     }
 
-    /// The distance of a frame (from 0) from collapse, in the direction in which it is smaller, and the elementary
-    /// mechanism. `None` if margins were not computed or the frame does not fall in this direction.
+    /// Returns the limit of stability of a frame (numbered from 0) on the side on which it is nearer, and the
+    /// elementary mechanism there. `None` if margins were not computed or the frame does not fall in this direction.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -80,7 +83,7 @@ impl Analysis {
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
             Toward::LoadFactor => [side(&margins.load_factor, 1.0), None],
         };
-        // The nearer of the two sides.
+        // Take the nearer of the two sides.
         let (at, motions) = edges
             .into_iter()
             .flatten()
@@ -115,7 +118,8 @@ impl Analysis {
         self.mechanisms_of(&self.scene, found, &found.mechanism)
     }
 
-    /// One elementary mechanism for each part that falls by these motions under the loads of this scene.
+    /// Returns one elementary mechanism for each part that falls by the given motions under the loads of `scene`. The
+    /// fastest point of all parts has speed 1.
     fn mechanisms_of(
         &self,
         scene: &Scene,
@@ -144,7 +148,7 @@ impl Analysis {
     }
 }
 
-/// The motions of each connected part of a frame. Blocks at rest connect nothing.
+/// Splits motions into parts of moving blocks that contacts connect. Blocks at rest connect nothing.
 fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
     let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
@@ -177,14 +181,14 @@ fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     parts
 }
 
-/// A part that falls.
+/// A connected part of a frame that falls.
 struct Fall<'a> {
     scene: &'a Scene,
     found: &'a FrameAnalysis,
     motions: Vec<Motion>,
-    /// The place of each block among the motions.
+    /// The index of each block in `motions`.
     places: BTreeMap<BlockId, usize>,
-    /// L, by which turning is weighed against going, metres.
+    /// The length L in metres. A rotation enters as a speed at this distance.
     length: f64,
 }
 
@@ -219,15 +223,16 @@ impl<'a> Fall<'a> {
             .iter()
             .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
             .collect();
-        // From the proof's motion to an extreme ray of the cone: every step makes one more contact tight.
+        // Go from the proof's motion to an extreme ray of the cone. Every step closes one more contact.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
-        // If a motion along the slipping joints exists, it is drawn in place of the lifting one.
+        // If a motion along the slipping joints exists, it replaces the rising one.
         let sliding = self.along_joints(&y);
         let motions = self.motions_of(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)
     }
 
-    /// The velocity of a point of a body in a direction as a row of coefficients, multiplied by `sign`.
+    /// Returns the velocity of a point of a body in a direction, multiplied by `sign`, as a row of coefficients. The
+    /// row is empty for bodies at rest.
     fn speed(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
         let BodyId::Block(block) = body else {
             return Row::new();
@@ -243,15 +248,15 @@ impl<'a> Fall<'a> {
         ]
     }
 
-    /// The velocity at which the two bodies of an interface separate in a direction at a point.
+    /// Returns, as a row, the velocity at which the two bodies of an interface separate at a point, in a direction.
     fn parting(&self, bodies: [BodyId; 2], at: Point, along: Vector) -> Row {
         let mut row = self.speed(bodies[0], at, along, 1.0);
         row.extend(self.speed(bodies[1], at, along, -1.0));
         row
     }
 
-    /// The rows that must not be negative, because an admissible force would act against the motion otherwise. Robots hold
-    /// as in `start`.
+    /// Returns the rows that must not be negative: if one is negative, an admissible force can oppose the motion.
+    /// Robots at their limits yield in the directions of `start`.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.found.contacts {
@@ -261,12 +266,13 @@ impl<'a> Fall<'a> {
                 if opening.is_empty() {
                     continue;
                 }
-                // Without friction the contact only must not close.
+                // Without friction, only closing of the contact is excluded.
                 if interface.friction <= 0.0 {
                     rows.push(opening);
                     continue;
                 }
-                // With friction no edge of the friction cone may do work: two rows at each application point.
+                // With friction, no force on an edge of the friction cone may oppose the motion: two rows at each
+                // application point.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
@@ -289,7 +295,8 @@ impl<'a> Fall<'a> {
         rows
     }
 
-    /// The velocities of grips that robots resist (x, y and rotation), each with the largest force, or torque divided by L.
+    /// Returns, as rows, the velocities of grips that robots resist (x, y and rotation), each with the largest force,
+    /// or torque divided by L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
         for robot in &self.found.robots {
@@ -312,7 +319,8 @@ impl<'a> Fall<'a> {
         grips
     }
 
-    /// The power of the loads along a motion, less the power that robots at their limits absorb.
+    /// Returns, as a row, the power of the loads along a motion, less the power that robots absorb that yield in the
+    /// directions of `start`.
     fn power(&self, start: &[f64]) -> Row {
         let mut power = Row::new();
         for motion in &self.motions {
@@ -338,8 +346,9 @@ impl<'a> Fall<'a> {
         power
     }
 
-    /// The motion nearest to `y` that keeps every closed contact closed and slides along its joint; `None` if no such
-    /// motion is similar to `y`.
+    /// Returns the motion nearest to `y` that keeps every closed contact closed and slides along its joint. `None` if
+    /// nothing slides, if this motion differs too much from `y`, if the loads have no power along it, or if it closes
+    /// another contact.
     fn along_joints(&self, y: &[f64]) -> Option<Vec<f64>> {
         let value = |row: &Row, y: &[f64]| row.iter().map(|(k, v)| v * y[*k]).sum::<f64>();
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
@@ -381,7 +390,7 @@ impl<'a> Fall<'a> {
         (like && falls && clear).then_some(flat)
     }
 
-    /// The motions of the blocks that are not at rest.
+    /// Converts velocities to the motions of the blocks that are not at rest.
     fn motions_of(&self, y: &[f64]) -> Vec<Motion> {
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
         let motion = |(place, motion): (usize, &Motion)| {

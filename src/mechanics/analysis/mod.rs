@@ -1,8 +1,8 @@
 //! [`Analysis`]: a scene with the results of all its frames.
 //!
-//! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
-//! this and nothing deeper. Components of a frame's assembly, which cannot influence each other, are solved apart, and a
-//! component that has been solved in an earlier frame is not solved again; `decide` decides one component, and `analyse`
+//! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Figures and reports use
+//! only these types. Components of a frame's assembly cannot influence each other and are solved separately. A
+//! component that was solved in an earlier frame is not solved again. `decide` decides one component, and `analyse`
 //! combines them.
 
 mod analyse;
@@ -56,9 +56,9 @@ pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
 pub enum Verdict {
     /// Admissible forces balance every block, and the proof shows them.
     Stable,
-    /// Neither proof convinces.
+    /// Neither proof is strong enough.
     Undecided,
-    /// No admissible forces do, and the proof shows a mechanism along which the loads do work.
+    /// No admissible forces balance every block; the proof is a mechanism along which the loads do positive work.
     Unstable,
 }
 
@@ -80,57 +80,59 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A scene and what was found out about each of its frames.
+/// A scene with the results of each of its frames.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The scene examined.
+    /// The analysed scene.
     pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
-    /// What is allowed and seldom meant: the scene's notes, and gaps that are nearly contacts.
+    /// Notes about things that are allowed but seldom intended: those of the scene, and gaps that are nearly
+    /// contacts.
     pub notes: Vec<Note>,
 }
 
-/// What was found out about one frame.
+/// The results of one frame.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct FrameAnalysis {
     /// Whether it stands.
     pub verdict: Verdict,
-    /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] says it in a sentence.
+    /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] describes it in a sentence.
     pub doubts: Vec<UndecidedReason>,
-    /// L in metres, by which torques are weighed against forces: the median length of the frame's edge interfaces, or the
-    /// median block's square root of area where nothing touches.
+    /// The length L in metres by which torques are divided to compare them with forces: the median length of the
+    /// frame's edge interfaces, or the median of the square roots of the blocks' areas if nothing touches.
     pub length: f64,
-    /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the source's cost.
+    /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the sum that the forces minimise.
     pub total_force: f64,
-    /// Where it stands: the sum that admissible forces must have at least to balance, N, as far as a motion shows it
+    /// If the frame stands: a lower bound of this sum for all balancing forces, N, proved by a motion
     /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)).
     pub force_bound: Option<f64>,
-    /// Whether the total force is no more than a millionth above that; where not, the forces balance, and a smaller sum may
-    /// balance too.
+    /// Whether the total force exceeds this bound by at most a millionth. If not, forces with a smaller sum may
+    /// balance, too.
     pub least_force: bool,
-    /// The same sum over the sticking forces, N.
+    /// The sum of all failures, N; torques are divided by L.
     pub total_sticking: f64,
     /// Sum of the placed blocks' weights, N.
     pub weight: f64,
     /// Forces at every interface between placed bodies.
     pub contacts: Vec<Contact>,
-    /// What each holding robot gives.
+    /// The force and torque of each robot that holds a block.
     pub robots: Vec<RobotForce>,
-    /// What would have to stick for the frame to stand. Empty where it stands.
+    /// The adhesion and the robot forces that are missing for the frame to stand. Empty if it stands.
     pub failures: Vec<Failure>,
-    /// Blocks that no sticking could save: they reach neither ground nor a robot, or nothing there could take a moment.
+    /// Blocks that no adhesion at the application points could hold: they are connected to neither ground nor a
+    /// robot, or no connection can take their moment.
     pub unsupported: Vec<BlockId>,
-    /// How the blocks move where the frame falls, the fastest point with speed 1.
+    /// How the blocks move if the frame falls; the fastest point has speed 1.
     pub mechanism: Vec<Motion>,
-    /// How far it is from the edge of standing, where that was asked for.
+    /// How far the frame is from its limit of stability, if requested.
     pub margins: Option<Margins>,
-    /// Whether it stands only by a self-stress that its loads do not build up from rest, where that was asked for, it
-    /// stands, and an answer was found.
+    /// Whether the frame stands only by a self-stress that its loads do not cause from rest. `None` if not requested,
+    /// if the frame does not stand, or if no answer was found.
     pub only_by_wedging: Option<bool>,
-    /// What shows that it stands only by a self-stress, where it does.
+    /// The proof that the frame stands only by a self-stress, if it does.
     pub wedged: Option<Wedged>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
@@ -138,7 +140,7 @@ pub struct FrameAnalysis {
     pub proof: Proof,
     /// How it was solved.
     pub solve: SolveReport,
-    /// Things a reader should know that are no errors, such as contacts too short to count.
+    /// Remarks that are not errors, such as contacts too short to count.
     pub notices: Vec<String>,
 }
 
@@ -192,7 +194,7 @@ impl From<&Scene> for Arc<Scene> {
     }
 }
 
-/// An analysis may be handed to another thread, and read by several.
+/// An analysis can be sent to another thread and read by several threads.
 const _: () = {
     const fn shared<T: Send + Sync + 'static>() {}
     shared::<Analysis>();

@@ -1,6 +1,7 @@
 //! [`Options`]: the accuracy of an analysis, and the results that are computed in addition to the verdict.
 //!
-//! A level changes what an answer costs and how well it must be proved, never what it may say without a proof.
+//! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
+//! proof.
 
 use std::time::Instant;
 
@@ -8,36 +9,36 @@ use super::margin::MarginKinds;
 use crate::proof::ProofThreshold;
 use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
-/// How an analysis is made.
+/// The options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// How accurate it is.
+    /// The accuracy that a proof needs.
     pub accuracy: Accuracy,
-    /// A tolerance for the solver in place of the level's own, to measure what it costs.
+    /// A solver tolerance that replaces that of the accuracy, to measure its cost.
     pub tolerance: Option<f64>,
-    /// How far each frame is from the edge of standing.
+    /// Whether to compute how far each frame is from its limit of stability.
     pub margins: bool,
-    /// Which margins, where they are asked for; by default all.
+    /// The margins to compute, if margins are requested; by default all.
     pub margin_kinds: MarginKinds,
-    /// Whether each standing frame stands only by wedging.
+    /// Whether to check if a stable frame stands only by wedging.
     pub wedging: bool,
-    /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
-    /// stands, the forces are some that balance. Each is stated in the result.
+    /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
+    /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
-    /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
-    /// the same answer every time.
+    /// The time at which the analysis stops. Components that are not decided by then are `Undecided`, and the reason
+    /// names the deadline. Without a deadline the same scene gives the same results every time.
     pub deadline: Option<Instant>,
 }
 
-/// What an answer may cost, and how well it must be proved.
+/// How strong the proof of a verdict must be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Accuracy {
-    /// The unique forces; a verdict is believed as [`ProofThreshold::STANDARD`] says.
+    /// A proof must meet [`ProofThreshold::STANDARD`].
     #[default]
     Standard,
-    /// The unique forces; a verdict without a proof as [`ProofThreshold::STRICT`] wants it is `Undecided`.
+    /// A proof must meet [`ProofThreshold::STRICT`]; otherwise the verdict is `Undecided`.
     Proved,
 }
 
@@ -53,19 +54,19 @@ impl Accuracy {
 
 impl Options {
     setters! {
-        accuracy: Accuracy, "How accurate it is.";
-        margins: bool, "How far each frame is from the edge of standing.";
-        margin_kinds: MarginKinds, "Which margins, where they are asked for.";
-        wedging: bool, "Whether each standing frame stands only by wedging.";
-        verdict_only: bool, "The verdict with its proof, and no program beyond what decides.";
+        accuracy: Accuracy, "The accuracy that a proof needs.";
+        margins: bool, "Whether to compute how far each frame is from its limit of stability.";
+        margin_kinds: MarginKinds, "The margins to compute, if margins are requested.";
+        wedging: bool, "Whether to check if a stable frame stands only by wedging.";
+        verdict_only: bool, "Whether to compute only the verdict and its proof.";
     }
 
     optional_setters! {
-        tolerance: f64, "A tolerance for the solver in place of the level's own, to measure what it costs.";
-        deadline: Instant, "When to give up.";
+        tolerance: f64, "A solver tolerance that replaces that of the accuracy, to measure its cost.";
+        deadline: Instant, "The time at which the analysis stops.";
     }
 
-    /// Nothing but the verdict, its proof and what belongs to it.
+    /// The verdict with its proof, forces and failures, and nothing else.
     pub(super) const PLAIN: Options = Options {
         accuracy: Accuracy::Standard,
         tolerance: None,

@@ -1,21 +1,21 @@
 //! [`pair`]: joins two frames of two scenes into one scene with two frames, to compare them.
 //!
-//! A block of one name, outline, weight and loads in both is one block. One that differs in any of these is two: the
-//! former is gone in the second frame, the latter new.
+//! Two blocks with the same name, outline, weight and loads become one block. If any of these differs, both blocks
+//! are kept: the first is missing in the second frame, and the second is new there.
 
 use super::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::geometry::Polygon;
 use crate::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
 
-/// Outlines whose corners are nearer than this share of their size are one.
+/// Numbers that differ by at most this fraction are equal. For corners, the fraction is relative to the size of the
+/// outline.
 const ALIKE: f64 = 1e-9;
 
-/// A scene with two frames, `before` and `after` (each an analysis and the number of a frame, from 0), and their results.
-/// `titles` are the titles of the frames. The second title also lists other differences of the scenes: gravity, kernel,
-/// friction, thickness, corner contacts.
+/// Returns a scene with two frames, `before` and `after` (each an analysis and the number of a frame, from 0), and
+/// their results. `titles` are the titles of the frames. The second title also lists other differences of the scenes:
+/// kernel, friction, corner contacts.
 ///
-/// # Errors
-/// In words, why the two cannot stand in one scene: another ground, or another direction of gravity.
+/// # Errors Returns a sentence if the scenes have different ground or different directions of gravity.
 pub fn pair(
     before: (&Analysis, usize),
     after: (&Analysis, usize),
@@ -39,7 +39,7 @@ pub fn pair(
         ..*load
     });
     scene.loads.extend(more);
-    // The two frames, with what else differs in the title of the second.
+    // Take the two frames. The title of the second lists the other differences.
     let [title, later] = titles;
     let differences = differences(first, second);
     let mut frames = vec![
@@ -59,7 +59,7 @@ pub fn pair(
     Ok((scene, found))
 }
 
-/// Refuses two scenes with different ground or another direction of gravity.
+/// Returns an error if two scenes have different ground or different directions of gravity.
 fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
     if (first.down() - second.down()).norm() > ALIKE {
         return Err("gravity points another way in the second; turn one of the two".into());
@@ -75,7 +75,8 @@ fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String>
     Ok(())
 }
 
-/// Adds the blocks of the second scene that differ from those of the first; returns the place of each in the common scene.
+/// Adds the blocks of the second scene that differ from those of the first. Returns the number of each block of the
+/// second scene in the common scene.
 fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> {
     let mut places = Vec::new();
     for (number, block) in second.blocks.iter().enumerate() {
@@ -92,7 +93,8 @@ fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> 
     places
 }
 
-/// Adds the robots of the second scene with names that the first has not; returns the place of each in the common scene.
+/// Adds the robots of the second scene whose names the first does not contain; returns the number of each robot of
+/// the second scene in the common scene.
 fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     let first = scene.robots.len();
     let mut places = Vec::new();
@@ -108,7 +110,7 @@ fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     places
 }
 
-/// The differences of two scenes in words, except those of blocks, loads and robots.
+/// Describes the differences of two scenes in words, except those of blocks, loads and robots.
 fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     let mut words = Vec::new();
     let mut compare = |what: &str, a: f64, b: f64| {
@@ -160,14 +162,14 @@ fn same(a: &Block, b: &Block) -> bool {
         && (a.weight - b.weight).abs() <= ALIKE * a.weight.max(b.weight)
 }
 
-/// The loads on a block as numbers.
+/// Returns the loads on a block: force x and y (N), point x and y (m), torque (N·m).
 fn loads(scene: &Scene, block: BlockId) -> Vec<[f64; 5]> {
     let own = scene.loads.iter().filter(|l| l.block == block);
     own.map(|l| [l.force.x, l.force.y, l.at.x, l.at.y, l.torque])
         .collect()
 }
 
-/// Where the blocks and robots of the second scene are in the common one.
+/// The numbers of the second scene's blocks and robots in the common scene.
 struct Moved {
     blocks: Vec<BlockId>,
     robots: Vec<RobotId>,

@@ -1,8 +1,9 @@
 //! [`Analysis::thrust_states`]: how far the forces of a frame that stands may vary.
 //!
-//! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest value: two
-//! linear programs on the constraints of the verdict. The most central forces stay within the largest safety kernel. The
-//! other forces of an analysis are those of least sum, which in an arch is near the state of least thrust.
+//! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest
+//! value: two linear programs on the constraints of the verdict. The most central forces stay within the largest
+//! safety kernel. The forces of the analysis itself are those of least sum. In an arch they are near the state of
+//! least thrust.
 
 use std::collections::BTreeSet;
 
@@ -17,15 +18,17 @@ use crate::resultant::{friction_used, from_corner_forces};
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
 
-/// Frames of more blocks have no family: its programs would take longer than the verdict.
+/// For frames with more blocks no thrust states are computed, because their programs would take longer than the
+/// verdict.
 const MAX_BLOCKS: usize = 200;
-/// A frame whose least thrust is at most this share of its weight needs none to stand.
+/// A frame whose least thrust is at most this fraction of its weight counts as standing without thrust.
 const NO_THRUST: f64 = 1e-3;
-/// Among forces of one thrust those of less sum are sought, at this price.
+/// The weight of the sum of forces in the objective. It selects the least sum among forces with the same thrust.
 const PRICE_OF_FORCE: f64 = 1e-6;
-/// Forces of a state balance every block up to this share of its load.
+/// The largest imbalance of a block that is accepted for the forces of a state, as defined in [`proof::imbalances`].
 const BALANCED: f64 = 1e-6;
-/// The most central forces are sought this share within the largest kernel, where they are not yet at their limit.
+/// The most central forces are computed for the largest kernel, reduced by this fraction. At the largest kernel
+/// itself the frame is exactly at its limit of stability.
 const WITHIN_KERNEL: f64 = 1e-4;
 
 /// Forces that balance a frame.
@@ -34,11 +37,11 @@ const WITHIN_KERNEL: f64 = 1e-4;
 pub struct ThrustState {
     /// The frame with these forces; its verdict and margins are those of the analysis.
     pub frame: FrameAnalysis,
-    /// Its horizontal thrust, N: half the sum of the horizontal forces of both supports inward.
+    /// Its horizontal thrust, N: half the sum of the inward horizontal forces of both supports.
     pub thrust: f64,
 }
 
-/// The states between which the forces of a frame may vary. Each is `None` where it was not found.
+/// The states between which the forces of a frame may vary. Each is `None` if it was not found.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct ThrustStates {
@@ -46,16 +49,17 @@ pub struct ThrustStates {
     pub least: Option<ThrustState>,
     /// The greatest horizontal thrust.
     pub greatest: Option<ThrustState>,
-    /// The largest distance from the edges of all joints: the state at the largest safety kernel. It needs the margin of
-    /// the kernel.
+    /// The state at the largest safety kernel, with the largest distance of the forces from the edges of all joints.
+    /// It requires that the margin of the kernel was computed.
     pub central: Option<ThrustState>,
     /// The horizontal thrust of the forces of the analysis, N.
     pub present: f64,
 }
 
 impl Analysis {
-    /// The states of least and greatest horizontal thrust and the most central state of a frame, counted from 0. Nothing for
-    /// a frame that does not stand, stands without thrust, rests on the ground with other than two blocks, or has more than 200.
+    /// Returns the states of least and greatest horizontal thrust and the most central state of a frame, numbered
+    /// from 0. They are empty if the frame does not stand, stands without thrust, has more than 200 blocks, or does
+    /// not rest on the ground with exactly two blocks.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
@@ -80,7 +84,7 @@ impl Analysis {
         }
     }
 
-    /// The state of least thrust for a sign of 1, of greatest thrust for −1.
+    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` without a proof.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &*self.scene;
         let frame = &scene.frames[number];
@@ -103,7 +107,7 @@ impl Analysis {
         })
     }
 
-    /// The forces at the largest kernel, where its margin is known.
+    /// Computes the state at the largest kernel; `None` if its margin is unknown or the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
@@ -121,7 +125,8 @@ impl Analysis {
     }
 }
 
-/// Half the sum of the horizontal forces of all supports inward, N: those left of the middle push to the right.
+/// Returns half the sum of the inward horizontal forces of all supports, N. Left of the middle, inward means to the
+/// right.
 fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     let across = quarter_turn(scene.down());
     let supports = supports(contacts);
@@ -140,7 +145,7 @@ fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     0.5 * pushes.sum::<f64>()
 }
 
-/// The contacts with the ground, each with its block.
+/// Returns the contacts with the ground, each with its block.
 fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
     let support = |contact: &'_ Contact| match contact.interface.bodies {
         [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => {
@@ -154,13 +159,14 @@ fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
         .collect()
 }
 
-/// Half-way between the outermost places.
+/// Returns the middle between the outermost places.
 fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let least = places.clone().fold(f64::INFINITY, f64::min);
     0.5 * (least + places.fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// The forces of a component of least (sign 1) or greatest (−1) thrust inward at its supports; `None` without a proof.
+/// Returns the forces of a component with the least (`sign` 1) or greatest (−1) inward thrust at its supports; `None`
+/// without a proof.
 fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forces> {
     let across = quarter_turn(scene.down());
     let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);
@@ -228,7 +234,7 @@ fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> For
     }
 }
 
-/// Enters the forces of a component into a frame.
+/// Writes the forces of a component and their resultants into a frame.
 fn enter(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
     for (at, pressed) in component.contacts.iter().zip(&forces.contacts) {
         let contact = &mut state.contacts[at.interface];

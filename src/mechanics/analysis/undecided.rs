@@ -5,20 +5,20 @@ use std::fmt;
 use super::{FrameAnalysis, Verdict};
 use crate::proof::Proof;
 
-/// One reason why a frame is undecided; its `Display` is the sentence for people.
+/// One reason why a frame is undecided; its `Display` describes it in a sentence.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum UndecidedReason {
-    /// [`Options::deadline`](super::Options::deadline) came before it was decided.
+    /// [`Options::deadline`](super::Options::deadline) passed before the frame was decided.
     Late,
     /// For some of its blocks neither forces nor a motion are proved.
     Unproved {
         /// The best forces that were found, and how far off they are.
         forces: Proof,
-        /// The best motion that was found, where there was one.
+        /// The best motion that was found, if any.
         motion: Option<Proof>,
     },
-    /// The verdict hinges on narrow gaps or overlaps.
+    /// The verdict depends on narrow gaps or overlaps.
     Gaps {
         /// The verdict with the gaps open, as they are written.
         open: Verdict,
@@ -29,11 +29,11 @@ pub enum UndecidedReason {
         /// Where they are, and what to do, in words.
         words: String,
     },
-    /// It stands where contacts of next to no length carry force, and falls where they do not.
+    /// The frame stands if very short contacts carry force, and falls if they do not.
     Slivers {
-        /// The contact tolerance that counts all of them, metres.
+        /// The contact tolerance with which all of them count as contacts, metres.
         counting: f64,
-        /// The contact tolerance that counts none of them, metres.
+        /// The contact tolerance with which none of them counts as a contact, metres.
         ignoring: f64,
         /// Where they are, and what to do, in words.
         words: String,
@@ -75,7 +75,7 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
-    /// The reason as a sentence with the numbers of both proofs; empty for a frame that is decided.
+    /// Returns the reasons in words, with the numbers of both proofs; empty for a frame that is decided.
     pub fn doubt(&self) -> String {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {

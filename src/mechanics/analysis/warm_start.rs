@@ -1,9 +1,10 @@
 //! Route 0: finds the verdict of a frame from the active set of the previous frame.
 //!
-//! The nonnegative least squares of the balance ([`BoundedNnls`]) has residual 0, and then its solution balances the frame; or its
-//! residual is a motion by which the frame falls. The active set of one frame is the start for the next, so a step that changes
-//! little costs little. Forces and motion are proved as always. Without a proof the frame is analysed as [`Analysis`](super::Analysis)
-//! does, so a warm start saves time and cannot change a verdict.
+//! The balance is a nonnegative least-squares problem ([`BoundedNnls`]). If its residual is 0, its solution balances
+//! the frame. Otherwise the residual is a motion by which the frame falls. The active set of one frame is the start
+//! for the next, so a small change costs little time. Forces and motion are proved like all others. Without a proof
+//! the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves time, but cannot change a
+//! verdict.
 
 use super::analyse::{Known, analyse_frame};
 use super::decide::Candidate;
@@ -15,15 +16,15 @@ use crate::program::{Column, Force, Program, Scale};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
 use crate::solve::{Amounts, BoundedNnls, generators};
 
-/// New bodies in one step beyond which a conic solver is faster than an active set.
+/// Without an active set to start from, a conic solver is faster than an active-set method for more bodies than this.
 const MAX_NEW_BODIES: usize = 40;
-/// Bodies in all beyond which a conic solver is faster.
+/// With an active set to start from, a conic solver is faster for more bodies than this.
 const MAX_BODIES: usize = 500;
 
 /// Units are chosen again if lengths or loads become this many times larger or smaller.
 const MAX_SCALE_RATIO: f64 = 100.0;
 
-/// The verdict of each frame, as in [`Analysis::with`], without any other results.
+/// Returns the verdict of each frame, as in [`Analysis::with`], without any other results.
 ///
 /// ```
 /// use drystone::{Scene, analysis::{Options, Verdict, verdicts}};
@@ -52,34 +53,36 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// Whether narrow gaps, overlaps or very short contacts may decide, so that every frame must be analysed both ways.
+/// Whether verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed
+/// with and without them.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
     let none =
         found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
     scene.healed.source != ToleranceSource::Given && !none
 }
 
-/// What a verdict came from.
+/// How a verdict was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Source {
-    /// The forces or the motion that were known, with what the change called for.
+    /// From the active set of the previous frame, updated for the changes.
     WarmStart,
-    /// An analysis from scratch.
+    /// By a complete analysis.
     Examined,
 }
 
-/// What is known from one frame to the next.
+/// The state that one frame passes to the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WarmStart {
     nearest: BoundedNnls,
-    /// The columns that the used set counts, and where each contact's and each grip's own begin.
+    /// The columns to which the active set refers, and the first column of each contact and grip.
     columns: Vec<Column>,
     begins: Vec<(usize, Origin)>,
     scale: Option<Scale>,
 }
 
-/// What a column comes from, the same in every frame: two bodies and one end of their stretch, or a robot's grip.
+/// Identifies the contact or grip of a column in every frame: two bodies and one end of their interface, or a robot,
+/// its block and the grip point. Coordinates are compared by their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Origin {
     Contact([BodyId; 2], [u64; 2]),
@@ -87,7 +90,7 @@ enum Origin {
 }
 
 impl WarmStart {
-    /// The verdict of a frame, and its source.
+    /// Returns the verdict of a frame, and how it was found.
     pub(crate) fn verdict(
         &mut self,
         scene: &Scene,
@@ -111,7 +114,7 @@ impl WarmStart {
         (verdict, Source::Examined)
     }
 
-    /// The verdict on an assembly, if the warm start leads to one.
+    /// Returns the verdict on an assembly, if the warm start proves one.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         // Without a set to start from every body is new.
         let most = match self.columns.is_empty() {
@@ -122,12 +125,12 @@ impl WarmStart {
             *self = WarmStart::default();
             return None;
         }
-        // The balance in pure numbers, in the scale of the earlier frames.
+        // Pose the balance in numbers without units, in the scale of the earlier frames.
         let scale = self.scale(assembly);
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        // Forces with the least residual: 0 where the frame stands, else a motion.
+        // Find the forces with the least residual. It is 0 if the frame stands; otherwise it is a motion.
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
@@ -136,7 +139,8 @@ impl WarmStart {
         Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
     }
 
-    /// The scale of the warm start. If it is too different, a new scale without a warm start.
+    /// Returns the scale of the warm start. If it does not suit the assembly, discards the warm start and returns the
+    /// assembly's own scale.
     fn scale(&mut self, assembly: &Assembly) -> Scale {
         let own = Scale::from_assembly(assembly);
         let near = |a: f64, b: f64| a <= MAX_SCALE_RATIO * b && b <= MAX_SCALE_RATIO * a;
@@ -160,7 +164,7 @@ impl WarmStart {
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.nearest.renumber(|k| {
-            // The contact or grip of the old column, then the column with the same place within it.
+            // Find the contact or grip of the old column, then the new column at the same place in it.
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);
             let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
             let place = new.binary_search_by(|(other, _)| other.cmp(origin)).ok()?;
@@ -173,7 +177,7 @@ impl WarmStart {
     }
 }
 
-/// The first column of each contact and grip.
+/// Returns the number of the first column of each contact and grip, in the order of the columns.
 fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
     let bits = |p: crate::geometry::Point| [p.x.to_bits(), p.y.to_bits()];
     let mut begins: Vec<(usize, Origin)> = Vec::new();

@@ -8,37 +8,39 @@ use crate::solve::{self, SelfStress, Slide};
 
 /// The self-stress without which a frame does not stand.
 ///
-/// No springs that start without stress come to rest under the loads: as they give way, the blocks move along `gives_way`,
-/// which opens the faces `interfaces` or slides them. In any balance these have to press with `at_least` newtons in all, as `bound`
-/// shows: along it no other face takes work, they take at most 1 W for each newton of their normal forces, and the loads
-/// give `at_least` watts.
+/// If all contacts are springs without initial stress, they do not come to rest under the loads: the blocks move
+/// along `gives_way`, and the faces `interfaces` open or slide. In every balance the normal forces on these faces sum
+/// to at least `at_least` newtons. The motion in `at_least` proves this. Along it no other face absorbs power, these
+/// faces absorb at most 1 W for each newton of their normal forces, and the loads have a power of `at_least` watts.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wedged {
     /// The faces, as numbers of the frame's contacts.
     pub interfaces: Vec<usize>,
-    /// The least sum of their normal forces, N, where it was found, and the motion that shows it.
+    /// A lower bound of the sum of their normal forces, N, and the motion that proves it; `None` if none was found.
     pub at_least: Option<(f64, Vec<Motion>)>,
-    /// How blocks move as springs give way; the fastest moves with about 1.
+    /// The motion of the blocks if contacts are springs; the fastest block has a speed of about 1.
     pub gives_way: Vec<Motion>,
-    /// Whether that presses no face at all.
+    /// Whether this motion compresses no face.
     pub presses_nothing: bool,
-    /// Ways of pressing and sliding that springs at rest cannot have; whatever springs do is one of them.
+    /// The states of pressing and sliding that springs at rest cannot have. Together they cover all possible states.
     pub ruled_out: Vec<RuledOut>,
 }
 
-/// A way in which points press and faces slide that springs at rest cannot have, whatever those do of which it says nothing.
+/// A state of pressing points and sliding faces that springs at rest cannot have, whatever the state of points and
+/// faces that it does not list.
 ///
-/// At a point that presses N = −g with g its opening, at one that does not N = 0 and g ≥ 0; a face that sticks has T = −s with
-/// s its slip along (−n_y, n_x), |T| ≤ μ(N₁ + N₂), and one that slides T = ∓μ(N₁ + N₂) and ±s ≥ μ(N₁ + N₂). Of the others N ≥ 0,
-/// N ≥ −g and |T| ≤ μ(N₁ + N₂) hold all the same. Springs have unit stiffness. Together with the balance, and where no robot
-/// holds a block with the condition that the work of the loads is not negative, this has no solution.
+/// At a point that presses, N = −g, where g is its opening. At a point that does not press, N = 0 and g ≥ 0. A face
+/// that sticks has T = −s, where s is its slip along (−n_y, n_x), and |T| ≤ μ(N₁ + N₂). A face that slides has T =
+/// ∓μ(N₁ + N₂) and ±s ≥ μ(N₁ + N₂). At points and faces that are not listed, N ≥ 0, N ≥ −g and |T| ≤ μ(N₁ + N₂) hold
+/// in every state. Springs have unit stiffness. If no robot holds a block, the work of the loads is not negative.
+/// Together with the balance, these conditions have no solution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RuledOut {
-    /// The application points of which it says whether they press.
+    /// The application points whose state is given.
     pub points: Vec<PointCase>,
-    /// The faces with friction of which it says how they slide.
+    /// The faces with friction whose state is given.
     pub faces: Vec<FaceCase>,
 }
 
@@ -91,7 +93,7 @@ impl Wedged {
     }
 }
 
-/// A case with the numbers of the contacts in the frame.
+/// Converts a case of the solver to the contact numbers of the frame.
 fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();

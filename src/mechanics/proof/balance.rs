@@ -97,7 +97,7 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, torque / self.radius]);
     }
 
-    /// The unbalanced force and moment over radius, N.
+    /// Returns the unbalanced force and moment over radius, N.
     fn residual(&self) -> Vec3 {
         let [x, y, moment] = self.residual.map(CompensatedSum::value);
         [x, y, moment / self.radius]
@@ -124,7 +124,8 @@ impl BodyForces {
         self.generators.push([0.0, turned, 0.0]);
     }
 
-    /// The smallest τ to which the body balances. Requires [`Self::add_common_generators`].
+    /// Returns the smallest τ to which the body balances; values up to [`GOOD_ENOUGH`] are upper bounds. Requires
+    /// [`Self::add_common_generators`].
     fn imbalance(&self) -> f64 {
         let residual = self.residual();
         if residual == [0.0; 3] {
@@ -137,8 +138,8 @@ impl BodyForces {
     }
 }
 
-/// The imbalance τ of each body, in the order of the bodies; infinite if no change of the forces makes the body
-/// balance.
+/// Returns the imbalance τ of each body, in the order of the bodies; infinite if no change of the forces makes the
+/// body balance.
 ///
 /// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
@@ -147,7 +148,7 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
     all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// The largest imbalance τ of all bodies, and the largest residual of a body relative to its load.
+/// Returns the largest imbalance τ of all bodies, and the largest residual of a body relative to its load.
 ///
 /// τ is computed in the order of upper bounds, and only for bodies whose upper bound exceeds the largest τ found so
 /// far.
@@ -181,7 +182,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     (imbalance, share)
 }
 
-/// The forces on each body: its loads, and the forces at its contacts and grips.
+/// Collects the forces on each body: its loads, and the forces at its contacts and grips.
 fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     let bodies = assembly.bodies.iter();
     let mut acting: Vec<BodyForces> = bodies
@@ -189,7 +190,8 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
         .collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
-        // The two normal forces at their points. The friction force acts along the interface, so any of its points will do.
+        // Two normal forces at their points, and the friction force. It acts along the interface, so any point of the
+        // interface is a valid point of application.
         let pushes = [
             (contact.points[0], contact.normal * first),
             (contact.points[1], contact.normal * second),

@@ -9,7 +9,8 @@ use super::{Forces, Motion, NON_BINDING, ROUNDING, moving_load, power_of_loads, 
 use crate::assembly::Assembly;
 
 impl Forces {
-    /// The sum of all forces in newtons, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L); `length` is L in metres.
+    /// Returns the sum of all forces in newtons, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L); `length` is L in
+    /// metres.
     pub fn sum(&self, length: f64) -> f64 {
         let contacts = self.contacts.iter();
         let contacts = contacts.map(|c| c.normal[0] + c.normal[1] + c.friction.abs());
@@ -19,12 +20,12 @@ impl Forces {
     }
 }
 
-/// A lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
+/// Returns a lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
 /// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
 /// if the motion proves nothing. Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // A limit above this counts as none.
+    // A limit above this counts as no limit.
     let binding = NON_BINDING * moving_load(assembly, motions);
     // `worst` is δ. Grips without a binding limit increase it; the others are subtracted from the power.
     let mut worst = worst_violation(assembly, motions).max(1.0);

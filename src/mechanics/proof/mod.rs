@@ -49,9 +49,9 @@ pub enum Proof {
         /// A lower bound, rounding included, of the power of the loads minus the power that robots can resist. It is
         /// relative to [`moving_load`], the loads of the moving bodies weighted by their speeds.
         power: f64,
-        /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts per
-        /// newton of N + |T|: at a contact that closes or slides within its friction cone, or at a grip that is torn
-        /// off.
+        /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts
+        /// per newton of N + |T|: at a contact that closes or slides within its friction cone, or at an unlimited
+        /// grip that moves.
         worst_violation: f64,
     },
 }
@@ -94,7 +94,8 @@ impl Proof {
         }
     }
 
-    /// The sum of forces Σ(N + |T|), relative to the moving loads, below which a motion rules out every balance.
+    /// Returns the sum of forces Σ(N + |T|), relative to the moving loads, below which a motion rules out every
+    /// balance.
     ///
     /// It equals power / violation, and includes the forces of robots without limits. It is infinite if nothing is
     /// violated: then no forces balance, however large. It is 0 for a proof by forces.
@@ -160,7 +161,7 @@ pub struct GripForces {
 }
 
 impl Forces {
-    /// Zero forces at all contacts and grips of an assembly.
+    /// Returns zero forces at all contacts and grips of an assembly.
     pub fn none(assembly: &Assembly) -> Forces {
         let held = GripForces {
             force: Vector::zeros(),
@@ -186,30 +187,30 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Velocity of a point that moves with the block.
+    /// Returns the velocity of a point that moves with the block.
     pub fn at(&self, scene: &Scene, point: Point) -> Vector {
         self.about(scene.blocks[self.block.0].centroid, point)
     }
 
-    /// Speed of the block's fastest corner.
+    /// Returns the speed of the block's fastest corner.
     pub fn fastest(&self, scene: &Scene) -> f64 {
         let block = &scene.blocks[self.block.0];
         self.fastest_of(block.centroid, block.body.polygon.outline())
     }
 
-    /// Velocity of a point of a body with the given centroid.
+    /// Returns the velocity of a point of a body with the given centroid.
     pub fn about(&self, centroid: Point, point: Point) -> Vector {
         self.velocity + quarter_turn(point - centroid) * self.spin
     }
 
-    /// The largest speed of some points of a body with the given centroid.
+    /// Returns the largest speed of the given points of a body with the given centroid.
     pub fn fastest_of(&self, centroid: Point, points: &[Point]) -> f64 {
         let speeds = points.iter().map(|p| self.about(centroid, *p).norm());
         speeds.fold(0.0, f64::max)
     }
 
-    /// For each component of a point's velocity, the sum of the absolute values of its terms. The rounding error is a
-    /// fraction of this sum.
+    /// Returns, for each component of a point's velocity, the sum of the absolute values of its terms. The rounding
+    /// error is a fraction of this sum.
     ///
     /// The components are summed separately, so that the rounding of a horizontal motion does not count as a vertical
     /// one.
@@ -218,7 +219,7 @@ impl Motion {
     }
 }
 
-/// The speed of the fastest corner of a body.
+/// Returns the speed of the fastest corner of a body.
 pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
@@ -269,7 +270,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     }
 }
 
-/// The loads of the moving bodies, N: the sum of [`gross_load`] of each body, weighted by its speed.
+/// Returns the loads of the moving bodies, N: the sum of [`gross_load`] of each body, weighted by its speed.
 ///
 /// The speed of a body is that of its fastest point, relative to the fastest point of all bodies.
 pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
@@ -286,7 +287,7 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
     }
 }
 
-/// The sum of the amounts of a body's weight, listed force and listed moment over its radius, N.
+/// Returns the sum of the magnitudes of a body's weight, listed force and listed moment over its radius, N.
 ///
 /// Loads in opposite directions do not cancel in this sum.
 pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
@@ -298,8 +299,8 @@ pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
 /// A bound of the relative rounding error of a sum of a few products.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if every contact
-/// opens.
+/// Returns the largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if
+/// every contact opens.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // The velocity of a point, and the sum of its absolute terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
@@ -333,7 +334,7 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     violation
 }
 
-/// The power of the loads along a motion, and the sum of the amounts of its terms.
+/// Returns the power of the loads along a motion, and the sum of the absolute values of its terms.
 fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     let (mut power, mut summed) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
@@ -354,7 +355,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         .zip(motions)
         .map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
-    // Without motion or loads there is nothing to prove: power 0 convinces nobody.
+    // Without motion or loads there is nothing to prove: a power of 0 meets no threshold.
     if fastest == 0.0 || load == 0.0 {
         return Proof::Mechanism {
             power: 0.0,

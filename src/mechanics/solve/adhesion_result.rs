@@ -9,7 +9,7 @@ pub struct LeastAdhesion {
     pub balanced: Option<bool>,
     /// The admissible forces (pressure and friction within its limit) of that balance.
     pub forces: Amounts,
-    /// The sticking forces (pulls, and friction beyond its limit) of that balance.
+    /// The adhesion (tension, and friction beyond its limit) of that balance.
     pub adhesion: Amounts,
     /// A motion along which the loads do work and the contacts do none: three velocities for each block.
     pub motion: Option<Vec<f64>>,

@@ -5,10 +5,11 @@ use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Force, Program};
 
-/// Amounts of the forces of a program, pure numbers.
+/// Amounts of the forces of a program, in program units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amounts {
-    /// Per contact: the normal forces at its two application points, ≥ 0. In a list of sticking forces they are pulls.
+    /// Per contact: the normal forces at its two application points, ≥ 0. In a list of adhesion they are tensile
+    /// forces.
     pub normal: Vec<[f64; 2]>,
     /// Per contact: friction along (−n_y, n_x).
     pub friction: Vec<f64>,
@@ -17,7 +18,7 @@ pub struct Amounts {
 }
 
 impl Amounts {
-    /// Zero for every force of a program.
+    /// Returns zero for every force of a program.
     pub fn none(program: &Program) -> Amounts {
         Amounts {
             normal: vec![[0.0; 2]; program.contacts.len()],
@@ -26,7 +27,7 @@ impl Amounts {
         }
     }
 
-    /// The sum of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective of Vallat (2023).
+    /// Returns the sum of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective of Vallat (2023).
     pub fn total(&self) -> f64 {
         let contacts: f64 = self
             .normal
@@ -38,7 +39,7 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
-    /// The largest entry of the residual loads − Σ force, a pure number: 0 if every block is balanced.
+    /// Returns the largest entry of the residual loads − Σ force, in program units: 0 if every block is balanced.
     pub fn unbalanced(&self, program: &Program) -> f64 {
         let mut residual = program.loads.clone();
         // Subtracts a force and its moment from the three rows of a block.
@@ -113,7 +114,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// The sum of two efforts.
+    /// Returns the sum of two efforts.
     pub fn and(self, other: Effort) -> Effort {
         Effort {
             iterations: self.iterations + other.iterations,

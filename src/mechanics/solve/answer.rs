@@ -31,7 +31,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The answer of a solver that ended without a result: the status `Unsolved`, and zeros.
+    /// Returns the answer of a solver that ended without a result: the status `Unsolved`, and zeros.
     pub(super) fn without_status(problem: &QuadraticProgram) -> Answer {
         Answer {
             status: Status::Unsolved,
@@ -42,7 +42,7 @@ impl Answer {
         }
     }
 
-    /// The same answer, but with the status `Unsolved` if it contains an infinite number or NaN.
+    /// Returns the same answer, but with the status `Unsolved` if it contains an infinite number or NaN.
     pub(super) fn if_finite(self) -> Answer {
         let is_sound = [&self.x, &self.z, &self.s].map(|list| is_finite(list));
         Answer {

@@ -33,7 +33,7 @@ pub struct Balance {
 /// Margins of [`Dual::active`] that are tried in turn for the face of optima; pure numbers.
 ///
 /// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
-/// the cost then differs, and a smaller margin helps. Near the limit of standing a column may be missing by mistake;
+/// the cost then differs, and a smaller margin helps. Near the limit of stability a column may be missing by mistake;
 /// then no forces balance, and a larger margin helps.
 const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 
@@ -80,8 +80,8 @@ const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 /// The finer tolerance, as a fraction of the normal one.
 const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// The share of the basic columns that may just as well be non-basic: their amount and slack differ by a factor of less
-/// than 1000.
+/// Returns the fraction of the basic columns that are doubtful: their amount and slack differ by a factor of less
+/// than 1000. It is 0 if the dual is not solved.
 fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
@@ -165,7 +165,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     found
 }
 
-/// The least force of few blocks whose loads differ by many powers of ten, accurate relative to each block's own load.
+/// Computes the least force of few blocks whose loads differ by many powers of ten, accurate relative to each block's
+/// own load.
 ///
 /// `None` if the loads are of similar size, if there are many blocks, or if the refinement fails.
 fn balance_by_levels(
@@ -233,7 +234,7 @@ fn solve_dual(
     (solved, settings)
 }
 
-/// Steps 2 to 4: the balance of least Σ force² among those of least cost; `None` if no margin gives one.
+/// Steps 2 to 4: finds the balance of least Σ force² among those of least cost; `None` if no margin gives one.
 ///
 /// `settings` holds two settings: for repairing a balance, and for the least squares.
 fn least_squares_balance(

@@ -16,7 +16,7 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 }
 
 impl<'a> Candidate<'a> {
-    /// A candidate for an assembly, with forces and velocities in the units of `scale`.
+    /// Creates a candidate for an assembly. Its forces and velocities are in the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             component: Component {
@@ -27,8 +27,9 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Stable if the forces balance every body. Unstable if their imbalance is a motion of one component that no admissible
-    /// forces can contradict. `None` if neither is proved; then the other routes decide.
+    /// Returns *stable* if `amounts` balance every body. Returns *unstable* if the motion along the unbalanced load
+    /// is a mechanism of one component that no admissible forces can contradict. `left` is minus the unbalanced load,
+    /// three rows for each body, in program units. `None` if neither is proved; then the other routes decide.
     pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.believes(&forces) {
@@ -58,7 +59,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// The motion of a block. The motions are in the order of the blocks.
+/// Returns the motion of a block; zero if `motions`, which are sorted by block, do not contain it.
 fn of_block(motions: &[Motion], block: BlockId) -> Motion {
     match motions.binary_search_by_key(&block, |motion| motion.block) {
         Ok(place) => motions[place],

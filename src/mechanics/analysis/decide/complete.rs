@@ -71,7 +71,8 @@ impl Component<'_> {
         decision
     }
 
-    /// Replaces the adhesion of the falling bodies by that of the whole component, if that balances every body.
+    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if every body
+    /// balances with it.
     fn with_failures_of_the_whole(&self, program: &Program, mut decision: Decision) -> Decision {
         for settings in &self.settings {
             if is_late() {
@@ -92,7 +93,8 @@ impl Component<'_> {
         decision
     }
 
-    /// Computes the least adhesion, and the mechanism that belongs to it. The settings are tried in order.
+    /// Adds the least adhesion and its mechanism to a decision. Tries the solver settings in order. Changes the
+    /// verdict to stable if the program finds forces that balance every body without adhesion.
     fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
         let mut ready = decision
             .least_adhesion
@@ -114,7 +116,8 @@ impl Component<'_> {
                     ..decision
                 };
             }
-            // Large components keep the motion that decided. To correct another motion takes a third of the total time.
+            // Large components keep the motion that decided. Correcting another motion takes a third of the total
+            // time.
             let shown = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
             let motion = least_adhesion.motion.filter(|_| !shown);
             let own = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));

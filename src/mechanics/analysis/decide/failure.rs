@@ -1,4 +1,4 @@
-//! The adhesion in a component, as failures in metres and newtons.
+//! Converts the missing adhesion of a component to failures in metres and newtons.
 
 use super::Component;
 use crate::analysis::Failure;
@@ -7,14 +7,15 @@ use crate::geometry::{Point, Vector};
 use crate::proof::{Forces, gross_load};
 use crate::solve::Amounts;
 
-/// A failure is listed above this part of the weight of its lighter body.
+/// A failure is listed if it exceeds this fraction of the load of the lighter of its two bodies.
 const SHARE_OF_WEIGHT: f64 = 1e-6;
 
-/// And above this part of the largest of its component: less is the solver's noise.
+/// A failure is also listed if it exceeds this fraction of the largest failure of its component. Less is solver
+/// noise.
 const SHARE_OF_LARGEST: f64 = 1e-9;
 
 impl Component<'_> {
-    /// The failures in newtons, in the order of contacts and grips.
+    /// Returns the failures in newtons, in the order of contacts and grips. `adhesion` is in program units.
     pub(super) fn failures(&self, adhesion: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
         let most = adhesion
@@ -27,7 +28,7 @@ impl Component<'_> {
         let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
-        // Bodies without a load have no scale of their own.
+        // Ignore bodies without a load: they have no scale of their own.
         let least = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
             let loaded = both
@@ -49,7 +50,8 @@ impl Component<'_> {
         failures
     }
 
-    /// The pulls and the friction that a contact lacks, where they exceed `least`; all in the scale's unit of force.
+    /// Adds the tension and the friction that a contact lacks, if they exceed `least`. All inputs are in the
+    /// program's unit of force.
     fn add_contact_failures(
         &self,
         failures: &mut Vec<Failure>,
@@ -75,7 +77,7 @@ impl Component<'_> {
         }
     }
 
-    /// The force and the torque that a robot lacks, where they exceed `least`; all in the units of the scale.
+    /// Adds the force and the torque that a robot lacks, if they exceed `least`. All inputs are in program units.
     fn add_grip_failures(
         &self,
         failures: &mut Vec<Failure>,
@@ -103,7 +105,7 @@ impl Component<'_> {
         }
     }
 
-    /// The assembly with the adhesion among its loads: admissible forces have to balance this assembly.
+    /// Returns the assembly with the adhesion added to its loads. Admissible forces must balance this assembly.
     pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();
@@ -140,7 +142,8 @@ impl Component<'_> {
         held.with_summed_loads()
     }
 
-    /// The forces that act together with the adhesion, in newtons, and whether both together balance every body.
+    /// Returns the forces that act together with the adhesion, in newtons, and whether both together balance every
+    /// body.
     pub(super) fn prove_with_adhesion(
         &self,
         amounts: &Amounts,
@@ -158,7 +161,7 @@ impl Component<'_> {
     }
 }
 
-/// The sum of all failures in newtons; a torque is divided by the length L.
+/// Returns the sum of all failures in newtons. A torque is divided by the length L.
 pub(super) fn total(failures: &[Failure], length: f64) -> f64 {
     let sizes = failures.iter().map(|failure| match failure {
         Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),

@@ -5,18 +5,18 @@ use crate::geometry::Vector;
 use crate::proof::{self, ContactForces, Forces, GripForces, Motion, Proof, gross_load};
 use crate::solve::{Amounts, is_late};
 
-/// Relative to what a force counts as rounding and is set to 0.
+/// The reference for rounding noise. A force that is small relative to it is set to 0.
 #[derive(Clone, Copy)]
 enum Noise {
-    /// By the heaviest load.
+    /// Relative to the heaviest load of the component.
     OfTheWhole,
-    /// By the lighter of the two bodies.
+    /// Relative to the forces on each body; the smaller limit of two bodies in contact counts.
     OfEachBody,
-    /// Nothing is noise.
+    /// No force is noise.
     None,
 }
 
-/// A sum of forces within this share of what it must come to at least is the least.
+/// A sum of forces counts as the least if it exceeds its lower bound by at most this fraction.
 const SAME_SUM: f64 = 1e-6;
 
 /// Forces in newtons with their proof.
@@ -28,11 +28,11 @@ pub(super) struct ProvedForces {
 impl Component<'_> {
     /// Converts forces to newtons, makes them exactly admissible, and proves them.
     ///
-    /// Noise becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
-    /// the proof measures it. What is noise among heavy blocks may be all that holds a light one: where the proof fails,
-    /// less is dropped.
+    /// Noise is set to 0 and friction is limited to μN. The rest of the solver's error is then only an imbalance,
+    /// which the proof measures. A force that is noise among heavy blocks may be what holds a light block. If the
+    /// proof fails, fewer forces are therefore set to 0.
     pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
-        // If no attempt has a proof, return the forces that balance most bodies.
+        // If no attempt has a proof, return the forces that balance the most bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
@@ -59,8 +59,8 @@ impl Component<'_> {
         }
     }
 
-    /// A lower bound of the sum of balancing forces in newtons, from a motion, and whether the sum of the given forces
-    /// reaches it.
+    /// Returns a lower bound of the sum of balancing forces in newtons, and whether the sum of `amounts` reaches it.
+    /// The bound follows from the motion `witness`, in program units; without one there is no bound.
     pub fn bound_force_sum(
         &self,
         witness: Option<&[f64]>,
@@ -82,14 +82,14 @@ impl Component<'_> {
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
-    /// The proof of forces with as little as possible rounded to zero.
+    /// Checks forces in newtons, without setting noise to 0.
     pub fn prove_without_cleaning(&self, amounts: &Amounts) -> Proof {
         proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 
-    /// Converts forces to newtons. Normal and robot forces below 1e-13, and friction below 1e-10, of the forces there
-    /// become zero, but never more than a tenth of the accepted imbalance of the heaviest load, or of the lightest load
-    /// nearby.
+    /// Converts forces to newtons and sets noise to 0. The limit for normal and robot forces is 1e-13 of the heaviest
+    /// load, or of all forces on the body. For friction it is 1e-10 of N and of μN. No limit exceeds a tenth of the
+    /// accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.demand.imbalance;
@@ -101,7 +101,7 @@ impl Component<'_> {
             Noise::OfEachBody => self.acting(amounts),
             _ => Vec::new(),
         };
-        // The largest normal or robot force, and the largest friction, that a body can lose within its accepted imbalance.
+        // Returns the largest normal or robot force, and the largest friction, that may be set to 0 on a body.
         let limits = |body: usize| match noise {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {
@@ -137,7 +137,7 @@ impl Component<'_> {
             let length = self.scale.length;
             let (noise, _) = limits(grip.body);
             let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
-            // Division and multiplication by L are rounded: limit the torque once more at the limit itself.
+            // Division and multiplication by L round, so clamp the torque to its limit once more.
             let most = grip.limits.torque;
             let torque = cut(m * unit, most / length) * length;
             GripForces {
@@ -151,7 +151,7 @@ impl Component<'_> {
         }
     }
 
-    /// The sum Σ |force| on each body, in newtons.
+    /// Returns, for each body, the sum of the magnitudes of its load, contact forces and robot forces, in newtons.
     fn acting(&self, amounts: &Amounts) -> Vec<f64> {
         let bodies = self.assembly.bodies.iter();
         let mut sums: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();

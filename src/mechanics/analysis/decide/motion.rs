@@ -1,4 +1,5 @@
-//! Motions of a component: from the solver's velocities to metres, freed of the solver's error, with their proofs (route 3b).
+//! Converts the solver's velocities to a motion in metres, removes the solver's error, and proves the motion (route
+//! 3b).
 
 use super::Component;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
@@ -8,16 +9,17 @@ use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
 use crate::solve::{Effort, repair_motion};
 
-/// A motion must exclude balancing forces up to this many times the sum of all loads. A flat arch presses with several times its
-/// weight, so at a tenth of it a thrust could contradict the motion. Ten times as much would leave flat wedges undecided.
+/// A motion must exclude balancing forces up to this many times the sum of all loads. The thrust of a flat arch is
+/// several times its weight, so with a tenth of this value a thrust could contradict the motion. Ten times this value
+/// would leave flat wedges undecided.
 const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
 impl Component<'_> {
-    /// The motion nearest to the velocities `y` (program units) that violates no contact, with its proof; `None` if the
-    /// proof is too weak.
+    /// Returns the motion nearest to the velocities `y` (program units) that violates no contact, and its proof.
+    /// `None` if the proof is too weak.
     ///
-    /// Violations of the solver are never accepted as rounding, however small: the motion of a wedge into its notch consists of
-    /// nothing else.
+    /// Even small violations are not accepted as rounding: the motion of a wedge into its notch consists only of such
+    /// violations.
     pub(super) fn prove_motion(
         &self,
         program: &Program,
@@ -29,7 +31,8 @@ impl Component<'_> {
         if speed == 0.0 {
             return None;
         }
-        // Some contact is violated: remove the solver's error. Large components first in few pieces, which is faster and more exact.
+        // Some contact is violated: remove the solver's error. For large components first try few rigid pieces, which
+        // is faster and more exact.
         if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
             let in_pieces = || self.prove_motion_in_pieces(&motion, effort);
@@ -65,15 +68,15 @@ impl Component<'_> {
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
 
-    /// The motion of a component that touches no ground and that no robot holds: all bodies move in the direction of the
-    /// sum of their loads.
+    /// Returns the motion of a component that touches no ground and that no robot holds, and its proof. All bodies
+    /// move in the direction of the sum of their loads. `None` if the component is supported or its loads cancel.
     pub(super) fn falls_freely(&self) -> Option<(Vec<Motion>, Proof)> {
         if !self.assembly.is_unsupported() {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
         let total = loads.fold(LoadVector::NONE, LoadVector::plus).force;
-        // Loads that cancel move nothing.
+        // Loads that cancel cause no motion.
         if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest_load() {
             return None;
         }
@@ -93,8 +96,8 @@ impl Component<'_> {
         proof::check_mechanism(self.assembly, motion)
     }
 
-    /// The speed of the fastest point in program units, and the motion of every body in metres, scaled so that this point
-    /// has speed 1.
+    /// Returns the speed of the fastest point in program units, and the motion of every body in metres, scaled so
+    /// that this point has speed 1.
     pub(super) fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
         let bodies = self.assembly.bodies.iter();
         let mut all: Vec<Motion> = bodies
@@ -102,7 +105,7 @@ impl Component<'_> {
             .map(|(k, body)| Motion {
                 block: body.block,
                 velocity: Vector::new(y[3 * k], y[3 * k + 1]),
-                // Velocities in program units are per unit of length.
+                // In program units the spin is the speed at distance L.
                 spin: y[3 * k + 2] / self.scale.length,
             })
             .collect();
@@ -111,7 +114,7 @@ impl Component<'_> {
     }
 }
 
-/// Scales a motion so that its fastest point has speed 1. Returns the speed before.
+/// Scales a motion so that its fastest point has speed 1. Returns the speed before scaling.
 pub(super) fn to_speed_one(assembly: &Assembly, motion: &mut [Motion]) -> f64 {
     let bodies = assembly.bodies.iter();
     let speeds = bodies

@@ -10,7 +10,7 @@ use crate::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
 pub(super) struct LeastForce {
     pub amounts: Amounts,
     pub proof: Proof,
-    /// As in a decision.
+    /// The lower bound of the sum, as in `Decision`.
     pub force_bound: Option<f64>,
     pub least_force: bool,
 }

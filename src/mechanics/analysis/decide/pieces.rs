@@ -1,8 +1,8 @@
 //! Finds the rigid pieces of a mechanism: sets of bodies that move together.
 //!
-//! A motion of many bodies violates contacts by the solver's error at every joint that does not open. Most of them belong
-//! to bodies that move as one. Posed with the few pieces as its bodies, the change that frees a motion of this error is a
-//! small program, and what is within a piece fits to rounding.
+//! The solver's error makes a motion of many bodies violate every joint that does not open. Most of these joints lie
+//! between bodies that move as one. If each rigid piece becomes one body, the correction of the motion is a small
+//! program. Joints within a piece then have no relative motion, except for rounding.
 
 use super::Component;
 use super::motion::to_speed_one;
@@ -21,8 +21,8 @@ const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 const MIN_BODIES_PER_PIECE: usize = 8;
 
 impl Component<'_> {
-    /// The motion in which bodies that move nearly together move exactly together, without the errors of the solver, with
-    /// its proof. Its fastest point has speed 1. `None` if the proof is too weak.
+    /// Returns a motion without the solver's errors, and its proof. Bodies that move nearly together move exactly
+    /// together in it. Its fastest point has speed 1. `None` if there are too many pieces or the proof is too weak.
     pub(super) fn prove_motion_in_pieces(
         &self,
         motion: &[Motion],
@@ -40,14 +40,15 @@ impl Component<'_> {
             let program = Program::new(&joined, self.scale);
             let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
             let y = repair_motion(&program, &mean, effort)?;
-            // 3. Carry it back to the bodies, and prove it for them.
+            // 3. Convert it to motions of the bodies, and prove it for them.
             let parted = self.parted(&joined, &piece, &y);
             let proof = self.mechanism(&parted);
             self.convinces(&parted, &proof).then_some((parted, proof))
         })
     }
 
-    /// The motion of every body in metres from the velocities of its piece in program units.
+    /// Converts the velocities `y` of the pieces (program units) to the motion of every body in metres, with the
+    /// fastest point at speed 1.
     fn parted(&self, joined: &Assembly, piece: &[Option<usize>], y: &[f64]) -> Vec<Motion> {
         let bodies = self.assembly.bodies.iter().zip(piece);
         let mut motion: Vec<Motion> = bodies
@@ -70,7 +71,8 @@ impl Component<'_> {
     }
 }
 
-/// The number of the piece of each body; `None` for bodies at rest with the ground.
+/// Returns the number of the piece of each body; `None` for bodies that rest with the ground. Two bodies in contact
+/// are in one piece if their velocities differ by at most `tolerance`.
 fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();
@@ -109,7 +111,8 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
         .collect()
 }
 
-/// The mean velocities of the bodies of each piece in program units, about the mean of their centroids.
+/// Returns the mean velocities of the bodies of each piece, about the mean of their centroids: three numbers for each
+/// piece, in program units.
 fn mean_velocities(
     piece: &[Option<usize>],
     motion: &[Motion],

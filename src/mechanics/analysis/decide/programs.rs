@@ -1,8 +1,8 @@
 //! Route 3: solves one program after another, until forces or a motion have a proof.
 //!
-//! If both proofs hold, the forces win. A proof of forces allows a small imbalance, and a motion that does no more work than
-//! this imbalance could take up ("weak") may therefore coexist with forces that balance. A weak motion decides only after
-//! a program has shown that no forces balance: that of least residual, or that of least adhesion.
+//! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
+//! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
+//! program has shown that no forces balance: that of least residual, or that of least adhesion.
 
 use super::parallel_joints::LeastForce;
 use super::rebalance::Outcome;
@@ -41,7 +41,7 @@ pub(super) struct Decision {
     pub effort: Effort,
 }
 
-/// What the strategies tried so far have left.
+/// The results of the strategies that were tried so far.
 #[derive(Default)]
 struct Progress {
     effort: Effort,
@@ -54,7 +54,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// A new decision by a strategy, without results.
+    /// Creates a decision by a strategy: with the effort so far, without forces and without a proof.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
             no_status: self.no_status,
@@ -93,6 +93,7 @@ impl Component<'_> {
     }
 
     /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall on their own.
+    /// `None` if neither holds.
     fn decide_by_forces(
         &self,
         program: &Program,
@@ -109,7 +110,7 @@ impl Component<'_> {
         };
         match outcome {
             Outcome::Stands(amounts, proof) => {
-                // How close the sum of the forces is to the least sum.
+                // Check how close the sum of the forces is to the least sum.
                 let witness = attempt.witness.as_deref();
                 let (force_bound, least_force) = self.bound_force_sum(witness, &amounts);
                 let mut found = LeastForce {
@@ -118,7 +119,7 @@ impl Component<'_> {
                     force_bound,
                     least_force,
                 };
-                // Nearly parallel joints leave the program of least force without a status.
+                // With nearly parallel joints the program of least force may end without a status.
                 if !least_force && progress.no_status {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }
@@ -144,7 +145,8 @@ impl Component<'_> {
         }
     }
 
-    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it.
+    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it. Otherwise
+    /// keeps the motion as a weak one and returns `None`.
     fn decide_by_motion(
         &self,
         program: &Program,

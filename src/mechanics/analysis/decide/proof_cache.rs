@@ -8,7 +8,8 @@ use crate::assembly::Assembly;
 use crate::geometry::Point;
 use crate::proof::{self, ContactForces, Forces, Motion};
 
-/// Sets of forces that are kept, and motions. A search alternates between few values, and each costs a proof.
+/// The number of sets of forces, and of motions, that are kept. A search alternates between few values, and each
+/// trial costs a proof.
 const MAX_KEPT: usize = 4;
 
 /// Forces and motions of similar components, the latest last.
@@ -58,7 +59,8 @@ impl ProofCache {
         })
     }
 
-    /// A cached motion by which a component falls. No admissible forces can contradict it.
+    /// Returns a cached motion that proves that a component falls. No admissible forces can contradict it. `None` if
+    /// there is no such motion.
     pub(super) fn falls(&self, component: &Component) -> Option<Vec<Motion>> {
         let mut latest = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
@@ -70,7 +72,8 @@ impl ProofCache {
 }
 
 impl Acting {
-    /// The same resultants at the application points of another component; `None` if a resultant passes outside them.
+    /// Returns forces with the same resultants at the application points of another component; `None` if a resultant
+    /// passes outside them.
     fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
@@ -83,7 +86,8 @@ impl Acting {
     }
 }
 
-/// The normal forces at two new points of an interface that have the same resultant.
+/// Returns the normal forces at two new points of an interface that have the same resultant; `None` if one would be a
+/// tension.
 fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = pressed.normal;
     let sum = first + second;

@@ -1,13 +1,14 @@
 //! Route 3a: corrects forces that balance the structure as a whole, until they balance each body or some bodies are proved
 //! to fall.
 //!
-//! A solver balances bodies to some digits of the heaviest load. The error on a light body may then exceed its own weight and hide
-//! that it falls. Each round does the first of these steps that helps:
+//! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
+//! and hide that it falls. Each round does the first of these steps that helps:
 //!
-//! 1. Change all forces by small parts of their own amounts ([`relative`]).
-//! 2. Make the least change of all forces ([`corrected`]). It can add forces that were 0, such as that of a robot.
-//! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Make the least change of
-//!    the forces on the set, in its own scale ([`corrected`]).
+//! 1. Change all forces by small parts of their own amounts ([`rebalance_relative`]).
+//! 2. Make the least change of all forces ([`rebalance_absolute`]). It can add forces that were 0, such as that of a
+//!    robot.
+//! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Make the
+//!    least change of the forces on the set, in its own scale ([`rebalance_absolute`]).
 //! 4. If there is no such change, decide the set like a component. If it falls, the whole falls: the motion of the set with all
 //!    other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
 //!
@@ -22,7 +23,8 @@ use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
 use crate::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
 
-/// Rounds of correction. Each gains the digits of one solution, and eight cover weights from 1e-30 to 1e30.
+/// The number of rounds of correction. Each gains the digits of one solution; eight rounds cover weights from 1e-30
+/// to 1e30.
 const MAX_ROUNDS: usize = 8;
 
 /// Sets of at most this many bodies are decided on their own, even if they are nearly the whole component.
@@ -46,9 +48,10 @@ pub(super) struct FallingPart {
     /// The motion of every body of the whole.
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
-    /// The forces of the others, and those that the sticking leaves to contacts and grips.
+    /// The forces on the resting bodies, and the admissible forces on the falling bodies, which act together with the
+    /// adhesion.
     pub amounts: Amounts,
-    /// What would have to stick, where anything helps.
+    /// The adhesion that the falling bodies lack; `None` if no adhesion can hold them.
     pub adhesion: Option<Amounts>,
 }
 
@@ -87,7 +90,7 @@ impl Component<'_> {
                 amounts = better;
                 continue;
             }
-            // Step 2: the least change of all forces. Where it once did not help it will not help later.
+            // Step 2: the least change of all forces. If it does not help once, it is not tried again.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
                     Some(better)
@@ -150,7 +153,7 @@ impl Component<'_> {
             complete_result: self.complete_result,
             place: Place::Anywhere,
         };
-        // Loads near the smallest floating-point numbers have no scale of their own.
+        // Loads near the smallest floating-point numbers cannot be scaled.
         let ratio = self.scale.force / component.scale.force;
         if !component.scale.force.is_normal() || !ratio.is_normal() {
             return PartOutcome::Open;
@@ -195,7 +198,8 @@ impl Component<'_> {
         }
     }
 
-    /// The motion of the falling parts with all other bodies at rest, and its proof in the whole component.
+    /// Combines the motions of the falling parts with all other bodies at rest, and proves the result in the whole
+    /// component. Returns [`Outcome::Open`] if the proof is too weak.
     fn combine_falling_parts(
         &self,
         program: &Program,
@@ -237,7 +241,7 @@ impl Component<'_> {
         })
     }
 
-    /// The forces on a part in the units of its own scale.
+    /// Returns the forces on a part in the units of `scale`, the scale of the part.
     fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),

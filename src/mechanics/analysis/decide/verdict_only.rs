@@ -8,7 +8,7 @@ use crate::program::Program;
 use crate::proof::{Forces, Motion};
 use crate::solve::{Amounts, Effort, is_late};
 
-/// The verdict of a component, and its mechanism if it falls.
+/// Returns the verdict of a component, and its mechanism if it falls.
 ///
 /// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
 /// [`decide_component`](super::decide_component), and its forces or motion enter the cache.
@@ -40,7 +40,8 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (decision.verdict, decision.mechanism)
 }
 
-/// The verdict that the cache proves; undecided if it proves none. No program is solved.
+/// Returns the verdict that the cache proves, and the mechanism if it is a fall; undecided if it proves none. No
+/// program is solved.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -78,7 +79,7 @@ fn decide_without_idle_limits(component: &Component, program: &Program) -> Decis
     component.decide_by_programs(program)
 }
 
-/// What a program found exactly at the limit of stability, in the program's units.
+/// The results of a program exactly at the limit of stability, in program units.
 #[derive(Debug)]
 pub(in crate::mechanics::analysis) struct Ends<'a> {
     /// The program.
@@ -89,7 +90,7 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
     pub motion: Option<(&'a [f64], &'a Assembly)>,
 }
 
-/// Adds what a program found at the limit to the cache, and returns its forces in newtons.
+/// Adds the results of a program at the limit to the cache. Returns its forces in newtons; `None` if it has none.
 pub(in crate::mechanics::analysis) fn remember_limit(
     ends: &Ends,
     cache: &mut ProofCache,

@@ -8,8 +8,9 @@ use crate::program::Program;
 use crate::scene::Scene;
 use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
 
-/// Whether some component stands only by wedging, and the proof. The first value is `None` if no component is known to, and
-/// at least one could not be decided.
+/// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
+/// the proof. The answer is `None` if at least one component could not be decided, and no other is proved to stand
+/// only by wedging.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
@@ -47,7 +48,8 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     answer
 }
 
-/// Describes the proof that springs without initial stress do not come to rest.
+/// Describes the proof: which blocks move if contacts are springs without initial stress, and which self-stress is
+/// needed.
 fn shown<'n>(
     self_stress: &SelfStress,
     unit: f64,
@@ -70,7 +72,7 @@ fn shown<'n>(
     words
 }
 
-/// The first names of a list, and the number of the others.
+/// Lists at most four names, and the number of the others.
 fn several(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.collect();
     match names.len() {

@@ -1,7 +1,8 @@
 //! [`Threshold`]: searches the value of a parameter that separates standing from falling.
 //!
-//! Newton's steps find the edge; verdicts just inside and just beyond confirm it. Where these are too far apart, or Newton's
-//! steps lead nowhere, the stretch between them is halved. A value that no verdicts confirm on both sides is withheld.
+//! Newton's method finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
+//! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
+//! verdicts on both sides is not reported.
 
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
@@ -10,28 +11,29 @@ use crate::analysis::decide::Place;
 use crate::proof::Motion;
 use crate::solve::Tangent;
 
-/// Which side of an edge stands.
+/// The side of the threshold on which the component stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
-    /// Below it: the most that is borne.
+    /// It stands below: the threshold is the largest admissible value.
     Most,
-    /// Above it: the least that suffices.
+    /// It stands above: the threshold is the least sufficient value.
     Least,
 }
 
-/// What is known beforehand about the value, at least 0, at which a component begins or ceases to stand.
+/// The search for the threshold of a parameter: the value, at least 0, at which a component begins or ceases to
+/// stand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold {
-    /// Which side stands.
+    /// The side on which the component stands.
     pub way: Way,
-    /// The size of an ordinary value.
+    /// A typical value of the parameter.
     pub natural: f64,
     /// The largest value that is tried.
     pub most: f64,
 }
 
 impl Threshold {
-    /// A parameter from 0 to `most` whose least sufficient value is searched.
+    /// Creates the search for the least sufficient value between 0 and `most`.
     pub fn least(most: f64) -> Threshold {
         Threshold {
             way: Way::Least,
@@ -40,7 +42,7 @@ impl Threshold {
         }
     }
 
-    /// A parameter from 0 to `most` whose largest admissible value is searched.
+    /// Creates the search for the largest admissible value between 0 and `most`.
     pub fn most(most: f64) -> Threshold {
         Threshold {
             way: Way::Most,
@@ -48,7 +50,7 @@ impl Threshold {
         }
     }
 
-    /// The interval that this end limits.
+    /// Returns the stable values that `end` limits: from 0 up to it, or from it upwards.
     fn interval(&self, end: End) -> Interval {
         match self.way {
             Way::Most => Interval::Between {
@@ -62,18 +64,20 @@ impl Threshold {
         }
     }
 
-    /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
+    /// The smallest relative distance from the threshold at which verdicts are computed, on both sides.
     const NEAR: f64 = 1e-6;
-    /// Newton's steps are believed where verdicts no farther apart than this agree with them; relative.
+    /// Newton's root is accepted if a stable and an unstable value on both sides of it are at most this far apart,
+    /// relative.
     const SURE: f64 = 512e-6;
-    /// Steps away from an edge grow by this factor up to [`Threshold::FAR`], as long as no proof convinces so close to it.
+    /// Distances from the threshold grow by this factor up to [`Threshold::FAR`], until a proof is strong enough.
     const WIDER: f64 = 16.0;
-    /// The largest step away from an edge within which it may stay undecided.
+    /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const FAR: f64 = 256e-6;
 
-    /// Searches the end between 0 and `most`, with Newton's method or else by bisection, and returns the interval.
+    /// Searches the threshold between 0 and `most`, with Newton's method or else by bisection. Returns the interval
+    /// of values at which the component stands.
     ///
-    /// Where a value is undecided the search ends: the edge lies there, within what can be decided.
+    /// The search ends at an undecided value, because the threshold cannot be found more exactly.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
         let at_none = match (trial.judge(&setting(0.0)).0, self.way) {
             (Verdict::Unstable, Way::Most) => return Interval::Empty,
@@ -82,7 +86,7 @@ impl Threshold {
             (verdict, _) => verdict == Verdict::Stable,
         };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
-        // Take large steps from 0 outward, as long as the verdict is the one at 0.
+        // Take large steps from 0 outward, as long as the verdict is the same as at 0.
         let mut verdict = trial.judge(&setting(far)).0;
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {
@@ -95,12 +99,12 @@ impl Threshold {
             (near, far) = (far, (far * 10.0).min(self.most));
             verdict = trial.judge(&setting(far)).0;
         }
-        // The bracket: here it stands, there it falls.
+        // The bracket: the component stands at `inside` and does not stand at `outside`.
         let (inside, outside) = match self.way {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
-        // Newton's steps within the bracket, then verdicts on both sides of their root.
+        // Use Newton's method within the bracket, then compute verdicts on both sides of its root.
         let root = self.stepped(trial, setting, [inside, outside]);
         let mut bracket = Bracket {
             inside,
@@ -129,8 +133,8 @@ impl Threshold {
                 break;
             }
         }
-        // Within the tolerance of the proofs the verdict may be "stands" beyond the end. Only the verdict "falls" is
-        // informative there.
+        // Within the tolerance of the proofs the verdict may be stable beyond the threshold. Use only the verdict
+        // unstable there.
         for value in self.steps(root, Side::Beyond) {
             if !within(&value, bracket) {
                 continue;
@@ -143,7 +147,9 @@ impl Threshold {
         }
     }
 
-    /// The end inside a bracket: bisects until the two verdicts are close, or as close as they get around `root`.
+    /// Bisects a bracket until its two verdicts are close enough, and returns the end of the interval. If `root` lies
+    /// in the bracket, the larger tolerance `SURE` applies. The end is unconfirmed if the verdicts stay too far
+    /// apart.
     fn closed_in(
         &self,
         trial: &mut Trial,
@@ -167,7 +173,7 @@ impl Threshold {
             let middle = 0.5 * (bracket.inside + bracket.outside);
             is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
         }
-        // Only the tolerance around 0 remains: the end is 0.
+        // The component stands at a value that is 0 within the tolerance: the end is 0.
         if self.way == Way::Least && is_none(bracket.inside) {
             return End::natural(0.0);
         }
@@ -194,10 +200,10 @@ impl Threshold {
         }
     }
 
-    /// Finds the end with Newton's method on the least residual, from the side on which the component falls. `None` if the
-    /// method does not converge.
+    /// Finds the threshold with Newton's method on the least residual, from the side on which the component falls.
+    /// `None` if the method does not converge.
     ///
-    /// The forces and the motion that confirm it are remembered on the way.
+    /// Adds the forces and the motion that confirm the threshold to the trial's cache.
     fn stepped(
         &self,
         trial: &mut Trial,
@@ -206,7 +212,7 @@ impl Threshold {
     ) -> Option<f64> {
         let within = |value: f64, a: f64, b: f64| (value - a) * (value - b) < 0.0;
         let mut tangent = trial.tangent(&setting(outside))?;
-        // The latest values at which the component falls, and the last at which it stands.
+        // The values at which the component falls, and the last value at which it stands.
         let (mut falling, mut standing) = (Vec::new(), None);
         for _ in 0..STEPS {
             if tangent.left <= LEFT {
@@ -223,7 +229,7 @@ impl Threshold {
                 self.learn_sides(trial, setting, edge, falling, standing);
                 return Some(edge);
             }
-            // Newton's step to the root of the tangent; half-way where the root lies outside the bracket.
+            // Take Newton's step to the root of the tangent, or the midpoint if the root lies outside the bracket.
             let next = if is_within {
                 root
             } else {
@@ -236,7 +242,7 @@ impl Threshold {
             }
             inside = next;
             standing = Some((next, found));
-            // The component stands at the end of the step. Test whether the end is just there.
+            // The component stands at the end of the step. Test whether it falls just beyond this value.
             let beside = next + 0.4 * CLOSE * next.max(outside) * (outside - next).signum();
             if is_within && within(beside, inside, outside) {
                 let found = trial.tangent(&setting(beside))?;
@@ -250,7 +256,8 @@ impl Threshold {
         None
     }
 
-    /// Remembers a motion just beyond an edge and forces just inside it, from the steps that found it or from new tangents.
+    /// Adds a motion just beyond the threshold and forces just inside it to the trial's cache. They come from
+    /// Newton's steps or from new tangents.
     fn learn_sides(
         &self,
         trial: &mut Trial,
@@ -260,7 +267,7 @@ impl Threshold {
         standing: Option<(f64, Tangent)>,
     ) {
         let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
-        // Close enough to confirm the edge, and far enough for the proof to convince.
+        // Close enough to confirm the threshold, and far enough for a strong proof.
         let near = falling
             .into_iter()
             .rev()
@@ -281,7 +288,7 @@ impl Threshold {
         }
     }
 
-    /// Values at growing distances from an end.
+    /// Returns values at growing distances from `at`, on one side.
     fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
         let size = if at > 0.0 { at } else { self.natural };
         let sign = match (self.way, side) {
@@ -304,22 +311,23 @@ impl Threshold {
     }
 }
 
-/// Newton's steps, and halvings between them, of one edge.
+/// The largest number of Newton steps for one threshold, midpoint steps included.
 const STEPS: usize = 24;
 
-/// How near, relatively, a standing and a falling value lie around a found edge.
+/// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
 const CLOSE: f64 = 1e-6;
 
-/// What forces may leave unbalanced, in parts of the largest load, of what stands as far as the solver can tell.
+/// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
+/// load.
 const LEFT: f64 = 1e-8;
 
-/// Two values between which an edge lies.
+/// Two values between which the threshold lies.
 struct Bracket {
     /// Here the component stands.
     inside: f64,
     /// Here it falls, or is undecided.
     outside: f64,
-    /// How it begins to move at the latest value at which it was shown to fall.
+    /// The mechanism at the latest value at which a fall was proved.
     mechanism: Option<Vec<Motion>>,
 }
 
@@ -336,7 +344,7 @@ impl Bracket {
     }
 }
 
-/// Which side of an edge is looked at.
+/// The side of a threshold on which a value is tested.
 #[derive(Clone, Copy)]
 enum Side {
     Inside,

@@ -1,7 +1,7 @@
 //! [`Interval`]: the values of one parameter at which a frame stands.
 //!
-//! Equilibrium is linear in the forces and in a factor on loads, so these values form a closed interval. A frame stands
-//! where all its components stand: its interval is the intersection of theirs.
+//! Equilibrium is linear in the forces and in a factor on loads, so these values form a closed interval. A frame
+//! stands if all its components stand: its interval is the intersection of theirs.
 
 use std::cmp::Ordering;
 
@@ -35,8 +35,8 @@ pub enum End {
     At {
         /// The value, in the unit of the parameter.
         value: f64,
-        /// How the blocks begin to move just beyond; empty where the parameter itself begins or ends here, as friction
-        /// does at 0.
+        /// How the blocks begin to move just beyond; empty if the range of the parameter ends here, as that of
+        /// friction does at 0.
         mechanism: Vec<Motion>,
     },
     /// The end lies between two values, but no verdicts were reached that are closer to it.
@@ -49,7 +49,7 @@ pub enum End {
 }
 
 impl End {
-    /// An end that the range of the parameter gives, not the structure.
+    /// Creates an end that the range of the parameter sets, not the structure. It has no mechanism.
     pub(super) fn natural(value: f64) -> End {
         End::At {
             value,
@@ -57,7 +57,7 @@ impl End {
         }
     }
 
-    /// The value, if it is confirmed.
+    /// The value, if it is confirmed. `None` if there is no end, or if it is unconfirmed.
     pub fn value(&self) -> Option<f64> {
         match self {
             End::At { value, .. } => Some(*value),
@@ -85,7 +85,7 @@ impl Interval {
         high: End::Unbounded,
     };
 
-    /// The lower end; `None` if there is none.
+    /// The lower end; `None` if the interval is empty or undecided.
     pub fn low(&self) -> Option<&End> {
         match self {
             Interval::Between { low, .. } => Some(low),
@@ -93,7 +93,7 @@ impl Interval {
         }
     }
 
-    /// The upper end; `None` if there is none.
+    /// The upper end; `None` if the interval is empty or undecided.
     pub fn high(&self) -> Option<&End> {
         match self {
             Interval::Between { high, .. } => Some(high),
@@ -111,7 +111,7 @@ impl Interval {
         }
     }
 
-    /// The values at which two components of one frame both stand.
+    /// Returns the values at which two components of one frame both stand.
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
             (Interval::Empty, _) | (_, Interval::Empty) => return Interval::Empty,
@@ -147,34 +147,36 @@ impl Interval {
         }
         match (&low, &high) {
             (End::At { .. }, End::At { .. }) => Interval::Empty,
-            // The components may both stand where the verdict of one of them is not known.
+            // Both components may stand at values at which the verdict of one of them is unknown.
             _ => Interval::Undecided,
         }
     }
 }
 
-/// At which values of each parameter a frame stands; `None` where that was not requested or where the parameter has no
-/// meaning in the scene.
+/// The values of each parameter at which a frame stands. `None` if they were not requested, or if the parameter has
+/// no meaning in the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Intervals {
-    /// One friction coefficient for every interface: from the least one up to no end.
+    /// One friction coefficient for every interface: from the least sufficient one, without an upper end.
     pub friction: Option<Interval>,
-    /// The turn of gravity in degrees, negative to the left; loads do not turn. Right: gravity's tip moves to the right.
+    /// The rotation of gravity in degrees. It is positive if the tip of the gravity vector moves to the right. Listed
+    /// loads do not rotate.
     pub tilt: Option<Interval>,
-    /// The share of each weight that acts across gravity in addition to the weight, negative to the left.
+    /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; negative to the
+    /// left.
     pub horizontal_load: Option<Interval>,
-    /// The safety kernel: from 0 up to the largest one, without end where the frame stands at 1.
+    /// The safety kernel: from 0 up to the largest admissible one, without end if the frame stands at 1.
     pub kernel: Option<Interval>,
     /// The factor on the listed loads, at least 0; `None` in a frame without loads.
     pub load_factor: Option<Interval>,
     /// The limits of each robot that holds a block, in the order of the frame's holds.
     pub robots: Vec<RobotIntervals>,
-    /// What a reader must know about an interval, a sentence each.
+    /// Remarks about the intervals, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// At which values of one limit a frame stands, the other limits as the scene has them.
+/// The values of each limit of a robot at which a frame stands, if the other limits are those of the scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RobotIntervals {

@@ -1,9 +1,9 @@
 //! [`Line`]: finds the ends of the interval of a parameter if the loads, or the limits of forces, are linear in it.
 //!
 //! The power of the loads along a fixed mechanism is linear in such a parameter. One mechanism therefore shows that a
-//! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley 1960).
-//! One linear program gives the end and the forces and the mechanism there; verdicts confirm them. Where they do not,
-//! cutting planes and bisection close in on the end.
+//! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley
+//! 1960). One linear program gives the end and the forces and the mechanism there; verdicts confirm them. If they do
+//! not, cutting planes and bisection narrow the range that contains the end.
 
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
@@ -15,49 +15,52 @@ use crate::proof::Motion;
 pub(super) struct Line<'a> {
     /// The changed component at a value.
     pub setting: &'a dyn Fn(f64) -> Setting,
-    /// The least value that has a meaning; negative infinity where all have.
+    /// The least meaningful value; −∞ if all values are meaningful.
     pub least: f64,
-    /// The size of an ordinary value.
+    /// A typical size of the parameter.
     pub natural: f64,
 }
 
-/// What a search knows of one end.
+/// Two values between which an end lies.
 struct Bracket {
     /// Here the component stands.
     inside: f64,
-    /// From here on a mechanism shows that it falls.
+    /// From here outward a mechanism proves that it falls.
     beyond: Option<(f64, Vec<Motion>)>,
 }
 
-/// A mechanism cuts values off: all above or all below one, or all.
+/// The values at which a mechanism proves a fall: all above one value, all below it, or all values.
 enum Cut {
     Above(f64),
     Below(f64),
     All,
 }
 
-/// An end is known when it stands and falls within this distance, relative to the value.
+/// An end is found if the component stands and falls within this distance, relative to the value.
 const NEAR: f64 = 1e-6;
-/// A value from a linear program is believed where verdicts within this distance agree with it, relative.
+/// The end from a linear program is accepted if verdicts within this relative distance, on both sides, agree with it.
 const AGREES: f64 = 256e-6;
-/// Steps away from an end grow by this factor where verdicts stay undecided.
+/// Distances from an end grow by this factor while verdicts stay undecided.
 const WIDER: f64 = 16.0;
-/// The most steps of one search.
+/// The largest number of steps of one search.
 const MAX_STEPS: usize = 60;
-/// The largest value that is tried, in natural sizes.
+/// The largest value that is tried, as a multiple of `natural`.
 const MAX_VALUE: f64 = 1e6;
-/// A mechanism that would end beyond this, in natural sizes, shows that nothing stands.
+/// If the power of a mechanism vanishes only beyond this multiple of `natural`, the component counts as falling at
+/// every value.
 const MAX_REACH: f64 = 1e6;
 
 impl Line<'_> {
-    /// Finds the end of the interval in one direction, from a value at which the component stands.
+    /// Finds the end of the interval in the direction `outward` (−1 or 1), from a value at which the component
+    /// stands.
     ///
-    /// `hint` is where a linear program has it. The program's forces and motion are remembered by the trial.
+    /// `hint` is the end according to a linear program. The trial's cache already contains the forces and the motion
+    /// of that program.
     pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
         let hint = hint
             .map(|hint| self.rounded(hint))
             .filter(|hint| (hint - from) * outward >= 0.0);
-        // The least value that has a meaning may itself be the end.
+        // The least meaningful value may itself be the end.
         let is_natural = outward < 0.0 && self.least.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.least)
@@ -69,11 +72,11 @@ impl Line<'_> {
             inside: from,
             beyond: None,
         };
-        // Verdicts around the hint: two of them often settle the end.
+        // Compute verdicts around the hint: two of them often confirm the end.
         if let Some(hint) = hint {
             self.enclose(trial, &mut bracket, hint, outward);
         }
-        // Close in: step outward until something falls, then cut and halve until both sides are within `NEAR`.
+        // Step outward until the component falls. Then cut and bisect until both sides are within `NEAR`.
         for _ in 0..MAX_STEPS {
             let Some((beyond, mechanism)) = &bracket.beyond else {
                 match self.farther(trial, &mut bracket, outward) {
@@ -113,7 +116,7 @@ impl Line<'_> {
         self.unconfirmed(bracket, hint, outward)
     }
 
-    /// Three values: a value just inside an end, the end, and a value well beyond it.
+    /// Returns three values: the end, a value just inside it, and a value well beyond it.
     pub fn around(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
         [
@@ -123,12 +126,13 @@ impl Line<'_> {
         ]
     }
 
-    /// A finite value to start an inward search from; a limit may be infinite.
+    /// Returns a finite value from which to search inward; a limit may be infinite.
     pub fn from(&self, value: f64) -> f64 {
         value.min(MAX_VALUE * self.natural)
     }
 
-    /// The result for an end if the verdicts on its two sides could not be brought close together.
+    /// Returns the end if the verdicts on its two sides are not close together: the hint if both sides agree with it,
+    /// otherwise an unconfirmed end.
     fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
         let Some((beyond, mechanism)) = beyond else {
@@ -208,7 +212,8 @@ impl Line<'_> {
         let reached = match self.reach(trial, value, &motion) {
             Cut::Above(bound) if outward > 0.0 => bound,
             Cut::Below(bound) if outward < 0.0 => bound,
-            // The verdict "stands" there was within its tolerance: the real end lies on the other side.
+            // The mechanism excludes the inner side too, so the verdict stable was only within its tolerance. Cut at
+            // the value itself.
             _ => value,
         };
         let bound = if (reached - bracket.inside) * outward < 0.0 {
@@ -250,8 +255,9 @@ impl Line<'_> {
         None
     }
 
-    /// Finds the value nearest to `present` at which the component stands; at `present` itself it falls. `hint` is the
-    /// result of a linear program.
+    /// Finds the value nearest to `present` at which the component stands; at `present` itself it falls. `hint` is
+    /// the result of a linear program. The error is the interval if no such value is found: empty if mechanisms
+    /// exclude all values, otherwise undecided.
     pub fn nearest(
         &self,
         trial: &mut Trial,
@@ -290,7 +296,8 @@ impl Line<'_> {
         Err(Interval::Undecided)
     }
 
-    /// The verdict at a value. If it is undecided, the verdict at growing distances on both sides.
+    /// Decides a value. If it is undecided, decides values between `low` and `high` at growing distances on both
+    /// sides. Returns the verdict, the value that it belongs to, and the mechanism.
     fn beside(
         &self,
         trial: &mut Trial,
@@ -313,7 +320,7 @@ impl Line<'_> {
         (Verdict::Undecided, value, last)
     }
 
-    /// The values that a mechanism, found at one value, excludes.
+    /// Returns the values that a mechanism found at `value` excludes.
     fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
         let [without, with] =
             [0.0, self.natural].map(|at| trial.power(&(self.setting)(at), motion));
@@ -323,7 +330,7 @@ impl Line<'_> {
         if !bound.is_finite() || bound.abs() > MAX_REACH * self.natural {
             return Cut::All;
         }
-        // A verdict at this value has a mechanism with positive power there.
+        // The mechanism has positive power at `value`, so it excludes this value, too.
         if slope > 0.0 {
             Cut::Above(bound.min(value))
         } else {
@@ -335,7 +342,7 @@ impl Line<'_> {
         trial.judge_at(&(self.setting)(value), Place::AtEdge)
     }
 
-    /// The size of a value, to which distances from it are relative.
+    /// Returns the size to which distances from a value are relative: its magnitude, or `natural` if it is nearly 0.
     fn size(&self, value: f64) -> f64 {
         if value.abs() < 1e-3 * self.natural {
             self.natural

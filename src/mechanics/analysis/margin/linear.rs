@@ -1,6 +1,6 @@
-//! The interval of a parameter in which the loads are linear.
+//! Computes the interval of a parameter in which the loads are linear.
 //!
-//! 1. Where the component falls at the present value, find the nearest value at which it stands ([`nearest_start`]).
+//! 1. If the component falls at the present value, find the nearest value at which it stands ([`nearest_start`]).
 //! 2. From a value at which it stands, find the end in each direction ([`end`]): one linear program, confirmed by verdicts.
 
 use super::interval::{End, Interval};
@@ -12,14 +12,15 @@ use crate::solve::{Limit, largest_factor, nearest_factor};
 /// A value at which the component stands.
 struct Start {
     value: f64,
-    /// Where the linear program put the end that faces the present value; `None` if the component stands there.
+    /// The end on the side of the present value, according to the linear program; `None` if the component stands
+    /// there.
     facing_end: Option<f64>,
 }
 
-/// The interval of a parameter in which the loads are linear.
+/// Returns the interval of a parameter in which the loads are linear.
 ///
-/// `stands` is whether the component stands at `present`. `alone` has only the loads that grow in one direction: if contacts
-/// and unlimited robots carry these loads, the interval has no end in that direction.
+/// `stands` is true if the component stands at `present`. `alone` returns the component with only the loads that grow
+/// in one direction: if contacts and unlimited robots carry these loads, the interval has no end in that direction.
 pub(super) fn linear(
     trial: &mut Trial,
     line: &Line,
@@ -51,9 +52,10 @@ pub(super) fn linear(
     Interval::Between { low, high }
 }
 
-/// The value nearest to the present one at which the component stands. The error is the interval if no such value is found.
+/// Finds the value nearest to `present` at which the component stands. The error is the interval if no such value is
+/// found.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
-    // The linear program says where the value is.
+    // A linear program predicts the value.
     let (program, toward) =
         trial.direction(&(line.setting)(present), &(line.setting)(present + 1.0));
     let found = nearest_factor(&program, &toward);
@@ -61,7 +63,8 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         Limit::At(change) => (present + change).max(line.least),
         _ => present,
     };
-    // Its forces and its motion often prove the verdicts that follow. A motion that no value stops moves at the present one.
+    // Cache its forces and its motion: they often prove the verdicts that follow. If the component stands at no
+    // value, the motion belongs to the present one.
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
         Limit::Never => [present; 3],
@@ -76,8 +79,8 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     })
 }
 
-/// The end in one direction, seen from `start`, at which the component stands. `base` is the value at which the component is
-/// as given, if it stands there.
+/// Finds the end in the direction `outward` from `start`, a value at which the component stands. `base` is the
+/// present value, if the component stands there.
 fn end(
     trial: &mut Trial,
     line: &Line,
@@ -86,7 +89,7 @@ fn end(
     base: Option<f64>,
     alone: &dyn Fn(f64) -> Setting,
 ) -> End {
-    // The least value that has a meaning: one verdict, no linear program.
+    // If the component stands at the least meaningful value, the end is there. This needs no linear program.
     if outward < 0.0
         && line.least.is_finite()
         && trial.judge(&(line.setting)(line.least)).0 == Verdict::Stable
@@ -104,9 +107,9 @@ fn end(
             trial.learn_edge(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))
         }
-        // It stands within the proof's tolerance and not beyond it: the start is the end.
+        // The component stands only within the proof's tolerance: the start is the end.
         Limit::Never => line.end(trial, start, outward, Some(start)),
-        // The program was not solved, or its unbounded ray could not be confirmed: verdicts alone search the end.
+        // The program was not solved, or its unbounded ray could not be confirmed: search the end by verdicts alone.
         _ => line.end(trial, start, outward, None),
     }
 }

@@ -5,36 +5,36 @@ use super::kind::{MarginKind, MarginKinds};
 use crate::proof::Motion;
 use crate::scene::RobotId;
 
-/// The end of what a frame bears in one direction.
+/// One margin: the limit of stability of a frame in one direction.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Margin {
-    /// It stands up to here (of what must not be too small: from here on).
+    /// The frame stands up to this value, or from it on if the parameter must not be too small.
     Value {
-        /// Where the edge is, in the unit of the margin.
+        /// The limit of stability, in the unit of the margin.
         at: f64,
-        /// How the blocks begin to move just beyond; empty where there is no beyond, as below a friction of 0.
+        /// How the blocks begin to move just beyond; empty if there are no values beyond, as below a friction of 0.
         mechanism: Vec<Motion>,
     },
-    /// It falls at any value.
+    /// The frame falls at every value.
     None,
-    /// It stands at any value.
+    /// The frame stands at every value.
     Unbounded,
-    /// The edge lies between, but no verdict was reached near enough to it on either side.
+    /// The limit lies between two values, but no verdicts closer to it were proved.
     Unconfirmed {
         /// Here it stands.
         stands: f64,
         /// Here it falls, or is undecided.
         beyond: f64,
     },
-    /// It was not asked for.
+    /// The margin was not requested.
     NotAsked,
     /// The parameter has no meaning in this scene: it lists no loads.
     NotApplicable,
 }
 
 impl Margin {
-    /// The value; `None` if there is none.
+    /// The value; `None` for all variants other than [`Margin::Value`].
     pub fn at(&self) -> Option<f64> {
         match self {
             Margin::Value { at, .. } => Some(*at),
@@ -43,7 +43,7 @@ impl Margin {
     }
 }
 
-/// A margin to either side, as seen with gravity pointing down the page.
+/// The margins to both sides, seen with gravity pointing down the page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sides {
     /// Towards the left.
@@ -52,7 +52,7 @@ pub struct Sides {
     pub right: Margin,
 }
 
-/// How far a frame is from the edge of standing.
+/// How far a frame is from its limit of stability.
 ///
 /// # Example
 /// ```
@@ -73,23 +73,23 @@ pub struct Sides {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Margins {
-    /// The values of each parameter at which it stands. All other fields are read from them.
+    /// The values of each parameter at which it stands. All other fields follow from them.
     pub intervals: Intervals,
-    /// The smallest friction coefficient, the same at every interface, with which it stands; 0 where it needs none.
-    /// [`Margin::None`] where it falls at [`Margins::MOST_FRICTION`].
+    /// The smallest friction coefficient, the same at every interface, with which it stands; 0 if it needs none.
+    /// [`Margin::None`] if it falls at [`Margins::MOST_FRICTION`].
     pub friction: Margin,
-    /// The largest turn of gravity in degrees; loads do not turn. Right: gravity's tip moves to the right.
-    /// [`Margin::None`] where it falls unturned, even if some turn would let it stand: a margin begins at the frame as it
-    /// is. [`Margin::Unbounded`] where it stands at every turn.
+    /// The largest rotation of gravity to each side, in degrees; loads do not rotate. To the right means that the tip
+    /// of the gravity vector moves to the right. [`Margin::None`] if the frame falls without rotation, even if it
+    /// stands at some rotation. [`Margin::Unbounded`] if it stands at every rotation.
     pub tilt: Sides,
-    /// The largest share of each weight that may act across gravity in addition to the weight. [`Margin::None`] where it
-    /// falls without it.
+    /// The largest fraction of each weight that may act at right angles to gravity, in addition to the weight.
+    /// [`Margin::None`] if the frame falls without it.
     pub horizontal_load: Sides,
-    /// The largest safety kernel; [`Margin::Unbounded`] where it stands at 1.
+    /// The largest safety kernel; [`Margin::Unbounded`] if it stands at 1.
     pub kernel: Margin,
-    /// The largest factor on the listed loads; 1 is as they are listed. [`Margin::NotApplicable`] without loads.
+    /// The largest factor on the listed loads; 1 means the loads as listed. [`Margin::NotApplicable`] without loads.
     pub load_factor: Margin,
-    /// Each holding robot's least sufficient limits, in the order of the frame's holds.
+    /// The least sufficient limits of each robot that holds a block, in the order of the frame's holds.
     pub robots: Vec<RobotMargins>,
 }
 
@@ -98,22 +98,23 @@ impl Margins {
     pub const MOST_FRICTION: f64 = 1e3;
 }
 
-/// A robot's least sufficient limits: of one component alone, its others and the other robots' as the scene has them.
+/// A robot's least sufficient limits. Each limit is changed alone; the robot's other limits and those of other robots
+/// are as in the scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RobotMargins {
     /// The robot.
     pub robot: RobotId,
-    /// Of the horizontal force, N.
+    /// The least sufficient limit of the horizontal force, N.
     pub fx: Margin,
-    /// Of the vertical force, N.
+    /// The least sufficient limit of the vertical force, N.
     pub fy: Margin,
-    /// Of the torque, N·m.
+    /// The least sufficient limit of the torque, N·m.
     pub torque: Margin,
 }
 
 impl Margins {
-    /// The requested margins from these intervals.
+    /// Derives the requested margins from the intervals.
     pub(super) fn new(intervals: Intervals, kinds: MarginKinds) -> Margins {
         let robots = intervals.robots.iter().map(|robot| RobotMargins {
             robot: robot.robot,
@@ -140,7 +141,7 @@ impl Margins {
 }
 
 impl Sides {
-    /// The ends of an interval as distances from 0 to both sides; no values if it does not contain 0.
+    /// Returns the distances from 0 to both ends of an interval. They are [`Margin::None`] if it does not contain 0.
     fn around_zero(interval: Option<&Interval>) -> Sides {
         let both = |margin: Margin| Sides {
             left: margin.clone(),
@@ -157,17 +158,17 @@ impl Sides {
     }
 }
 
-/// The least sufficient value.
+/// Returns the lower end as a margin: the least sufficient value.
 fn least(interval: &Interval) -> Margin {
     interval.low().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// The largest admissible value.
+/// Returns the upper end as a margin: the largest admissible value.
 fn most(interval: &Interval) -> Margin {
     interval.high().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// An end as a margin, with its value multiplied by `sign`.
+/// Converts an end to a margin, with its value multiplied by `sign`.
 fn margin(end: &End, sign: f64) -> Margin {
     // Adding 0 turns −0 into 0.
     let signed = |value: f64| sign * value + 0.0;

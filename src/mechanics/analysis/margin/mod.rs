@@ -1,15 +1,15 @@
 //! [`Margins`]: the values of friction, tilt, loads, kernel and robot limits at which a frame stands, and how far it is from
 //! their ends.
 //!
-//! Equilibrium is linear in the forces and in a factor on loads, in a horizontal share of the weights and in a robot's
-//! limit. More friction and a smaller kernel only add admissible forces. So for each of these parameters the values at
-//! which a frame stands form an [`Interval`]. A frame stands where all its components stand: its interval is the
-//! intersection of theirs.
+//! The balance equations are linear in the forces, in a factor on loads and in a horizontal fraction of the weights.
+//! The bounds on forces are linear in a robot's limit. More friction and a smaller kernel only add admissible forces.
+//! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
+//! components stand: its interval is the intersection of theirs.
 //!
-//! [`line`] finds both ends for what is linear: one linear program each, confirmed by verdicts. [`edge`] searches the ends
-//! of friction and kernel, [`tilt`] those of the turn of gravity. An end is believed only when the changed frame stands
-//! just inside it and falls just beyond it, by the same proofs as every verdict; its mechanism is the one just beyond.
-//! [`Margins`] are read from the intervals, in one place.
+//! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
+//! [`edge`] searches the ends for friction and kernel, and [`tilt`] those for the rotation of gravity. An end is
+//! accepted only if the changed frame stands just inside it and falls just beyond it, with the same proofs as every
+//! verdict. The mechanism of an end is that of the fall just beyond it. [`Margins`] follow from the intervals.
 
 mod edge;
 mod interval;
@@ -38,7 +38,7 @@ pub use margins::{Margin, Margins, RobotMargins, Sides};
 use trial::Trial;
 pub use trial::trials;
 
-/// One component whose margins are sought.
+/// One component whose margins are computed.
 pub(super) struct Part<'a> {
     pub component: &'a Assembly,
     pub key: &'a Key,
@@ -55,8 +55,8 @@ impl Part<'_> {
         Trial::new(self.component, forces)
     }
 
-    /// The interval of a parameter that does not act on the component: `all` values if the component stands, otherwise
-    /// none.
+    /// Returns the interval of a parameter that does not affect the component: `all` if the component stands, empty
+    /// if it falls, otherwise undecided.
     fn at_present(&self, all: Interval) -> Interval {
         match self.found.verdict {
             Verdict::Stable => all,
@@ -66,7 +66,8 @@ impl Part<'_> {
     }
 }
 
-/// The intervals of one component: a load factor of `None` is that of a component without loads.
+/// The intervals of one component. `None` if not requested; the load factor is also `None` for a component without
+/// loads.
 pub(super) struct ComponentIntervals {
     friction: Option<Interval>,
     tilt: Option<Interval>,
@@ -76,11 +77,12 @@ pub(super) struct ComponentIntervals {
     robots: Vec<RobotIntervals>,
 }
 
-/// The margins of a frame from its components, and the number of changed components that were judged for it.
+/// Computes the margins of a frame from its components, and the number of changed components that were decided for
+/// them.
 ///
 /// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
-/// 2. Intersect them: a frame stands where all its components stand.
-/// 3. If the frame falls, search the nearest tilt at which it stands; that is a question to the whole frame.
+/// 2. Intersect them: a frame stands if all its components stand.
+/// 3. If the frame falls, search the nearest tilt at which it stands. This needs verdicts of the whole frame.
 pub(super) fn find_margins(
     parts: &[Part],
     kinds: MarginKinds,
@@ -102,7 +104,7 @@ pub(super) fn find_margins(
         intervals.tilt = Some(tilt::nearest(&mut trials));
         judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
     }
-    // Only where all loads turn with gravity and nothing is limited do the tilts form one arc.
+    // The tilts certainly form one arc only if no loads are listed and no robot has a finite limit.
     let is_cone =
         |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
     if let Some(Interval::Between { .. }) = intervals.tilt
@@ -113,7 +115,8 @@ pub(super) fn find_margins(
     (Margins::new(intervals, kinds), judged)
 }
 
-/// Finds the intervals of components that no earlier frame had; returns the number of changed components that were judged.
+/// Finds the intervals of components that are not in `known`, and adds them to it. Returns the number of changed
+/// components that were decided.
 fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
@@ -130,7 +133,7 @@ fn find_fresh_intervals(
     let each = fresh.par_iter();
     #[cfg(not(feature = "parallel"))]
     let each = fresh.iter();
-    // A deadline belongs to a thread, so pass it to the worker threads.
+    // A deadline is valid on one thread only, so pass it to the worker threads.
     let deadline = deadline();
     let found: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
@@ -148,7 +151,7 @@ fn find_fresh_intervals(
     judged
 }
 
-/// The intervals of a frame: the intersection of those of its components.
+/// Returns the intervals of a frame: the intersections of those of its components.
 fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
     let whole =
         |kind: MarginKind, all: Interval, of: fn(&ComponentIntervals) -> &Option<Interval>| {
@@ -188,11 +191,12 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
     intervals
 }
 
-/// Loads that do not turn and limits make the tilts at which a frame stands several arcs.
+/// The note on the interval of tilts of frames that may stand in several separate ranges of tilt.
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
                        tilts too; this interval contains 0, or is the nearest one where the frame falls unturned";
 
-/// The intervals of all limits. No robot can save a frame in which another component falls.
+/// Returns the intervals of all limits of robots. An interval is empty if a component falls that the robot does not
+/// hold.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, found)) in components.iter().enumerate() {

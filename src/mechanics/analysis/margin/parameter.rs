@@ -1,4 +1,4 @@
-//! The interval of each parameter of one component.
+//! Computes the interval of each parameter for one component.
 
 use super::edge::Threshold;
 use super::interval::{End, Interval, RobotIntervals};
@@ -12,8 +12,8 @@ use crate::analysis::Verdict;
 use crate::program::Scale;
 use crate::solve::{Limit, least_grip_limit};
 
-/// All requested intervals of a component. `stands` says whether the component stands at present. `with_tilt` says whether
-/// all components of its frame stand, so that the tilts around 0 are needed.
+/// Returns all requested intervals of a component. `stands` says whether the component stands at present. `with_tilt`
+/// says whether all components of its frame stand, so that the tilts around 0 are needed.
 pub(super) fn intervals(
     trial: &mut Trial,
     stands: bool,
@@ -106,7 +106,8 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
     linear(trial, &line, 1.0, stands, &alone)
 }
 
-/// The interval of one limit of one grip.
+/// Returns the interval of one limit of one grip, in N or N·m. `component` is 0 for force x, 1 for force y, 2 for
+/// torque. `stands` is true if the component stands with the limits of the scene.
 fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
     let setting = |most: f64| Setting {
         limits: Limited::One {
@@ -126,7 +127,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         least: 0.0,
         natural: unit * Scale::HEAVIEST,
     };
-    // The limit as the scene gives it: it is enough where the component stands.
+    // The limit of the scene is sufficient if the component stands.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
         match trial.judge(&setting(f64::INFINITY)).0 {

@@ -1,10 +1,10 @@
-//! The turns of gravity at which a frame stands.
+//! Finds the rotations of gravity (tilts) at which a frame stands.
 //!
-//! The weights' directions and sizes that are carried form a convex set in the plane of (share along gravity, share across
-//! it); turns are a circle in this plane. Where only weights act and no limit cuts a force the set is a cone, and the turns
-//! follow from the horizontal shares: one linear program. Else the circle may enter and leave the set several times. The
-//! power along a mechanism at one turn is A cos θ + B sin θ + C, so it cuts a whole arc off; the ends of these arcs are
-//! the values to try next.
+//! Changed gravity has two components: one along the original direction and one across it. The pairs of components at
+//! which a structure stands form a convex set in a plane. Tilts form a circle in this plane. If only weights act and
+//! no limit bounds a force, the set is a cone, and the tilts follow from the interval of horizontal loads: one linear
+//! program. Otherwise the circle may enter and leave the set several times. The power along a mechanism at the tilt θ
+//! is A cos θ + B sin θ + C. One mechanism therefore excludes a whole arc, and the ends of these arcs are tried next.
 
 use super::interval::{End, Interval};
 use super::line::Line;
@@ -14,26 +14,28 @@ use crate::analysis::Verdict;
 use crate::analysis::decide::Place;
 use crate::proof::Motion;
 
-/// How near an end a component must stand, relative to the turn.
+/// The smallest distance from an end at which verdicts are computed, relative to the tilt.
 const NEAR: f64 = 1e-6;
-/// Steps away from an end grow by this factor where verdicts stay undecided.
+/// Distances from an end grow by this factor while verdicts stay undecided.
 const WIDER: f64 = 16.0;
-/// The largest of these steps, relative to the turn.
+/// The largest of these distances, relative to the tilt.
 const FAR: f64 = 256e-6;
-/// A stretch of fewer degrees between two turns at which a component stands is not searched any further.
+/// A range between two stable tilts is not searched further if it is narrower than this, degrees.
 const MIN_GAP: f64 = 1e-6;
-/// How far the first look goes at a time, degrees: no part of a right angle, at which much lies on the edge of standing.
+/// The step of the first search, degrees. A right angle is no multiple of it, because many structures are exactly at
+/// their limit of stability at right angles.
 const STRIDE: f64 = 77.7;
-/// Where a cut gains less than this, relative to the turn, the search looks ahead by [`AHEAD`] times the gain. Cuts whose
-/// mechanisms change a little each time can gain less and less, a fifteenth less in a lintel that a load pulls off its posts.
+/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`AHEAD`] times the gain. Cuts
+/// whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that a
+/// load pulls off its posts.
 const SLOW: f64 = 1e-2;
-/// How far the search looks ahead, in gains.
+/// How far the search looks ahead, as a multiple of the gain.
 const AHEAD: f64 = 16.0;
-/// The most cuts of one search.
+/// The largest number of cuts of one search.
 const MAX_CUTS: usize = 200;
 
-/// The interval of tilts around 0 of a component that stands without tilt. `horizontal` is its interval of horizontal
-/// loads.
+/// Returns the interval of tilts around 0, in degrees, of a component that stands without tilt. `horizontal` is its
+/// interval of horizontal loads.
 pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
     match horizontal {
         Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
@@ -45,7 +47,8 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
     }
 }
 
-/// The interval of tilts nearest to 0 at which the frame stands, for a frame that falls without tilt.
+/// Returns the interval of tilts nearest to 0 at which a frame stands, in degrees, for a frame that falls without
+/// tilt.
 pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     match first_standing(trials) {
         Err(interval) => interval,
@@ -56,8 +59,9 @@ pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// The tilt nearest to 0 at which all components stand. Each mechanism excludes an arc around 0, until the frame stands at
-/// one end of the excluded range.
+/// Finds the tilt nearest to 0 at which all components stand, in degrees. The error is the interval if none is found:
+/// empty or undecided. Each mechanism excludes an arc around 0, until the frame stands at one end of the excluded
+/// range.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     let mut turn = 0.0;
@@ -114,8 +118,8 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     Err(Interval::Undecided)
 }
 
-/// The verdict of the whole frame at a tilt, and the arc that a mechanism excludes if it falls. The arc contains all tilts
-/// if the mechanism does not depend on the tilt.
+/// Returns the verdict of the whole frame at a tilt, and the arc in degrees that a mechanism excludes if the frame
+/// falls. If it falls and the arc is `None`, the mechanism excludes every tilt.
 fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]>) {
     let mut verdict = Verdict::Stable;
     for trial in trials {
@@ -129,7 +133,7 @@ fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]
     (verdict, None)
 }
 
-/// The interval of tilts of a component around a tilt at which it stands.
+/// Returns the interval of tilts of a component around a tilt at which it stands.
 fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
         let mut arc = Arc {
@@ -142,24 +146,25 @@ fn around(trial: &mut Trial, from: f64) -> Interval {
     Interval::Between { low, high }
 }
 
-/// The way from a turn at which a component stands, in one direction. Ways along it are degrees from 0 to 360.
+/// The tilts in one direction from a tilt at which a component stands. A *way* is the distance of a tilt from there,
+/// 0 to 360 degrees.
 struct Arc<'t, 'a> {
     trial: &'t mut Trial<'a>,
     from: f64,
     outward: f64,
 }
 
-/// Where a component first falls on a way.
+/// The first end of the stable tilts in one direction.
 enum Exit {
     At(f64, Vec<Motion>),
-    /// It stands at the first way; at the second it falls or is undecided.
+    /// The component stands at the first way; at the second it falls or is undecided.
     Unconfirmed(f64, f64),
 }
 
 impl Arc<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // At a tilt of 0 other components of the frame may fall: the first step ends there.
+        // If the search does not start at a tilt of 0, the frame falls there. The first step then ends there.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
         loop {
@@ -167,7 +172,7 @@ impl Arc<'_, '_> {
                 (Verdict::Unstable, motion) => Some(self.edge(reached, next, motion)),
                 (Verdict::Stable, _) => self.gap(reached, next),
                 (Verdict::Undecided, _) => {
-                    // Another value is more informative.
+                    // Try another value; its verdict may be decided.
                     let other = 0.5 * (reached + next) + 0.137 * (next - reached);
                     match self.judge(other) {
                         (Verdict::Unstable, motion) => Some(self.edge(reached, other, motion)),
@@ -204,13 +209,13 @@ impl Arc<'_, '_> {
         }
     }
 
-    /// The end between a tilt at which the component stands and a tilt at which it falls by a mechanism.
+    /// Finds the end between the way `stands` and the way `falls`, at which the component falls by `motion`.
     fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
         // If a mechanism excludes almost nothing, bisect next.
         let mut is_slow = false;
         for _ in 0..MAX_CUTS {
-            // The mechanism excludes every tilt from here to the one where it was found.
+            // The mechanism excludes every tilt from `bound` to `falls`, where it was found.
             let arc = cut(self.trial, self.from + self.outward * falls, &motion);
             let bound = arc.map_or(stands, |[low, high]| {
                 let turn = if self.outward > 0.0 { low } else { high };
@@ -252,11 +257,13 @@ impl Arc<'_, '_> {
         Exit::Unconfirmed(stands, falls)
     }
 
-    /// The first end between two tilts at which the component stands, if it falls between them.
+    /// Finds the first end between two ways at which the component stands; `None` if it stands everywhere between
+    /// them.
     ///
-    /// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
-    /// them meet, it holds the triangle of the three and so the whole arc. If it is a cone, it holds every arc of less
-    /// than half a turn between two of its directions. Otherwise the arc is halved.
+    /// The components of gravity at which the structure stands form a convex set. If the set contains both ends of an
+    /// arc and the intersection of the tangents there, it contains the triangle of these points, and therefore the
+    /// arc. If the set is a cone, it contains every arc of less than half a turn between two of its directions.
+    /// Otherwise the arc is bisected.
     fn gap(&mut self, from: f64, to: f64) -> Option<Exit> {
         let width = to - from;
         let is_cone = !self.trial.is_loaded() && !self.trial.is_limited();
@@ -285,7 +292,8 @@ impl Arc<'_, '_> {
     }
 }
 
-/// Gravity turned by an angle in degrees, positive to the right, and multiplied by `stretch`.
+/// Returns the setting in which gravity is rotated by an angle in degrees, positive to the right, and multiplied by
+/// `stretch`.
 fn turned(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
     Setting {
@@ -295,8 +303,8 @@ fn turned(degrees: f64, stretch: f64) -> Setting {
     }
 }
 
-/// The arc of tilts in degrees, around a given tilt, at which a component falls by a motion; `None` if it falls at every
-/// tilt.
+/// Returns the arc of tilts in degrees, around the tilt `turn`, at which a component falls by a motion; `None` if it
+/// falls at every tilt.
 fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
         let setting = Setting {
@@ -309,7 +317,7 @@ fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let constant = power(0.0, 0.0);
     let [along, across] = [power(1.0, 0.0) - constant, power(0.0, 1.0) - constant];
     let size = libm::hypot(along, across);
-    // size · cos(θ − middle) + constant > 0.
+    // The power is positive where size · cos(θ − middle) + constant > 0.
     if constant >= size {
         return None;
     }
@@ -321,19 +329,20 @@ fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     Some([turn - off - half, turn - off + half])
 }
 
-/// Growing distances from an end, relative to its size.
+/// Returns growing distances from an end, relative to its size.
 fn steps() -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
         .take_while(|step| *step <= FAR)
 }
 
-/// The size of a tilt in degrees, to which distances from it are relative.
+/// Returns the size in degrees to which distances from a tilt are relative: its magnitude, at least 1.
 fn size(turn: f64) -> f64 {
     turn.abs().max(1.0)
 }
 
-/// The largest tilt if only weights act and no limit bounds a force. The admissible loads then form a cone, and the tangent
-/// of the tilt is the largest horizontal load. Beyond 90° the tangent of the rest is the largest lifting share.
+/// Returns the end of the tilts on one side (`side` is −1 or 1) if only weights act and no limit bounds a force. The
+/// admissible loads then form a cone, and the tangent of the tilt is the largest horizontal load. Beyond 90° the
+/// tangent of the remaining angle is the largest upward fraction of the weights.
 fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
     let turn = |share: f64| libm::atan(share).to_degrees();
     match horizontal {

@@ -1,7 +1,7 @@
 //! [`Trial`]: decides a component with changed parameters.
 //!
-//! What balanced one changed component, and by what motion another fell, is remembered: where it proves the verdict of the
-//! next one no program is solved for that.
+//! Forces and motions that proved the verdict on one changed component are cached. If they also prove the verdict on
+//! the next one, no program is solved.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -16,7 +16,7 @@ use crate::proof::{ContactForces, Forces, GripForces, Motion};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Extreme, Tangent};
 
-/// Changed components judged by this process, for who waits to see that it lives.
+/// The number of changed components that this process has decided.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
 /// The number of changed components that this process has decided for margins, for a progress bar.
@@ -24,16 +24,16 @@ pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }
 
-/// What is changed about a component; by default nothing.
+/// The changed parameters of a component; by default nothing is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Setting {
     /// One friction coefficient for every interface.
     pub friction: Option<f64>,
     /// The safety kernel.
     pub kernel: Option<f64>,
-    /// Share of each weight that acts along gravity.
+    /// The fraction of each weight that acts along gravity.
     pub along: f64,
-    /// Share of each weight that acts across gravity, to the right of it.
+    /// The fraction of each weight that acts at right angles to gravity, positive to the right.
     pub across: f64,
     /// Factor on the listed loads.
     pub loads: f64,
@@ -41,12 +41,12 @@ pub(super) struct Setting {
     pub limits: Limited,
 }
 
-/// What is changed about the robots' limits.
+/// The changed limits of robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Limited {
-    /// Nothing.
+    /// The limits of the scene.
     AsGiven,
-    /// Only what has no limit can give anything: what is left of the robots at loads without end.
+    /// Every finite limit becomes 0. The rest is what robots can carry if the loads grow without end.
     Unlimited,
     /// One limit of one grip.
     One {
@@ -72,18 +72,18 @@ impl Default for Setting {
     }
 }
 
-/// One component of a frame, to be changed and judged as often as wanted.
+/// One component of a frame, of which changed versions are decided.
 pub(super) struct Trial<'a> {
     given: &'a Assembly,
-    /// The forces of the component as it is, where it stands.
+    /// The forces that balance the unchanged component, if it stands.
     forces: Option<&'a Forces>,
     guesses: ProofCache,
-    /// How many settings were judged.
+    /// The number of settings that were decided.
     pub judged: usize,
 }
 
 impl<'a> Trial<'a> {
-    /// A trial of a component, with the forces that balance it if it stands.
+    /// Creates a trial of a component. `forces` balance the unchanged component; `None` if it does not stand.
     pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
         let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
@@ -107,17 +107,17 @@ impl<'a> Trial<'a> {
         is_loaded(self.given)
     }
 
-    /// Whether a limit of some robot is neither 0 nor infinite, so that twice the loads does not give twice the forces.
+    /// Whether a limit of some robot is neither 0 nor infinite. The forces are then not proportional to the loads.
     pub fn is_limited(&self) -> bool {
         is_limited(self.given)
     }
 
-    /// The verdict on the changed component, and its mechanism if it falls.
+    /// Returns the verdict on the changed component, and its mechanism if it falls.
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judge_at(setting, Place::Anywhere)
     }
 
-    /// Like [`Trial::judge`], if it is known whether the component is near its limit.
+    /// Like [`Trial::judge`]. `place` says whether the component is known to be near its limit of stability.
     pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
         self.count();
         decide_verdict(&self.changed(setting), place, &mut self.guesses)
@@ -128,7 +128,7 @@ impl<'a> Trial<'a> {
         verdict_from_cache(&self.changed(setting), &self.guesses)
     }
 
-    /// The least residual of the changed component, and its derivative.
+    /// Returns the least residual of the changed component and its derivative; `None` if the program is not solved.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))
@@ -139,7 +139,8 @@ impl<'a> Trial<'a> {
         TRIALS.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The value at which the tangent of the least residual is zero (a step of Newton's method).
+    /// Returns the parameter value at which the tangent of the least residual at `from` is zero: a step of Newton's
+    /// method. `to` is another value, in whose direction the tangent is evaluated.
     pub fn root(
         &self,
         tangent: &Tangent,
@@ -192,7 +193,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The power of the changed loads along a motion, less the power that limited robots can absorb, in watts.
+    /// Returns the power of the changed loads along a motion, less the power that limited robots can absorb, in
+    /// watts.
     pub fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
         let changed = self.changed(setting);
         let mut power = 0.0;
@@ -218,13 +220,13 @@ impl<'a> Trial<'a> {
         power
     }
 
-    /// The changed component's program.
+    /// Returns the program of the changed component in its own scale.
     pub fn program(&self, setting: &Setting) -> Program {
         let changed = self.changed(setting);
         Program::new(&changed, Scale::from_assembly(&changed))
     }
 
-    /// The program with one setting, and the change of its load vector to another setting.
+    /// Returns the program with the setting `from`, and the change of its load vector from there to the setting `to`.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());
@@ -244,7 +246,7 @@ impl<'a> Trial<'a> {
         if let Some(mu) = setting.friction {
             changed = changed.with_friction(mu);
         }
-        // A weight along gravity and a weight across it are one weight along turned gravity.
+        // A weight along gravity and a weight across it together are one weight along changed gravity.
         let down = self.given.pull;
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
@@ -272,7 +274,7 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
     })
 }
 
-/// The limits of a grip with a setting.
+/// Returns the limits of grip `number` with a setting.
 fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
@@ -297,7 +299,8 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     }
 }
 
-/// The mixture of two sets of forces. Admissible forces form a convex set.
+/// Interpolates between two sets of forces: `first` at a share of 0, `last` at 1. The result is admissible, because
+/// admissible forces form a convex set.
 fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);

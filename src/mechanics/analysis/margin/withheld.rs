@@ -4,7 +4,7 @@ use super::{End, Interval, Intervals};
 use crate::scene::RobotId;
 
 impl Intervals {
-    /// A sentence for each withheld margin, with the reason.
+    /// Returns a sentence for each withheld margin, with the reason. `robot` returns the name of a robot.
     pub(in crate::mechanics::analysis) fn withheld(
         &self,
         robot: impl Fn(RobotId) -> String,

@@ -1,4 +1,4 @@
-//! Statically determinate components: the mechanism and the adhesion that is missing, without a program.
+//! Decides statically determinate components: computes the mechanism and the missing adhesion without a program.
 
 use super::Attempt;
 use crate::program::Program;

@@ -9,8 +9,8 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_in(program, settings))
 }
 
-/// Like the strategy itself, but with few iterations. Near the limit it may end without a status, and other strategies
-/// decide sooner.
+/// Like [`attempt`], but with few iterations. Near the limit the program converges slowly or ends without a status,
+/// and other strategies decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_at_first_look(program, settings))
 }

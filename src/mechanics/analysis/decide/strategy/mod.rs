@@ -26,7 +26,7 @@ pub enum Method {
     LeastForceRefined,
     /// By the program of least residual.
     LeastResidual,
-    /// By the program of least sticking.
+    /// By the program of least adhesion. Its name in results is `least sticking`.
     LeastSticking,
 }
 
@@ -67,15 +67,15 @@ pub(super) enum Strategy {
     FirstLook(SolverSettings),
     /// Least force.
     Force(SolverSettings),
-    /// Any forces that balance, or a motion; whatever the forces are.
+    /// Any forces that balance, regardless of their sum, or a motion.
     AnyBalance,
     /// Forces with the least imbalance.
     Residual,
-    /// Least sticking.
+    /// Least adhesion.
     Adhesion(SolverSettings),
 }
 
-/// What a strategy found, in the program's units and without a proof.
+/// The results of a strategy, in the program's units and not yet proved.
 pub(super) struct Attempt {
     /// Forces that should balance.
     pub forces: Option<Amounts>,
@@ -89,7 +89,7 @@ pub(super) struct Attempt {
 }
 
 impl Attempt {
-    /// The forces of this attempt, also those that balance only with adhesion.
+    /// Returns the forces of this attempt, even if they balance only with adhesion. They are not proved.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
         let least_adhesion = self
             .least_adhesion
@@ -100,10 +100,11 @@ impl Attempt {
 }
 
 impl Strategy {
-    /// The strategies in the order in which they are tried: from the fastest to the one that decides closest to the limit.
+    /// Returns the strategies in the order in which they are tried: from the fastest to the one that decides closest
+    /// to the limit.
     ///
     /// 1. Closed form, if balance alone determines all forces.
-    /// 2. Least force. It decides nearly every component, and its forces are the ones to draw.
+    /// 2. Least force. It decides nearly every component, and figures draw its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a status.
     /// 4. Least force with full precision.
@@ -112,11 +113,12 @@ impl Strategy {
     /// Three cases differ:
     ///
     /// - At the limit (`Place::AtEdge`) step 3 comes before step 2.
-    /// - Large programs begin with a short attempt at least force. If failures are wanted, least adhesion comes before least
-    ///   residual: a large component that falls needs it in any case, and least residual takes nearly as long.
-    /// - Large programs of which only the verdict is wanted begin with any balance. Falling walls of 410 and 915 bricks take 9
-    ///   to 20 iterations with it and 9 to 60 with least force. The short attempt at least force comes next, because a stack of
-    ///   10 000 blocks has no convincing proof from any balance.
+    /// - Large programs begin with a short attempt at least force. If failures are requested, least adhesion comes
+    ///   before least residual: a large component that falls needs it in any case, and least residual takes nearly as
+    ///   long.
+    /// - If only the verdict is requested, large programs begin with any balance. Falling walls of 410 and 915 bricks
+    ///   take 9 to 20 iterations with it and 9 to 60 with least force. The short attempt at least force comes next,
+    ///   because a stack of 10 000 blocks has no convincing proof from any balance.
     pub fn in_order(
         program: &Program,
         settings: &[SolverSettings],
@@ -130,7 +132,8 @@ impl Strategy {
         let quick = settings.iter().find(plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
         match place {
-            // Large: a short attempt, any balance, least adhesion if failures are wanted, least residual, then full attempts.
+            // Large: a short attempt, any balance, least adhesion if failures are requested, least residual, then
+            // full attempts.
             Place::Anywhere if many && !any => {
                 strategies.splice(0..0, residual);
                 if complete_result {
@@ -178,13 +181,13 @@ impl Strategy {
         }
     }
 
-    /// Whether the forces have the least sum.
+    /// Whether the strategy solves the complete program of least force.
     pub fn is_least(&self) -> bool {
         matches!(self, Strategy::Force(_))
     }
 
-    /// Whether the program has an optimum on both sides of the limit. Then, if its forces have no proof, no other forces
-    /// have one.
+    /// Whether the attempt shows that no forces balance, if its own forces have no proof. Only programs with an
+    /// optimum on both sides of the limit show this.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
