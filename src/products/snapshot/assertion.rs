@@ -1,7 +1,7 @@
 //! The macros for tests: [`assert_scene!`](crate::assert_scene), [`assert_scenes!`](crate::assert_scenes) and [`assert_figure!`](crate::assert_figure).
 //!
-//! Paths are relative to the folder of the crate that calls the macros. If a result differs, the test fails and describes
-//! the changes. What is written depends on two environment variables:
+//! Paths are relative to the folder of the crate that calls the macros. If a result differs, the test fails and
+//! describes the changes. Two environment variables decide which files are written:
 //!
 //! | `CI` | `UPDATE_SNAPSHOTS` | written |
 //! |---|---|---|
@@ -167,8 +167,8 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// The absolute path of a path relative to a crate. The folder in which the crate was compiled may not exist where the test
-/// runs. Cargo and nextest then give the present folder in `CARGO_MANIFEST_DIR`.
+/// Joins the folder of the crate and a path relative to it. The folder in which the crate was compiled may not exist
+/// on the machine that runs the test. Cargo and nextest then give the present folder in `CARGO_MANIFEST_DIR`.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     match now {

@@ -28,7 +28,7 @@ use crate::output::png;
 use crate::output::svg;
 use crate::scene::{SceneError, isolate};
 
-/// Compares scenes with their references, in parallel. `done` is called after each scene.
+/// Compares scenes with their references, in parallel. Calls `done` with the name of each scene after it is compared.
 pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     let one = |job: &Job| {
         let findings = isolate(&shown(&job.path), || check_scene(job));
@@ -62,7 +62,7 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
 fn check_scene(job: &Job) -> Vec<Finding> {
     let analysis = Analysis::new(Arc::clone(&job.scene));
     let mut findings = Vec::new();
-    // The SVG text of the last figure: the SVG layer and all widths of the pixel layer use the same text.
+    // Keep the SVG text of the last figure: the SVG layer and all widths of the pixel layer use the same text.
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {
         if part.layer == Layer::Facts {
@@ -88,7 +88,7 @@ fn check_scene(job: &Job) -> Vec<Finding> {
     findings
 }
 
-/// Compares a drawing with its references.
+/// Compares a drawing with its SVG and PNG references.
 pub(super) fn check_drawing(
     drawing: &Drawing,
     parts: &[Part],
@@ -113,7 +113,7 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// The bytes of a reference, or the reason why there are none.
+/// Returns the bytes of a reference, or its state and the reason why it cannot be read.
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
@@ -124,7 +124,8 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
-        // Compare the rounded numbers: those of the reference have been rounded too.
+        // The numbers of both are rounded: those of the reference when it was written, those of `facts` when they
+        // were made.
         let changes = Facts::read(text)
             .map_err(|error| error.to_string())?
             .changes(facts);
@@ -138,7 +139,8 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     })
 }
 
-/// Compares a text with its reference. `changes` returns the changes from the reference in words, or why it cannot be read.
+/// Compares a text with its reference. `changes` gets the text of the reference, and returns the changes in words, or
+/// why it cannot be read. `None` if there is no change.
 fn text_finding(
     part: &Part,
     fresh: String,
@@ -191,7 +193,7 @@ fn pixels_finding(
         Ok(raster) => Picture::new(raster.width, raster.height, raster.rgba),
         Err(error) => return Some(finding(part, State::Unreadable, vec![error.to_string()])),
     };
-    // Encode only if it is needed: encoding a picture takes longer than comparing it.
+    // Encode the picture only if it differs: encoding takes longer than comparing.
     let fresh = || found.encode(Some(subject)).unwrap_or_default();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,

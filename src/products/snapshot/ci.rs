@@ -4,8 +4,8 @@ use super::discovery::shown;
 use super::outcome::{CheckOutcome, Snapshot};
 use crate::text::{github, github_property, xml};
 
-/// The findings as JUnit XML: one test case for each snapshot and for each reference without a scene.
-/// The XML contains no times, so that equal findings give equal bytes.
+/// Writes the findings as JUnit XML. It has one test case for each snapshot, each reference without a scene, and each
+/// scene on which the program failed. The XML contains no times, so that equal findings give equal bytes.
 pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();
     for snapshot in &report.snapshots {
@@ -41,8 +41,9 @@ fn case(name: &str, lines: &[String]) -> String {
     )
 }
 
-/// The findings as GitHub annotations, one per line: `::error file=scenes/arch.json,title=…::…`. GitHub shows them at their
-/// files only if the paths start at the root of the repository.
+/// Returns the findings as GitHub annotations, one for each snapshot that does not match: `::error
+/// file=scenes/arch.json,title=…::…`. GitHub shows them at their files only if the paths start at the root of the
+/// repository.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let others = report.others();

@@ -1,4 +1,4 @@
-//! [`discover`]: finds the scenes in folders, the paths of their references, and references without a scene.
+//! [`discover`]: finds scenes in folders, the paths of their references, and references without a scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -65,22 +65,22 @@ pub struct Discovered {
     pub jobs: Vec<Job>,
     /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program failed by its own fault.
+    /// Scenes on which the program itself failed.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
 /// Finds all scenes in the given folders and scene files, and all references without a scene.
 ///
-/// A scene is a `.json` file with the key `"drystone"`. A file that is no JSON is a scene too if it is empty, is not UTF-8, or
-/// contains `drystone`, `blocks` or `polygon`: it is reported. Hidden folders and caches are skipped. The filter `only` selects
-/// scenes in one of three ways:
+/// A scene is a `.json` file with the key `"drystone"`. A file that is not valid JSON counts as a damaged scene, and
+/// is reported, if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`. Hidden folders and
+/// caches are skipped. The filter `only` selects scenes in one of three ways:
 ///
-/// 1. If it equals the name of a scene, it selects this scene alone. Accepting `arch` must not accept `arch2`.
+/// 1. If it equals the name of a scene, it selects only this scene, so that accepting `arch` does not accept `arch2`.
 /// 2. If it contains `*`, it is a pattern for the name.
 /// 3. Otherwise it selects all scenes whose name contains it.
 ///
 /// # Errors
-/// All errors in all scenes and settings.
+/// All errors in scenes and settings, files that cannot be read, and scenes that would share a reference.
 pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<DiscoveryError>> {
     let mut search = Search::default();
     search.add_places(places);
@@ -99,7 +99,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         let Some(bytes) = search.scene_bytes(&path, &base, &settings, &parts) else {
             continue;
         };
-        // Register the references of all scenes, so that those of unselected scenes are not taken for orphans.
+        // Register the references of all scenes, so that references of unselected scenes do not count as orphans.
         for part in &parts {
             search.register(&path, &part.file, &mut expected);
         }
@@ -133,7 +133,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
     })
 }
 
-/// A path with `/` between folders, on every operating system.
+/// Writes a path with `/` between folders, on every operating system.
 pub(super) fn shown(path: &Path) -> String {
     let shown = path.to_string_lossy().replace('\\', "/");
     shown.strip_prefix("./").unwrap_or(&shown).to_owned()
@@ -151,7 +151,7 @@ struct Search {
 }
 
 impl Search {
-    /// Adds files, and the scenes of folders.
+    /// Adds scene files, and all scenes in folders.
     fn add_places(&mut self, places: &[PathBuf]) {
         for place in places {
             match fs::metadata(place) {
@@ -169,7 +169,8 @@ impl Search {
         });
     }
 
-    /// Collects the files of a folder and of the folders in it.
+    /// Collects the scenes and possible references of a folder and its subfolders. Skips hidden files, `node_modules`
+    /// and folders with a `CACHEDIR.TAG`.
     fn add_folder(&mut self, folder: &Path) {
         let entries: Result<Vec<_>, _> = fs::read_dir(folder).and_then(Iterator::collect);
         let mut entries: Vec<fs::DirEntry> = match entries {
@@ -183,7 +184,7 @@ impl Search {
         for entry in entries {
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
-            // Symbolic links to folders are not followed: they may form a cycle.
+            // `file_type` does not follow symbolic links, which may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
             match path
                 .extension()
@@ -232,7 +233,7 @@ impl Search {
         self.candidates.push((path, base));
     }
 
-    /// The settings for a folder; `None` if they are not valid, which this function reports.
+    /// Returns the settings for a folder; `None` if they are not valid. Errors are added to `errors`.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
@@ -269,8 +270,8 @@ impl Search {
         settings
     }
 
-    /// Registers a reference, and reports an error if two scenes have the same one. Paths are compared in lower case, because
-    /// some file systems do not distinguish capitals.
+    /// Registers a reference. Adds an error if two scenes have the same reference. Paths are compared in lower case,
+    /// because some file systems ignore case.
     fn register(&mut self, scene: &Path, file: &Path, expected: &mut BTreeMap<PathBuf, PathBuf>) {
         let folded = PathBuf::from(file.to_string_lossy().to_lowercase());
         if let Some(other) = expected.insert(folded, scene.to_owned())
@@ -285,7 +286,8 @@ impl Search {
         }
     }
 
-    /// The bytes of a file if it is a drystone scene that the settings do not ignore.
+    /// Returns the bytes of a file; `None` if it is not a drystone scene, is ignored by the settings, or cannot be
+    /// read.
     fn scene_bytes(
         &mut self,
         path: &Path,
@@ -313,18 +315,21 @@ impl Search {
                 return None;
             }
         };
-        // Skip JSON files of other programs. A file with references is a scene even if it has lost its key: report that.
+        // Skip JSON files of other programs. A file with references counts as a scene even without the key
+        // `"drystone"`, so that the missing key is reported.
         (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
 
-    /// Orphaned reference files, each with the reason and remedy.
+    /// Returns orphaned reference files, each with the reason and remedy. `expected` are the references of all
+    /// scenes.
     fn orphans(&self, expected: &BTreeMap<PathBuf, PathBuf>) -> Vec<(PathBuf, String)> {
         let fold = |path: &Path| PathBuf::from(path.to_string_lossy().to_lowercase());
         let mut stems: BTreeSet<PathBuf> = BTreeSet::new();
         for file in expected.keys() {
             stems.insert(file.with_extension(""));
         }
-        // Facts and pictures contain a mark that they are references. Files with the same stem belong to them.
+        // Facts and pictures contain a mark that shows that they are references. Files with the same stem belong to
+        // them.
         let marked: Vec<&PathBuf> = self
             .others
             .iter()
@@ -347,7 +352,7 @@ impl Search {
             });
             if same_stem || of_a_scene {
                 let words = if of_a_scene {
-                    "the settings of its scene do not ask for this reference; delete it"
+                    "the settings of its scene do not include this reference; delete it"
                 } else {
                     "its scene does not exist; delete the reference or restore the scene"
                 };
@@ -358,7 +363,8 @@ impl Search {
     }
 }
 
-/// Whether a file is meant as a scene: it has the key `"drystone"`, or it is no JSON and a damaged scene explains it.
+/// True if a file is a scene, or a damaged one: it has the key `"drystone"`, or it is not valid JSON and looks like a
+/// scene.
 fn looks_like_scene(bytes: &[u8]) -> bool {
     let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
     if has(b"\"drystone\"") {
@@ -381,7 +387,7 @@ fn looks_like_scene(bytes: &[u8]) -> bool {
     }
 }
 
-/// Whether a file contains the mark of a reference of a scene in its first 4 kB.
+/// True if the first 4 KiB of a file contain the mark of a reference of a scene.
 fn has_reference_mark(path: &Path) -> bool {
     use std::io::Read;
     let mut head = Vec::new();

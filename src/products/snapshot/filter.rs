@@ -1,4 +1,4 @@
-//! [`Filter`]: which scenes `--only` selects.
+//! [`Filter`]: decides which scenes `--only` selects.
 
 use super::setting::matches_pattern;
 
@@ -15,7 +15,8 @@ pub(super) enum Filter<'f> {
 }
 
 impl<'f> Filter<'f> {
-    /// The filter that `only` asks for; an exact name counts before a part of one.
+    /// Makes the filter for the text of `only`. It selects one scene if the text equals one of the `names`; else it
+    /// is a pattern or a part of names.
     pub(super) fn new(
         only: Option<&'f str>,
         mut names: impl Iterator<Item = String>,
@@ -28,11 +29,11 @@ impl<'f> Filter<'f> {
         }
     }
 
-    /// Whether it selects a name.
+    /// True if it selects this name.
     pub(super) fn selects(&self, name: &str) -> bool {
         match self {
             Filter::All => true,
-            // The names of its references have one more suffix.
+            // Names of references begin with the name of the scene and a dot.
             Filter::Exactly(scene) => name
                 .strip_prefix(scene)
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),

@@ -16,7 +16,7 @@ impl Layer {
     /// All layers, in the order in which they are compared.
     pub const ALL: [Layer; 3] = [Layer::Facts, Layer::Svg, Layer::Pixels];
 
-    /// The name of the layer in settings and reports.
+    /// Returns the name of the layer in settings and reports.
     pub fn name(self) -> &'static str {
         match self {
             Layer::Facts => "facts",
@@ -25,7 +25,7 @@ impl Layer {
         }
     }
 
-    /// The layer with this name.
+    /// Returns the layer with this name.
     pub fn named(name: &str) -> Option<Layer> {
         Layer::ALL.into_iter().find(|layer| layer.name() == name)
     }

@@ -1,4 +1,4 @@
-//! [`CheckOutcome`]: which references do not match, in words, and the new contents for them.
+//! [`CheckOutcome`]: the references that do not match, with descriptions and their new contents.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::scene::{Problem, SceneError};
 /// A message lists at most this many changes of one file and counts the rest.
 const MAX_LISTED_CHANGES: usize = 12;
 
-/// The folders of the files, sorted, each once.
+/// Returns the folders of the files, sorted and without duplicates.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
     let folders = files.into_iter().filter_map(|f| f.parent());
     let mut folders: Vec<PathBuf> = folders
@@ -82,7 +82,7 @@ pub struct CheckOutcome {
     pub snapshots: Vec<Snapshot>,
     /// References without a scene, each with the reason and remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program failed by its own fault.
+    /// Scenes on which the program itself failed.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
@@ -96,17 +96,17 @@ pub enum Acceptance {
 }
 
 impl Snapshot {
-    /// Whether all references match.
+    /// True if all references match.
     pub fn matches(&self) -> bool {
         self.findings.is_empty()
     }
 
-    /// The folders of its references.
+    /// Returns the folders of its references, sorted and without duplicates.
     pub fn folders(&self) -> Vec<PathBuf> {
         folders(&self.references)
     }
 
-    /// A description of the findings, line by line.
+    /// Describes the findings, one or more lines for each.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for finding in &self.findings {
@@ -139,7 +139,7 @@ impl Snapshot {
         lines
     }
 
-    /// The new contents that can be written as references.
+    /// Returns the files and new contents that can be written as references.
     fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
@@ -178,12 +178,12 @@ impl Snapshot {
 }
 
 impl CheckOutcome {
-    /// Whether all references match and have a scene, and no check failed.
+    /// True if all references match and have a scene, and the program failed on no scene.
     pub fn matches(&self) -> bool {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }
 
-    /// References without a scene, and scenes on which the program failed, each with a message.
+    /// Iterates over references without a scene and scenes on which the program failed, each with a message.
     pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
         let orphans = self.orphans.iter().map(|(path, words)| {
             let words = format!("a reference without a scene: {words}");
@@ -197,12 +197,12 @@ impl CheckOutcome {
         orphans.chain(faults)
     }
 
-    /// The snapshots with findings.
+    /// Iterates over the snapshots with findings.
     pub fn failing(&self) -> impl Iterator<Item = &Snapshot> {
         self.snapshots.iter().filter(|s| !s.matches())
     }
 
-    /// A description of all findings, line by line; empty if everything matches.
+    /// Describes all findings in lines; empty if everything matches.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for snapshot in self.failing() {
@@ -215,7 +215,7 @@ impl CheckOutcome {
         lines
     }
 
-    /// The counts in one line.
+    /// Returns the counts in one line: `12 snapshots: 10 hold, 1 changed, 1 new`.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();

@@ -21,7 +21,8 @@ pub struct Part {
     pub width: Option<u32>,
 }
 
-/// The references of a scene or figure: `base` with a suffix for each layer, kind, theme and width of the settings.
+/// Lists the references of a scene or figure. Their paths are `base` with a suffix for each layer, kind, theme and
+/// width of the settings.
 pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);
@@ -59,7 +60,7 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     parts
 }
 
-/// The widths of the settings; `None` for the natural width.
+/// Returns the widths of the settings, or only `None`, the natural width of the drawing, if there are none.
 fn widths(settings: &Settings) -> Vec<Option<u32>> {
     match settings.widths.as_slice() {
         [] => vec![None],
@@ -67,7 +68,7 @@ fn widths(settings: &Settings) -> Vec<Option<u32>> {
     }
 }
 
-/// The path of a reference: `arch`, marks and the extension of the layer give `arch.dark.png`.
+/// Returns the path of a reference: the base `arch`, the mark `dark` and the layer `Pixels` give `arch.dark.png`.
 fn file_name(base: &Path, marks: &[String], layer: Layer) -> PathBuf {
     let extension = match layer {
         Layer::Facts => "txt",

@@ -22,7 +22,8 @@ const MAX_OPEN_CHANGES: usize = 12;
 /// The page lists at most this many changes of one file and counts the rest.
 const MAX_LISTED_CHANGES: usize = 60;
 
-/// The review page of a check. `folders` are the arguments of the command line; the commands on the page repeat them.
+/// Writes the review page of a check. `folders` are the arguments of the command line; the commands on the page
+/// repeat them.
 ///
 /// # Example
 /// ```
@@ -49,7 +50,7 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                 @if report.matches() {
                     p { "Everything matches its references." }
                 } @else if !failing.is_empty() {
-                    (command(&format!("drystone snapshot {places} --accept"), "All of them"))
+                    (command(&format!("drystone snapshot {places} --accept"), "Accept all"))
                     nav {
                         @for (number, snapshot) in failing.iter().enumerate() {
                             a href=(format!("#s{number}")) { (line(&snapshot.name)) } " "
@@ -60,7 +61,7 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                     section id=(format!("s{number}")) {
                         h2 { (line(&snapshot.name)) }
                         @for finding in &snapshot.findings { (described(finding)) }
-                        (command(&format!("drystone snapshot {places} --accept --only {}", shell(&snapshot.name)), "This one"))
+                        (command(&format!("drystone snapshot {places} --accept --only {}", shell(&snapshot.name)), "Accept this one"))
                     }
                 }
                 @if !report.orphans.is_empty() {

@@ -103,7 +103,7 @@ impl Settings {
         for (key, value) in table.get_ref() {
             reading.key(key, value);
         }
-        // Report the problems in the order of the file; the table has another order.
+        // Sort the problems by their place in the file; the table has another order.
         reading.problems.sort();
         if reading.problems.is_empty() {
             return Ok(reading.settings);
@@ -115,7 +115,7 @@ impl Settings {
     }
 }
 
-/// Line and column of a byte offset, counted from 1.
+/// Returns line and column of a byte offset, counted from 1: `2:1`.
 fn place_in(text: &str, at: usize) -> String {
     let before = text.get(..at).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -222,7 +222,8 @@ impl Reading<'_> {
         texts
     }
 
-    /// Reads a list of known names. Reports an empty list, unknown names and duplicates.
+    /// Reads a list of known names: `known` returns the value of a name. Reports an empty list, unknown names and
+    /// duplicates.
     fn named<T: PartialEq + Clone>(
         &mut self,
         key: &str,
@@ -305,7 +306,8 @@ impl Reading<'_> {
     }
 }
 
-/// The settings file for a folder: the nearest one in the folder or above it. The search stops at a folder with `.git`.
+/// Finds the settings file for a folder: in the folder itself or in the nearest folder above it. The search stops at
+/// a folder with `.git`.
 pub fn nearest(folder: &Path) -> Option<PathBuf> {
     let start = std::path::absolute(folder).ok()?;
     for above in start.ancestors() {
@@ -320,7 +322,7 @@ pub fn nearest(folder: &Path) -> Option<PathBuf> {
     None
 }
 
-/// Whether a name matches a pattern in which `*` stands for any characters.
+/// True if a name matches a pattern in which `*` stands for any number of any characters.
 pub fn matches_pattern(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();

@@ -1,9 +1,9 @@
 //! Reads and writes reference files.
 //!
-//! All files of a snapshot are written together, completely or not at all. If a result differs from its reference, it is
-//! written next to the reference as `.new.*`, and an image of the difference as `.diff.png`. Both are deleted as soon as
-//! the results agree. Runs at the same time take turns through a lock on the folder, which the operating system releases
-//! when a process ends for any reason.
+//! All files of a snapshot are written together, completely or not at all. If a result differs from its reference, it
+//! is written next to the reference as `.new.*`, and an image of the difference as `.diff.png`. Both are deleted as
+//! soon as the results agree. Simultaneous runs take turns by locking the folder. The operating system releases the
+//! lock when a process ends for any reason.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 
 use crate::output::file::{Existing, WriteError, write_whole};
 
-/// Whether this is a run of continuous integration, where nobody could review a new reference. True if the environment
-/// variable `CI` is set to anything but `false`, `no` or 0.
+/// True in continuous integration, where nobody could review a new reference: if the environment variable `CI` is set
+/// to anything but `false`, `no` or 0.
 pub fn in_ci() -> bool {
     is_set("CI")
 }
 
-/// Whether references should be written. True if `UPDATE_SNAPSHOTS` is set to anything but `false`, `no` or 0.
+/// True if references should be written: if `UPDATE_SNAPSHOTS` is set to anything but `false`, `no` or 0.
 pub fn update_requested() -> bool {
     is_set("UPDATE_SNAPSHOTS")
 }
@@ -29,7 +29,7 @@ fn is_set(name: &str) -> bool {
     !matches!(value.trim(), "" | "0" | "false" | "no")
 }
 
-/// The path of a result that differs from its reference: `arch.new.png` for `arch.png`.
+/// Returns the path for a result that differs from its reference: `arch.new.png` for `arch.png`.
 ///
 /// ```
 /// use drystone::snapshot::store::{difference_file, new_file};
@@ -40,7 +40,7 @@ pub fn new_file(reference: &Path) -> PathBuf {
     with_mark(reference, "new")
 }
 
-/// The path of the image of a difference: `arch.diff.png` for `arch.png`.
+/// Returns the path for the image of a difference: `arch.diff.png` for `arch.png`.
 pub fn difference_file(reference: &Path) -> PathBuf {
     with_mark(reference, "diff")
 }
@@ -50,7 +50,7 @@ fn with_mark(reference: &Path, mark: &str) -> PathBuf {
     reference.with_extension(format!("{mark}.{ending}"))
 }
 
-/// Whether a file name belongs to a `.new.*` or `.diff.png` file.
+/// True if a file name belongs to a `.new.*` or `.diff.png` file.
 pub(super) fn is_result_file(name: &str) -> bool {
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     stem.ends_with(".new") || name.ends_with(".diff.png")
@@ -71,9 +71,9 @@ pub enum Access {
     Write,
 }
 
-/// Locks folders: waits for runs that write there, and before writing for all runs that use them.
+/// Locks folders. Waits for runs that write there; to get write access, waits for all runs that use them.
 ///
-/// On a file system without locks the run continues without one. Files are complete even then.
+/// On a file system without locks, the run continues without a lock. Files are written completely even then.
 pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
     // All runs lock in the same order, so that two runs never wait for each other (no deadlock).
@@ -94,7 +94,7 @@ pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) 
     FolderLock { _folders: held }
 }
 
-/// Writes all files or none.
+/// Writes all files, or none if one of them fails.
 ///
 /// # Errors
 /// The first file that could not be written.
@@ -107,10 +107,10 @@ pub(super) fn remove(path: &Path) {
     let _ = fs::remove_file(path);
 }
 
-/// The bytes of a reference; `None` if it does not exist.
+/// Returns the bytes of a reference; `None` if it does not exist.
 ///
 /// # Errors
-/// Any other reason why the file cannot be read.
+/// The error of the operating system, if the file exists but cannot be read.
 pub(super) fn read(path: &Path) -> io::Result<Option<Vec<u8>>> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),

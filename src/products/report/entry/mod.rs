@@ -123,7 +123,8 @@ impl Entry {
         }
     }
 
-    /// Replaces the figures by those of `other`, an entry of the same scene whose names are written differently.
+    /// Replaces the figures by those of `other`. It is an entry of the same scene in which all names can be written
+    /// with the fonts of drystone.
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));

@@ -31,10 +31,10 @@ struct Event {
     change: String,
 }
 
-/// The differences between two drawings in words; empty if they agree.
+/// Describes the differences between two drawings, given as SVG text; empty if they agree.
 ///
 /// # Errors
-/// Why one of the texts is not SVG; `expected` is read first.
+/// [`SvgParseError`] if one of the texts is not SVG; `expected` is read first.
 ///
 /// # Example
 /// ```
@@ -55,7 +55,7 @@ pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, SvgParseError
     Ok(described(events))
 }
 
-/// Describes the changes; a change that many elements share is reported once.
+/// Describes the changes. The same change of many elements is reported once.
 fn described(events: Vec<Event>) -> Vec<String> {
     let mut described: Vec<String> = Vec::new();
     let mut done: Vec<&str> = Vec::new();
@@ -137,7 +137,7 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
     }
 }
 
-/// Whether two attribute values are equal up to rounding.
+/// True if two attribute values are equal up to rounding.
 fn same_value(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -155,8 +155,8 @@ fn same_value(a: &str, b: &str) -> bool {
             })
 }
 
-/// Whether two texts are equal up to the last digit of rounded numbers. A number counts as rounded if it has a decimal point
-/// or is followed by ° or %. The facts layer compares the same numbers more precisely.
+/// True if two texts are equal up to the last digit of rounded numbers. A number counts as rounded if it has a
+/// decimal point, or if ° or % follows. The facts layer compares the same numbers more precisely.
 fn same_words(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -174,7 +174,7 @@ fn same_words(a: &str, b: &str) -> bool {
         })
 }
 
-/// The value of one unit in the last digit of a number.
+/// Returns the value of one unit in the last digit of a number.
 fn unit(number: &str) -> f64 {
     let decimals = number.split_once('.').map_or(0, |(_, d)| d.len());
     format!("1e-{decimals}").parse().unwrap_or(1.0)
@@ -200,7 +200,7 @@ fn pieces(text: &str) -> Vec<&str> {
         }
     }
     pieces.push(&text[begin..]);
-    // Remove the full stop of a sentence after a number: it is not a decimal point.
+    // A full stop after a number ends the sentence; it is not a decimal point.
     pieces.iter_mut().for_each(|p| {
         if p.len() > 1 {
             *p = p.trim_end_matches('.');

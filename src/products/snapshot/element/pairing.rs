@@ -1,4 +1,4 @@
-//! [`pairs`]: pairs the elements of two lists.
+//! [`pairs`]: pairs corresponding elements of two drawings.
 //!
 //! The algorithm is a longest common subsequence in three stages, as in a text diff:
 //!
@@ -6,7 +6,7 @@
 //! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path points.
 //! 3. Between those, pair elements with the same tag, class and label.
 //!
-//! What is left is paired by kind if both lists have equally many elements of the kind.
+//! The other elements are paired by kind, if both lists have equally many elements of this kind.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -17,14 +17,14 @@ const MAX_TABLE_ENTRIES: usize = 4_000_000;
 
 type Pair<'e> = (Option<&'e Element>, Option<&'e Element>);
 
-/// Pairs the elements of two lists, in order. An element without a partner is paired with `None`.
+/// Pairs the elements of an old and a new list. An element without a partner is paired with `None`.
 pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>> {
     let mut pairs = Vec::new();
     between(old, new, 0, &mut pairs);
     pairs
 }
 
-/// A hash of the properties that two elements must share to be paired at this stage.
+/// Returns a hash of the properties that two elements must share to be paired at this stage.
 fn key(element: &Element, stage: usize) -> u64 {
     // The hash may differ between versions of Rust: it is not stored or printed.
     let mut hasher = DefaultHasher::new();
@@ -48,7 +48,7 @@ fn key(element: &Element, stage: usize) -> u64 {
     hasher.finish()
 }
 
-/// Pairs the common elements of a stage, and continues between them with the next stage.
+/// Pairs elements with the same key of this stage. The elements between two such pairs are paired by the next stage.
 fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut Vec<Pair<'e>>) {
     if stage == 3 || old.is_empty() || new.is_empty() {
         pair_rest(old, new, pairs);
@@ -64,7 +64,8 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
     between(&old[a..], &new[b..], stage + 1, pairs);
 }
 
-/// Pairs elements by kind if both lists have equally many; otherwise they have appeared or vanished.
+/// Pairs elements by kind if both lists have equally many of the kind. Otherwise each is paired with `None`: it has
+/// appeared or vanished.
 fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
@@ -84,7 +85,8 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
     }
 }
 
-/// A longest common subsequence of two lists of keys, as pairs of positions. Common beginnings and ends are split off first.
+/// Finds a longest common subsequence of two lists of keys, as pairs of indices. Common beginnings and ends are
+/// paired first.
 fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
@@ -107,7 +109,8 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// The longest common subsequence by dynamic programming: the table holds its length for all pairs of suffixes.
+/// Finds the longest common subsequence by dynamic programming. The table contains its length for all pairs of
+/// suffixes.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];
@@ -135,7 +138,7 @@ fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// A greedy common subsequence: pairs each key with its next occurrence among 64 keys.
+/// Finds a common subsequence greedily: pairs each key with its next occurrence among the next 64 keys.
 fn greedy(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut next = 0;

@@ -21,7 +21,7 @@ pub(super) enum Movement {
 }
 
 impl Movement {
-    /// A description of the change.
+    /// Describes the change; empty if there is none.
     pub(super) fn words(self) -> String {
         let short = |value: f64| {
             let text = format!("{:.2}", value.abs());
@@ -70,12 +70,12 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         });
         far.fold(0.0, f64::max)
     };
-    // 1. No change: all points are where they were.
+    // 1. No change: no point has moved.
     let stayed = far(&b, &|p| p);
     if stayed <= POSITION_TOL {
         return Movement::None;
     }
-    // 2. A translation of the centroids moves all points to their new positions.
+    // 2. The translation from centroid to centroid moves all points to their new positions.
     let (from, to) = (centre(&a), centre(&b));
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
     if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * POSITION_TOL {
@@ -84,7 +84,7 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         }
         return Movement::Moved(rounded(x), rounded(y));
     }
-    // 3. The best rotation about the centroids.
+    // 3. The best rotation about the centroids moves all points to their new positions.
     let angle = best_rotation(&a, &b, from, to);
     let (sin, cos) = libm::sincos(angle);
     let turned = |p: [f64; 2]| {
@@ -101,8 +101,8 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     Movement::Reshaped(stayed)
 }
 
-/// A translation along one axis. Positions are rounded to 0.01; it is rounded more coarsely, so that elements that moved
-/// together report the same distance.
+/// Rounds a translation along one axis. Positions in the SVG are rounded to 0.01. Translations are rounded more
+/// coarsely, so that elements that moved together report the same distance.
 fn rounded(by: f64) -> f64 {
     match by.abs() {
         far if far < 0.2 => (by * 100.0).round() / 100.0,
@@ -110,8 +110,8 @@ fn rounded(by: f64) -> f64 {
     }
 }
 
-/// The angle of the best rotation of `a` about `from` to `b` about `to` in the least-squares sense (the Procrustes problem in
-/// the plane): atan2(Σ p × q, Σ p · q), radians.
+/// Returns the angle, in radians, of the rotation that maps the points `a` about `from` best onto the points `b`
+/// about `to`. It solves the least-squares (Procrustes) problem in the plane: atan2(Σ p × q, Σ p · q).
 fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -133,7 +133,7 @@ fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     [sum[0] / count, sum[1] / count]
 }
 
-/// The points of an element, and the letters of its path commands. `None` if a number cannot be read.
+/// Returns the points of an element, and the letters of its path commands. `None` if a number cannot be read.
 fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
     let mut points = Vec::new();
     let mut letters = String::new();

@@ -51,30 +51,30 @@ const SHAPE: [&str; 13] = [
 const IGNORED: [&str; 2] = ["id", "aria-labelledby"];
 
 impl Element {
-    /// The value of an attribute other than position and size.
+    /// Returns the value of an attribute other than position and size.
     pub(super) fn attribute(&self, name: &str) -> Option<&str> {
         let found = self.attributes.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// The value of an attribute for position or size.
+    /// Returns the value of an attribute for position or size.
     pub(super) fn place_of(&self, name: &str) -> Option<&str> {
         let found = self.shape.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// The width and height of the page.
+    /// Returns the width and height of the element, for messages: `300 × 200`.
     pub(super) fn size(&self) -> String {
         let side = |name: &str| self.place_of(name).unwrap_or("?").to_owned();
         format!("{} × {}", side("width"), side("height"))
     }
 
-    /// The title up to a colon, after which drystone writes numbers.
+    /// Returns the title up to the first colon. The rest of the title contains numbers.
     pub(super) fn label(&self) -> &str {
         self.title.split(": ").next().unwrap_or_default()
     }
 
-    /// A description of the element for messages.
+    /// Names the element in messages. `within` describes the element around it.
     pub(super) fn called(&self, within: &str) -> String {
         let what = if self.class.is_empty() {
             &self.tag
@@ -92,7 +92,7 @@ impl Element {
         }
     }
 
-    /// A description of the place of its children.
+    /// Describes the place of its children in messages.
     pub(super) fn place(&self, within: &str) -> String {
         if self.tag == "svg" || !self.title.is_empty() {
             self.called(within)
@@ -140,7 +140,8 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
             "aria-label" => found.title = value,
             _ if IGNORED.contains(&name) => {}
             _ if SHAPE.contains(&name) => found.shape.push((name.to_owned(), value)),
-            // The name in a reference depends on the content. The element that it refers to is compared itself.
+            // The name after `#` depends on the content of the drawing, so it is ignored. The element with this name
+            // is compared itself.
             _ if value.starts_with("url(#") => {
                 found.attributes.push((name.to_owned(), "url".into()))
             }

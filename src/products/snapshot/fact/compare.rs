@@ -10,8 +10,8 @@ use super::{Fact, Facts, Section, Value};
 pub struct Change {
     /// A description on one line.
     pub words: String,
-    /// The weight for sorting: verdicts, falling blocks, objects that appear or vanish, failures, then numbers by how many
-    /// units of their last digit they changed.
+    /// The weight for sorting: verdicts, falling blocks, objects that appear or vanish, failures, then numbers. The
+    /// weight of a number is its change in units of its last digit.
     weight: f64,
 }
 
@@ -20,7 +20,7 @@ const FALLING: &str = "falling";
 /// More blocks than this that begin or stop to fall share one line.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
-/// Weight of a changed verdict. Changes of numbers have weights up to 1e6, far below these classes.
+/// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these classes.
 const VERDICT_WEIGHT: f64 = 4e9;
 /// Weight of a block that begins or stops to fall.
 const FALL_WEIGHT: f64 = 3e9;
@@ -46,14 +46,14 @@ pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
             (None, None) => {}
         }
     }
-    // A stable sort: changes of equal weight keep the order of the facts.
+    // The sort is stable: changes of equal weight keep the order of the facts.
     changes.sort_by(|a, b| b.weight.total_cmp(&a.weight));
     changes
 }
 
 type Pair<'f> = (Option<&'f Section>, Option<&'f Section>);
 
-/// Pairs the sections of both lists: by position if there are equally many, otherwise by their titles.
+/// Pairs the sections of both lists: by position if both have equally many, otherwise by their titles.
 fn pairs<'f>(expected: &'f [Section], found: &'f [Section]) -> Vec<Pair<'f>> {
     if expected.len() == found.len() {
         return expected
@@ -144,7 +144,7 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
     }
 }
 
-/// The keys of both lists in the order of the new facts; those that are gone come last.
+/// Returns the keys of both lists in the order of the new facts. Keys that only the old facts have come last.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
         let kind = if key.0 == FALLING { "block" } else { &key.0 };
@@ -158,7 +158,7 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
     names
 }
 
-/// Reports many blocks that begin or stop to fall in one line, and removes their keys.
+/// Reports blocks that begin or stop to fall in one line, if there are many, and removes their keys from `names`.
 fn group_falling(
     was: &ByName<'_>,
     is: &ByName<'_>,
@@ -204,7 +204,7 @@ fn by_name(facts: &[Fact]) -> ByName<'_> {
     known
 }
 
-/// `interface a–ground`, `block c`.
+/// Names the object of a fact: `interface a–ground`, `block c`.
 fn called((kind, names, number): &Key) -> String {
     let number = match number {
         0 => String::new(),
@@ -261,7 +261,7 @@ fn described(value: &Value) -> String {
     parts.join(" ")
 }
 
-/// The changed values in words, and the weight of the largest change.
+/// Returns the changed values in words, and the weight of the largest change; `None` if no value changed.
 fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     let mut words = Vec::new();
     let mut weight: f64 = 0.0;
@@ -283,7 +283,7 @@ fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     (!words.is_empty()).then(|| (words.join(", "), weight))
 }
 
-/// `N 3 → 4.2 N`, `stable → unstable`.
+/// Describes a changed value: `N 3 → 4.2 N`, `stable → unstable`.
 fn change(old: &Value, new: &Value) -> String {
     let name = if new.name.is_empty() {
         String::new()
@@ -314,7 +314,8 @@ fn change(old: &Value, new: &Value) -> String {
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
-/// The difference of two values in units of their last digit; `None` if rounding can explain it.
+/// Returns the difference of two values in units of their last digit; `None` if rounding can explain it. Values of
+/// different form differ by 1e6.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
     if !shape {
@@ -324,7 +325,8 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
     for (a, b) in old.numbers.iter().zip(&new.numbers) {
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => {
-                // Numbers without a unit are counts and coefficients: no solver noise, so the step is fixed.
+                // Numbers without a unit are counts and coefficients. They have no rounding error of the solver, so
+                // the unit is fixed.
                 let rounded = last_digit(a).max(last_digit(b));
                 let digit = if new.unit.is_empty() {
                     UNITLESS_STEP
@@ -337,6 +339,6 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
             _ => most = 1e6,
         }
     }
-    // Solver noise may round two equal numbers to neighbouring digits, which differ by 1 unit. 1.5 separates 1 from 2.
+    // A rounding error of the solver may change the last digit by 1 unit. The limit 1.5 separates 1 from 2.
     (most > 1.5).then_some(most)
 }

@@ -13,9 +13,9 @@
 //!   interface "a" "ground": N 6.00000 N, T 0.00000 N, N at its ends 3.00000 3.00000 N, μ 0.7
 //! ```
 //!
-//! Numbers are rounded to [`DIGITS`] digits of the largest load. Two numbers are equal if they differ by at most 1.5 units
-//! of the last digit: solver noise is smaller, and a change by one percent is far larger. Frames that are undecided have no
-//! proof, so their forces are not reported.
+//! Numbers are rounded to [`DIGITS`] digits of the largest load. Two numbers are equal if they differ by at most 1.5
+//! units of the last digit: rounding errors of the solver are smaller, and a change by one percent is far larger.
+//! Frames that are undecided have no proof, so their forces are not reported.
 
 mod compare;
 mod read;
@@ -65,7 +65,8 @@ struct Value {
 }
 
 impl Facts {
-    /// The facts of an analysis. Numbers have `digits` significant digits, usually [`DIGITS`].
+    /// Collects the facts of an analysis. The largest load has `digits` significant digits, usually [`DIGITS`]; other
+    /// forces have the same decimals.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
@@ -85,7 +86,7 @@ impl Facts {
         write::from_analysis(analysis, digits)
     }
 
-    /// The text to store.
+    /// Writes the facts as text to store.
     pub fn text(&self) -> String {
         write::text(self)
     }
@@ -98,7 +99,7 @@ impl Facts {
         read::facts(text)
     }
 
-    /// The differences between these facts and others in words, most important first; empty if they agree.
+    /// Describes how `found` differs from these facts, most important first; empty if they agree.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }

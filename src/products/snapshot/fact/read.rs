@@ -66,7 +66,7 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
     Ok(Facts { sections })
 }
 
-/// `kind "name" "name": value, value`.
+/// Reads a line of the form `kind "name" "name": value, value`; `None` if it has another form.
 fn fact(line: &str) -> Option<Fact> {
     let begin = line.find(['"', ':'])?;
     let kind = line[..begin].trim().to_owned();
@@ -90,7 +90,8 @@ fn fact(line: &str) -> Option<Fact> {
     })
 }
 
-/// The name up to the closing quotation mark, and the text after it.
+/// Returns the name up to the closing quotation mark, without escapes, and the text after the mark. `None` if there
+/// is no such mark.
 fn unquoted(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut escaped = false;

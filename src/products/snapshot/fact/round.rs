@@ -13,11 +13,12 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// The place at which the largest number has `digits` digits. 0 and numbers that are not finite count as 1.
+    /// Chooses the decimal place at which `largest` has `digits` digits. If `largest` is 0 or not finite, it counts
+    /// as 1.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
-        // Print the number to get its exponent: a logarithm may be off by one at powers of ten.
+        // The exponent is read from the printed number, because a logarithm may be off by one at powers of ten.
         let printed = format!("{size:e}");
         let ten: i32 = printed
             .split_once('e')
@@ -37,7 +38,7 @@ impl Rounding {
         }
     }
 
-    /// The rounded number as text; never −0.
+    /// Writes the rounded number, never as −0. Numbers that are not finite become `none`.
     pub(super) fn write(self, value: f64) -> String {
         if !value.is_finite() {
             return "none".into();
@@ -45,7 +46,7 @@ impl Rounding {
         let decimals = self.decimals;
         let scaled = match self.exponent {
             0 => format!("{value:.decimals$}"),
-            // Parse the power of ten from text: `powi` is not exact.
+            // Read the power of ten from text, because `powi` is not exact.
             e => {
                 let unit: f64 = format!("1e{e}").parse().unwrap_or(1.0);
                 format!("{:.decimals$}", value / unit)
@@ -64,7 +65,7 @@ impl Rounding {
     }
 }
 
-/// The value of one unit in the last digit of a number.
+/// Returns the value of one unit in the last digit of a written number.
 pub(super) fn last_digit(written: &str) -> f64 {
     let (mantissa, exponent) = written.split_once('e').unwrap_or((written, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
@@ -74,7 +75,7 @@ pub(super) fn last_digit(written: &str) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// A number without trailing zeros.
+/// Removes trailing zeros from a written number.
 pub(super) fn short(written: &str) -> String {
     let (mantissa, exponent) = match written.split_once('e') {
         Some((mantissa, exponent)) => (mantissa, format!("e{exponent}")),

@@ -146,8 +146,9 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
     }
 }
 
-/// The forces at two points, sorted by position: the facts must not depend on the order of the points in the result.
-/// The slope of the sort direction is irrational (0.38…, from the golden ratio), so that two ends of an edge hardly ever tie.
+/// Sorts the forces at two points by position, so that the facts do not depend on the order of the points in the
+/// result. The sort direction has an irrational slope (0.38…, from the golden ratio), so that two points hardly ever
+/// tie.
 fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;
@@ -158,7 +159,8 @@ fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// The sorted names of two bodies, the ground last: the facts must not depend on the order of the bodies in the result.
+/// Returns the names of two bodies, sorted, the ground last. The facts thus do not depend on the order of the bodies
+/// in the result.
 fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
     let mut names: Vec<(bool, String)> = bodies
         .iter()
@@ -225,7 +227,7 @@ fn pair(v: Vector) -> [f64; 2] {
     [v.x, v.y]
 }
 
-/// A name on one line, shortened to 200 characters.
+/// Reduces a name to one line of at most 200 characters.
 fn name(foreign: &str) -> String {
     text::heading(foreign, 200)
 }
@@ -238,7 +240,7 @@ fn quantity(name: &str, values: &[f64], rounding: Rounding, unit: &str) -> Value
     }
 }
 
-/// A number without a unit, with at most six decimals.
+/// Makes a value from a number without a unit, with at most six decimals.
 fn unitless(name: &str, value: f64) -> Value {
     let written = format!("{value:.6}");
     Value {

@@ -43,7 +43,8 @@ struct PixelPair<'p> {
 }
 
 impl PixelPair<'_> {
-    /// The mark of the pixel and the largest difference of a channel; `None` if the tolerance allows the difference.
+    /// Returns the mark of the pixel and the largest difference of a channel; `None` if the tolerance allows the
+    /// difference.
     fn compare(&self, tolerance: PixelTolerance) -> Option<(Mark, u8)> {
         let (expected, found) = (self.expected, self.found);
         let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
@@ -59,7 +60,7 @@ impl PixelPair<'_> {
         if !differ(a, b, threshold) {
             return None;
         }
-        // Antialiasing is found from the neighbours, which correspond only in pictures of equal size.
+        // Antialiasing is detected from neighbouring pixels. They correspond only in pictures of equal size.
         let same_size = (expected.width, expected.height) == (found.width, found.height);
         let antialiased = same_size
             && (is_antialiased(expected, found, self.x, self.y)
@@ -76,7 +77,7 @@ impl PixelPair<'_> {
 /// The difference of two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// The number of pixels that differ, among those of both pictures.
+    /// The number of pixels that differ, in the area that both pictures share.
     pub changed: u64,
     /// The number of pixels that differ only in antialiasing; they count as equal.
     pub smoothed: u64,
@@ -126,7 +127,7 @@ impl Difference {
                 let begin = y as usize * p.width as usize;
                 begin..begin + width as usize
             };
-            // 1. Skip equal rows and equal pixels: most of a picture.
+            // 1. Skip equal rows and equal pixels, which are most of a picture.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;
@@ -173,7 +174,7 @@ impl Difference {
         });
     }
 
-    /// Fills the marks of all pixels of the larger of both sizes.
+    /// Sets the marks of all pixels. The area covers both pictures.
     fn set_marks(&mut self, marked: &[(u32, u32, Mark)]) {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (all_across, all_down) = (ew.max(fw), eh.max(fh));
@@ -188,12 +189,12 @@ impl Difference {
         }
     }
 
-    /// Whether the pictures count as equal.
+    /// True if the pictures count as equal.
     pub fn is_none(&self) -> bool {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
     }
 
-    /// A sentence that describes the difference.
+    /// Describes the difference; empty if there is none.
     pub fn words(&self) -> String {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let mut words = Vec::new();
@@ -213,8 +214,8 @@ impl Difference {
         words.join("; ")
     }
 
-    /// An image of the difference: the expected picture in pale grey, differing pixels in red with their bounding box,
-    /// antialiasing in yellow, and pixels that only one picture has in blue.
+    /// Draws an image of the difference. The expected picture is pale grey, and pixels that differ are red, with
+    /// their bounding box. Antialiasing is yellow, and pixels outside one of the pictures are blue.
     pub fn image(&self, expected: &Picture) -> Picture {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (wide, high) = (ew.max(fw), eh.max(fh));
@@ -239,7 +240,8 @@ impl Difference {
     }
 }
 
-/// The largest visible difference of a channel: colours are multiplied by alpha, and alpha counts as a channel.
+/// Returns the largest visible difference of a channel. Colours are multiplied by alpha first; alpha counts as a
+/// channel.
 fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     if a[3] == 255 && b[3] == 255 {
         return max_channel_difference(a, b);
@@ -251,7 +253,7 @@ fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     max_channel_difference(premultiplied(a), premultiplied(b))
 }
 
-/// A pale grey by the brightness of a colour, in 32 steps: few colours make a small PNG.
+/// Converts a colour to a pale grey of 32 levels by its brightness. Few colours make a small PNG.
 fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let grey = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
     let ink = (255 - grey) * u32::from(a) / 255;

@@ -1,4 +1,4 @@
-//! [`Picture`]: reads PNG files of any program, and writes small reference files.
+//! [`Picture`]: reads PNG files from any program, and writes small reference files.
 //!
 //! Every PNG becomes 8-bit red, green, blue and alpha, not premultiplied; 16 bits are rounded to 8. Other files give a
 //! [`PictureError`] that says what they are. [`Picture::encode`] may round rare colours to make the file small. It then
@@ -98,7 +98,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A picture from its pixels: red, green, blue and alpha, row by row, not premultiplied.
+    /// Makes a picture from its pixels: red, green, blue and alpha, row by row, not premultiplied.
     ///
     /// # Panics
     /// If there are not `width` × `height` pixels.
@@ -178,16 +178,17 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Encodes a small PNG with a palette of at most 256 colours, if the picture is opaque. Frequent colours are exact. The
-    /// others are rounded as little as the palette allows, and the file stores the rounding of each.
+    /// Encodes the picture as a small PNG. An opaque picture gets a palette of at most 256 colours. Frequent colours
+    /// are exact. Other colours are rounded as little as the palette allows, and the file stores the rounding of
+    /// each.
     ///
     /// # Errors
-    /// The message of the encoder.
+    /// The message of the PNG encoder.
     pub fn encode(&self, subject: Option<Subject>) -> Result<Vec<u8>, String> {
         palette::encode(self, Palette::new(&self.rgba).as_ref(), subject)
     }
 
-    /// Red, green, blue and alpha of the pixel in column x and row y.
+    /// Returns red, green, blue and alpha of the pixel in column x and row y, from 0.
     ///
     /// # Panics
     /// If the pixel is outside the picture.
@@ -195,13 +196,13 @@ impl Picture {
         self.rgba[y as usize * self.width as usize + x as usize]
     }
 
-    /// All pixels, row by row.
+    /// Returns all pixels, row by row.
     pub fn pixels(&self) -> &[[u8; 4]] {
         &self.rgba
     }
 
-    /// Whether the picture seems to have lost the note on its roundings: it has nearly as many colours as a full palette,
-    /// and neither a rounding nor a subject.
+    /// True if the picture seems to have lost the roundings of its palette: it has 200 to 256 colours, but neither a
+    /// rounding nor a subject.
     pub(super) fn has_lost_rounding_note(&self) -> bool {
         let mut colours: Vec<[u8; 4]> = self
             .rgba
@@ -213,13 +214,13 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// The largest rounding of a channel of this colour.
+    /// Returns the largest rounding of a channel of this colour.
     fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }
 }
 
-/// The error for bytes that do not begin like a PNG.
+/// Returns the error for bytes that do not begin like a PNG; `None` if they do.
 fn foreign(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {

@@ -32,8 +32,8 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// The palette for these pixels. `None` for pictures with transparent pixels and more than 256 colours, which are stored
-    /// without a palette.
+    /// Makes the palette for these pixels. `None` for pictures with transparent pixels and more than 256 colours:
+    /// they are stored without a palette.
     pub(super) fn new(pixels: &[[u8; 4]]) -> Option<Palette> {
         let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
         for run in pixels.chunk_by(|a, b| a == b) {
@@ -48,7 +48,8 @@ impl Palette {
         }
         let mut common: Vec<([u8; 4], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
         common.retain(|(_, count)| *count >= MIN_FREQUENT_PIXELS);
-        // Most frequent first. Equal counts keep the order of the map, so that the result is reproducible.
+        // Sort the most frequent colour first. Colours with equal counts keep the order of the map, so that the
+        // result is reproducible.
         common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         common.truncate(MAX_EXACT_COLOURS);
         let mut entries: Vec<([u8; 4], Vec<[u8; 4]>)> = Vec::with_capacity(MAX_COLOURS);
@@ -83,14 +84,14 @@ impl Palette {
         palette
     }
 
-    /// The note that stores the roundings, if there are any.
+    /// Writes the roundings as text to store; `None` if there are none.
     fn note(&self) -> Option<String> {
         let any = self.rounding.iter().any(|r| *r > 0);
         any.then(|| self.rounding.iter().map(|r| format!("{r:02x}")).collect())
     }
 }
 
-/// Reads the roundings from a note. A note whose length does not match the palette is ignored.
+/// Reads the roundings of the colours of `table` from the stored text. A text whose length does not match is ignored.
 pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     let digits: Vec<char> = note.chars().collect();
     let values = digits.chunks(2).map(|pair| {
@@ -105,13 +106,13 @@ pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     }
 }
 
-/// The largest difference of a channel.
+/// Returns the largest difference of a channel between two colours.
 pub(super) fn max_channel_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(b));
     channels.max().unwrap_or(0)
 }
 
-/// The lowest and highest value of the widest channel, and its index.
+/// Returns the lowest and highest value of the channel with the widest range, and the index of that channel.
 fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     let range = |channel: usize| {
         let values = members.iter().map(|m| m[channel]);
@@ -128,13 +129,13 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Sorts colours into at most `max` boxes by halving the widest box again and again.
+/// Sorts colours into at most `max` boxes by repeatedly halving the widest box.
 fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];
     while boxes.len() < max {
         let wide = |w: &(u8, u8, usize)| w.1.saturating_sub(w.0);
-        // The first of the widest boxes.
+        // Of several widest boxes, the first one is cut.
         let mut at = 0;
         for (place, width) in widths.iter().enumerate() {
             if wide(width) > wide(&widths[at]) {
@@ -156,7 +157,8 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     boxes
 }
 
-/// The member nearest to the centre of a box. It belongs to no other box, so all colours of a palette differ.
+/// Returns the colour of a box that is nearest to its centre. No other box contains this colour, so all colours of a
+/// palette differ.
 fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     let mut centre = [0; 4];
     for (channel, value) in centre.iter_mut().enumerate() {
@@ -193,7 +195,8 @@ pub(super) fn encode(
         }
         Some(palette) => {
             encoder.set_color(png::ColorType::Indexed);
-            // PNG filters store differences of neighbouring bytes. Differences of palette indices do not compress better.
+            // PNG filters store differences of neighbouring bytes. For indices of a palette these do not compress
+            // better.
             encoder.set_filter(png::Filter::NoFilter);
             let opaque = palette.colours.iter().flat_map(|c| [c[0], c[1], c[2]]);
             encoder.set_palette(opaque.collect::<Vec<u8>>());

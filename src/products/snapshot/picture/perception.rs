@@ -9,7 +9,7 @@ use super::Picture;
 /// The largest distance, between black and white.
 const MAX_DISTANCE: f64 = 35_215.0;
 
-/// A colour blended with a white background.
+/// Blends a colour with a white background; channels 0 to 255.
 fn on_white([r, g, b, a]: [u8; 4]) -> [f64; 3] {
     let share = f64::from(a) / 255.0;
     [r, g, b].map(|c| 255.0 + (f64::from(c) - 255.0) * share)
@@ -19,7 +19,7 @@ fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.298_895_31 * r + 0.586_622_47 * g + 0.114_482_23 * b
 }
 
-/// Whether two colours look different. The threshold goes from 0 (any difference) to 1 (black and white).
+/// True if two colours look different. The threshold is from 0 (any difference) to 1 (black and white).
 pub(super) fn differ(a: [u8; 4], b: [u8; 4], threshold: f64) -> bool {
     distance(a, b) > MAX_DISTANCE * threshold * threshold
 }
@@ -36,7 +36,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// The neighbours of a pixel, and whether it lies at the border of the picture.
+/// Returns the neighbours of a pixel, and whether it lies at the border of the picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
     let (right, bottom) = (
@@ -48,9 +48,10 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
     (all.filter(move |place| *place != (x, y)), edge)
 }
 
-/// Whether a pixel of `picture` is part of an antialiased edge that `other` has too.
+/// True if a pixel of `picture` is part of an antialiased edge that `other` has too.
 pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
-    // Find the darkest and the brightest neighbour. More than two equal neighbours: an area, not an edge.
+    // Find the darkest and the brightest neighbour. A pixel with more than two equal neighbours is in an area, not at
+    // an edge.
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);
     let mut equal = usize::from(edge);
@@ -76,7 +77,7 @@ pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32)
     darkest.0 < 0.0 && brightest.0 > 0.0 && (is_flat(darkest.1) || is_flat(brightest.1))
 }
 
-/// Whether more than two neighbours of a pixel have its colour. The border of the picture counts as one neighbour.
+/// True if more than two neighbours of a pixel have its colour. The border of the picture counts as one neighbour.
 fn is_flat(picture: &Picture, x: u32, y: u32) -> bool {
     let (around, edge) = neighbours(picture, x, y);
     let own = picture.pixel(x, y);
