@@ -1,13 +1,14 @@
 //! [`apart`]: moves arrows that lie on one line next to each other.
 //!
-//! The ground pushes a block up on the very line along which its weight pulls it down; drawn there, the two look like one
-//! arrow with two heads. The arrows of a frame are treated one after the other, in drawing order:
+//! The ground often pushes a block up on the same line on which its weight pulls it down. Drawn there, the two look
+//! like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
 //!
 //! 1. The ideal offset of an arrow is 0. If it has an opposite arrow at the same point, it is half a shaft and half the gap,
 //!    so that the pair stays centred about its true line.
-//! 2. If the arrow is clear of all arrows before it there, it is drawn there.
-//! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets just clear of it. The candidate nearest to
-//!    the ideal offset that is clear of all arrows is taken.
+//! 2. If the arrow does not overlap any earlier arrow there, it is drawn there.
+//! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets at which the arrows just do not
+//!    overlap. The arrow gets the candidate that is nearest to the ideal offset and at which it overlaps no earlier
+//!    arrow.
 //!
 //! Lengths and directions do not change, so an arrow still shows its force.
 
@@ -18,30 +19,30 @@ use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
 use crate::geometry::{Bounds, Vector};
 
-/// Arrows whose directions differ by less than this, rad (7°), count as parallel: they would cover each other over most of
-/// their lengths. Arrows at a larger angle cross, which can be read.
+/// Arrows whose directions differ by less than this, rad (7°), count as parallel, because they would cover each other
+/// over most of their lengths. Arrows at a larger angle cross, and a reader can distinguish them.
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Gap between two parallel arrows, in widths of the wider shaft.
 const GAP: f64 = 0.4;
 /// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows of the
 /// frame. It saves time and does not change the result: see `offset_of_least_change`.
 const NEARBY: f64 = 24.0;
-/// Frames with more arrows are not treated: their arrows are a texture in which nobody follows a single one.
+/// In frames with more arrows than this no arrows are moved, because nobody can follow a single arrow there.
 const MAX_ARROWS: usize = 4000;
-/// Offsets are compared in units of this share of a shaft's width. Of two offsets equally far from the ideal one, rounding
-/// of the forces must not choose.
+/// Distances from the ideal offset are rounded to this share of a shaft's width. Rounding errors must not decide
+/// between two offsets at equal distance.
 const OFFSET_RESOLUTION: f64 = 1e-6;
-/// Arrows nearer to each other than needed by less than this share are clear: candidates lie exactly at the limit.
+/// Relative tolerance of the least distance, because candidates lie exactly at it.
 const CLEAR_TOL: f64 = 1e-6;
 
-/// Moves the arrows of a frame that lie on one line apart.
+/// Moves arrows of a frame that lie on one line next to each other.
 pub(crate) fn apart(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {
         return;
     }
     let original = arrows.clone();
-    // The boxes of the arrows that have their place already.
+    // The boxes of the arrows that have been placed.
     let mut placed = Places::sized_for(original.iter().map(space_around));
     let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -60,7 +61,8 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
 }
 
-/// The offset across its line, metres, nearest to the ideal one at which an arrow is clear of all that are placed.
+/// Returns the offset, to the left of the arrow in metres, that is nearest to `ideal` and at which the arrow overlaps
+/// no placed arrow.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -77,7 +79,7 @@ fn offset_of_least_change(
             too_close(&there, &arrows[other])
         })
     };
-    // Most arrows are clear at their ideal offset.
+    // Most arrows overlap nothing at their ideal offset.
     if clear(&ideal) {
         return ideal;
     }
@@ -95,7 +97,7 @@ fn offset_of_least_change(
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().find(clear)
     };
-    // An offset found nearby is final if it is small: offsets that come from arrows farther off are larger.
+    // A small offset is final: arrows farther away only give larger offsets.
     let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));
     nearby
         .filter(|offset| offset.abs() < 0.5 * NEARBY * arrow.width)
@@ -103,7 +105,7 @@ fn offset_of_least_change(
         .unwrap_or(ideal)
 }
 
-/// A box around an arrow and the gap it keeps: arrows whose boxes are disjoint are clear of each other.
+/// Returns a box around an arrow and its gap. Arrows whose boxes are disjoint do not overlap.
 fn space_around(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.reach();
     let ends = Bounds {
@@ -113,7 +115,8 @@ fn space_around(arrow: &ForceArrow) -> Bounds {
     ends.grown((HEAD_WIDTH + 2.0 * GAP) * arrow.width)
 }
 
-/// Whether an arrow begins where arrow `i` does and points the opposite way. `by_x` lists the arrows from left to right.
+/// True if an arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the arrows
+/// from left to right.
 fn has_opposite(by_x: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> bool {
     let (x, far) = (arrows[i].at.x, 0.5 * arrows[i].width);
     let from = by_x.partition_point(|entry| entry.0 < x - far);
@@ -121,26 +124,26 @@ fn has_opposite(by_x: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> bool 
     near.any(|(_, j)| opposite(&arrows[i], &arrows[*j]))
 }
 
-/// Whether two arrows begin at one point and point opposite ways.
+/// True if two arrows begin at the same point and point in opposite directions.
 fn opposite(a: &ForceArrow, b: &ForceArrow) -> bool {
     let near = (a.at - b.at).norm() <= 0.5 * a.width;
     near && a.reach().dot(&b.reach()) < 0.0 && side_by_side(a, b).is_some()
 }
 
-/// The unit vector to the left of an arrow; `None` for an arrow of no length.
+/// Returns the unit vector to the left of an arrow; `None` for an arrow without length.
 fn across(arrow: &ForceArrow) -> Option<Vector> {
     let reach = arrow.reach();
     let length = reach.norm();
     (length > 0.0).then(|| Vector::new(-reach.y, reach.x) / length)
 }
 
-/// Whether two parallel arrows are closer than the gap between them allows.
+/// True if two arrows are parallel and closer than the least distance.
 fn too_close(a: &ForceArrow, b: &ForceArrow) -> bool {
     side_by_side(a, b).is_some_and(|(needed, distance)| distance < needed * (1.0 - CLEAR_TOL))
 }
 
-/// For two parallel arrows that overlap along their direction: the distance that their axes need, and the one they have,
-/// metres. `None` for any other pair.
+/// Returns, for two parallel arrows that overlap along their direction, the least distance of their axes and their
+/// actual distance, in metres. Returns `None` for any other pair.
 fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let (u, v) = (a.reach(), b.reach());
     let (long, other) = (u.norm(), v.norm());
@@ -167,7 +170,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
         .map(|(p, q)| p.2 + q.2 + gap)
         .fold(0.0, f64::max);
     let cross = |d: Vector| along.x * d.y - along.y * d.x;
-    // Two straight axes are nearest at an end of the stretch that they share.
+    // Two straight axes are nearest at an end of their common range.
     let ends = [
         from.max(0.0).min(long),
         (from + project(v)).max(0.0).min(long),
@@ -179,7 +182,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     (needed > 0.0).then_some((needed, distances[0].min(distances[1])))
 }
 
-/// Shaft and head: where each begins and ends along the arrow, and half its width, metres.
+/// Returns the beginning, the end and half the width of the shaft and of the head, in metres along the arrow.
 fn parts(arrow: &ForceArrow) -> [(f64, f64, f64); 2] {
     let length = arrow.reach().norm();
     let (long, wide) = head_size(length, arrow.width);

@@ -1,6 +1,7 @@
-//! [`Marks`]: every arrow of a frame in numbers, in metres and newtons, before anything is drawn.
+//! [`Marks`]: the data of all arrows of a frame, in metres and newtons, before they are drawn.
 //!
-//! From tail to tip an arrow is proportional to its force. One too short to be seen is not drawn, and counted.
+//! The length of an arrow from tail to tip is proportional to its force. Arrows too short to be visible are counted,
+//! but not drawn.
 
 use super::words::{counted, listed, quantity};
 use crate::drawing::Colour;
@@ -8,7 +9,7 @@ use crate::drawing::arrow::{HEAD_LENGTH, head_size};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BodyId, RobotId};
 
-/// What a straight arrow tells.
+/// What a straight arrow shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ArrowKind {
     /// The weight of a block.
@@ -23,20 +24,21 @@ pub enum ArrowKind {
     Friction(BodyId),
     /// A robot's force.
     Robot(RobotId),
-    /// Half of the vertical pair that stands for a robot's torque.
+    /// One of the two vertical arrows that show the torque of a robot.
     RobotTorque(RobotId),
-    /// A pull that would have to stick, from this body.
+    /// A missing pull from this body: adhesion that the structure would need.
     MissingPull(BodyId),
-    /// Friction that would have to stick, from this body.
+    /// Missing friction from this body.
     MissingFriction(BodyId),
     /// A force beyond a robot's limits.
     MissingRobotForce(RobotId),
-    /// Half of the vertical pair that stands for a torque beyond a robot's limit.
+    /// One of the two vertical arrows that show a torque beyond a robot's limit.
     MissingTorque(RobotId),
 }
 
 impl ArrowKind {
-    /// The body whose own arrow is the opposite of this one, `None` where there is none.
+    /// Returns the body that exerts the force; `None` if it is not another body. An opposite arrow is drawn on this
+    /// body.
     pub fn partner(self) -> Option<BodyId> {
         match self {
             ArrowKind::Contact(from)
@@ -48,7 +50,7 @@ impl ArrowKind {
         }
     }
 
-    /// Whether the arrow tells what would be needed rather than what is there.
+    /// True if the arrow shows a missing force or torque.
     pub fn is_failure(self) -> bool {
         matches!(
             self,
@@ -60,15 +62,15 @@ impl ArrowKind {
     }
 }
 
-/// An arrow shorter than this from tail to tip, pixels, is not seen.
+/// An arrow shorter than this from tail to tip, pixels, is not visible.
 pub(crate) const LEAST_SEEN: f64 = 2.0;
 
-/// Where an arrow's head lies.
+/// The position of an arrow's head.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Head {
-    /// Within the vector: from tail to tip the arrow tells its force.
+    /// Within the vector: the length from tail to tip shows the force.
     Within,
-    /// Beyond the vector, as in the source's printed figures: the shaft alone tells the force.
+    /// Beyond the vector, as in the figures of the thesis: the length of the shaft shows the force.
     Beyond,
 }
 
@@ -77,24 +79,25 @@ pub enum Head {
 pub struct ForceArrow {
     /// The body the force acts on.
     pub on: BodyId,
-    /// Where it begins, metres.
+    /// The point where it begins, metres.
     pub at: Point,
-    /// As long as its force asks for, metres: from tail to tip, or its shaft alone where its head lies beyond.
+    /// The vector to scale, metres: from tail to tip, or only the shaft for [`Head::Beyond`].
     pub vector: Vector,
-    /// The force it tells, N; for half of a torque's pair, the torque in N·m per metre of distance of the two halves.
+    /// The force it shows, N. For one of two arrows of a torque: the torque in N·m, divided by the distance of the two
+    /// arrows in metres.
     pub force: Vector,
     /// Its colour.
     pub colour: Colour,
     /// Width of its shaft, metres.
     pub width: f64,
-    /// Where its head lies.
+    /// The position of its head.
     pub head: Head,
-    /// What it tells.
+    /// What it shows.
     pub kind: ArrowKind,
 }
 
 impl ForceArrow {
-    /// From its tail to the tip of its head, metres.
+    /// Returns the vector from its tail to the tip of its head, metres.
     pub fn reach(&self) -> Vector {
         let length = self.vector.norm();
         match self.head {
@@ -104,7 +107,7 @@ impl ForceArrow {
     }
 }
 
-/// What a turning arrow tells.
+/// What a torque arrow shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnKind {
     /// The torque of a load.
@@ -115,7 +118,7 @@ pub enum TurnKind {
     Missing(RobotId),
 }
 
-/// A turning arrow in the scene.
+/// An arrow along a circle that shows a torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnArrow {
     /// The body the torque acts on.
@@ -130,32 +133,32 @@ pub struct TurnArrow {
     pub colour: Colour,
     /// Width of its shaft, metres.
     pub width: f64,
-    /// What it tells.
+    /// What it shows.
     pub kind: TurnKind,
 }
 
-/// Every arrow of a frame in drawing order: block by block, robots, and at last what fails.
+/// All arrows of a frame in drawing order: block by block, then robots, then failures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    /// The straight ones.
+    /// The arrows of forces.
     pub arrows: Vec<ForceArrow>,
-    /// The turning ones.
+    /// The arrows of torques.
     pub turns: Vec<TurnArrow>,
-    /// The amount that is one unit edge long, N; 0 where there is no force.
+    /// The force whose arrow is one unit edge long, N; 0 if there are no forces.
     pub newtons_per_unit: f64,
 }
 
 impl Marks {
-    /// How many arrows are too short to be seen where a metre is so many pixels long, in words: `3 forces under 0.5 N
-    /// not drawn`. `unit` is the unit edge in metres. `None` where all are seen.
+    /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
+    /// all arrows are visible. `unit` is the unit edge in metres; `scale` is in pixels per metre.
     pub(crate) fn unseen(&self, unit: f64, scale: f64) -> Option<String> {
         let least = LEAST_SEEN / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
-        // That of a load is drawn with a least length.
+        // The torque arrow of a load has a least length, so it is always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // A length is so many newtons for a force, and as many newton metres for a torque on an arm of one metre.
+        // One scale serves forces in N and torques in N·m.
         let amount = round_above(least / unit * self.newtons_per_unit);
         let parts = [("force", forces, "N"), ("torque", torques, "N·m")];
         let parts = parts.into_iter().filter(|part| part.1 > 0);
@@ -166,14 +169,15 @@ impl Marks {
         (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
     }
 
-    /// The largest force of an arrow, N, and at least the force that is one unit edge long.
+    /// Returns the largest force of an arrow, N, but at least the force whose arrow is one unit edge long.
     pub(crate) fn largest(&self) -> f64 {
         let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
         forces.fold(self.newtons_per_unit, f64::max)
     }
 }
 
-/// The next number of one digit that is not below this one.
+/// Returns the smallest number with one significant digit that is at least `amount`. Returns `amount` itself if it is
+/// not positive and finite.
 pub(crate) fn round_above(amount: f64) -> f64 {
     if !(amount > 0.0 && amount.is_finite()) {
         return amount;
@@ -183,7 +187,8 @@ pub(crate) fn round_above(amount: f64) -> f64 {
     digit * power
 }
 
-/// How far a point is from an arrow's ink, metres; below 0 inside it.
+/// Returns the distance of a point from the drawn shape of an arrow, metres. It is negative inside, and infinite for an
+/// arrow without length.
 pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let reach = arrow.reach();
     let length = reach.norm();
@@ -194,7 +199,7 @@ pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let tip = arrow.at + reach;
     let neck = tip - reach * (long / length);
     let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
-    // The head is a wedge; two thirds of half its width around its axis cover it.
+    // The head is a triangle. Approximate it by a strip around its axis with two thirds of its width.
     let head = from_segment(neck, tip, p) - wide / 3.0;
     shaft.min(head)
 }

@@ -1,27 +1,27 @@
-//! [`Bearing`]: the force of an interface, and its distance from opening and from sliding.
+//! [`Bearing`]: the normal force of an interface, and how near the interface is to opening and to sliding.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 
-/// Forces below this share of the largest may be noise of the solution …
+/// Forces below this share of the largest force may be solver noise …
 const NOISE: f64 = 1e-6;
-/// … unless they are more than this share of a block's own weight: a feather under a mountain is carried too.
+/// … unless they exceed this share of the block's own weight, so that forces on very light blocks count too.
 const SHARE: f64 = 1e-3;
 
-/// What an interface bears.
+/// The force of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bearing {
-    /// The force that presses it, N, above 0.
+    /// Its normal force, N, above 0.
     pub pressed: f64,
-    /// How far its resultant is from the middle, as a share of the way to the end of the safe stretch; `None` where
-    /// that stretch is a point.
+    /// The distance of its resultant from the middle, as a share of the distance to the end of the safe part; `None` if
+    /// the safe part is a point.
     pub eccentricity: Option<f64>,
-    /// Friction used of friction available; `None` where none is available.
+    /// The share of the available friction that is used; `None` if no friction is available.
     pub friction: Option<f64>,
 }
 
-/// The bearing of each contact of a frame; `None` for a contact without force.
+/// Returns the bearing of each contact of a frame; `None` for a contact without force.
 pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
     let largest = found.contacts.iter().map(pressed).fold(0.0, f64::max);
@@ -43,8 +43,8 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
     found.contacts.iter().map(bearing).collect()
 }
 
-/// The largest force, in newtons, that may be solver noise on a block of this weight, if the largest force of the frame is
-/// `largest`.
+/// Returns the force, in newtons, up to which a force on a block of this weight may be solver noise. `largest` is the
+/// largest force of the frame.
 pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     if weight > 0.0 {
         f64::min(NOISE * largest, SHARE * weight)

@@ -1,4 +1,4 @@
-//! [`broken`]: draws the outlines of a refused scene with its problems marked and numbered. There are no forces.
+//! [`broken`]: draws the outlines of an invalid scene, with marked and numbered problems and without forces.
 
 use super::layout::MAX_MARGIN;
 use super::option::Options;
@@ -11,28 +11,28 @@ use crate::geometry::{Bounds, Point};
 use crate::interface::Interfaces;
 use crate::scene::{BodyId, Code, Sketch, SketchedBody, Spot};
 
-/// So many problems are marked and listed, and so many gaps; the rest is counted.
+/// Largest number of problems, and of gaps, that are marked and listed; the others are counted.
 const SHOWN: usize = 30;
-/// Width of the page where none is asked for, pixels.
+/// Width of the page if the options give none, pixels.
 const WIDE: f64 = 900.0;
-/// Most height of the picture of the structure, as a share of the page's width.
+/// Largest height of the picture of the structure, as a share of the page's width.
 const HIGH: f64 = 0.7;
 /// Radius of a number's disc, pixels.
 const DISC: f64 = 9.0;
 /// Distance between the hatched lines of an overlap, pixels.
 const HATCH: f64 = 5.0;
 
-/// What a numbered mark stands for.
+/// A numbered mark.
 struct Marked {
     at: Point,
     bodies: Vec<BodyId>,
-    /// A problem's code; none for a gap.
+    /// The code of the problem; `None` for a gap.
     code: Option<Code>,
     number: usize,
 }
 
-/// The outlines of a scene file with its problems. Each problem has a number at its place and an entry in the list below.
-/// Gaps that are nearly contacts are marked too. Of the options only the theme and the width are used.
+/// Draws the outlines of a scene file with its problems. Each problem has a number at its position and an entry in the
+/// list below. Gaps that are nearly contacts are marked too. Only the theme and the width of the options are used.
 ///
 /// # Example
 /// ```
@@ -113,7 +113,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
 }
 
-/// The marked places, and the list below the picture with the numbers of the marks.
+/// Returns the marks, and the entries of the list below the picture, each with the number of its mark if it has one.
 fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     let mut marks = Vec::new();
     let mut entries = Vec::new();
@@ -182,7 +182,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     (marks, entries)
 }
 
-/// A number with two significant digits.
+/// Formats a positive number with two significant digits, and any other number as `0`.
 fn digits(x: f64) -> String {
     if !(x > 0.0) {
         return "0".into();
@@ -191,7 +191,8 @@ fn digits(x: f64) -> String {
     format!("{x:.*}", decimals as usize)
 }
 
-/// The part of the scene that is shown: all blocks and marks. The ground is included only if there is nothing else.
+/// Returns the part of the scene that is shown: all blocks and marks, or the ground if there are no blocks. Returns
+/// `None` if it has no size.
 fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
@@ -202,11 +203,11 @@ fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let shown = [corners(true).or_else(|| corners(false)), places];
     let around = shown.into_iter().flatten().reduce(Bounds::union)?;
     let size = around.width().max(around.height());
-    // A single point has no size that could give a scale.
+    // A single point gives no scale.
     (size > 0.0 && size.is_finite()).then(|| around.grown(0.1 * size))
 }
 
-/// The bodies, and the areas in which they overlap.
+/// Draws the bodies, and hatches the areas in which they overlap.
 fn structure(
     sketch: &Sketch,
     marks: &[Marked],
@@ -260,7 +261,7 @@ fn structure(
     group
 }
 
-/// The rings of a body on the page.
+/// Returns the outline of a body on the page.
 fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     for ring in &body.rings {
@@ -269,7 +270,7 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     outline
 }
 
-/// The name of a block at its centre, or below a mark that is there. `None` if there is no space.
+/// Returns the name of a block at its centre, or below a mark that is there. Returns `None` if there is no space.
 fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
@@ -292,7 +293,7 @@ fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Option
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }
 
-/// The parts of hatch lines that lie on hatch lines of another body.
+/// Returns the common parts of the hatch lines of two bodies.
 fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let level = |line: &[PagePoint; 2]| line[0].y - line[0].x;
     let mut common = Vec::new();
@@ -311,7 +312,7 @@ fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     common
 }
 
-/// The numbers, each in a disc next to its place. The discs do not overlap.
+/// Draws the marks, each with its number in a disc next to it. The discs do not overlap.
 fn numbers(marks: &[Marked], camera: &Camera, options: &Options) -> Group {
     let theme = &options.theme;
     let mut group = Group::with_class("marks");
@@ -350,7 +351,7 @@ fn arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
-/// The nearest position for a disc next to a point at which it overlaps no other disc.
+/// Returns the nearest position next to `place` at which a disc does not overlap the discs in `taken`.
 fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const AROUND: [(f64, f64); 8] = [
         (0.7, -0.7),
@@ -373,7 +374,7 @@ fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     places.next().unwrap_or(place)
 }
 
-/// A disc with a number.
+/// Draws a disc with a number.
 fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
     let theme = &options.theme;
     let size = 1.2 * DISC;

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Colour, Item, Outline, Path, Stroke};
 
-/// Outlines joined by colour, in the order in which the colours came.
+/// Outlines joined by colour, in the order in which the colours were added.
 #[derive(Default)]
 pub(crate) struct ByColour(Vec<(Colour, Outline)>);
 
@@ -22,7 +22,7 @@ impl ByColour {
         self.0.into_iter().map(path).map(Item::from)
     }
 
-    /// The outlines as lines that are `width` pixels wide.
+    /// Returns the outlines as lines that are `width` pixels wide.
     pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
         let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
         self.0.into_iter().map(path).map(Item::from)

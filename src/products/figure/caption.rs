@@ -5,7 +5,7 @@ use super::words::letter;
 use crate::analysis::{Analysis, Verdict};
 use crate::wording::verdict::reasons;
 
-/// The caption of a figure: the title, and for every frame the verdict and the reason why it falls.
+/// Returns the caption of a figure: the title, and for every frame the verdict and its reasons.
 ///
 /// ```
 /// use drystone::{Analysis, Scene, figure};

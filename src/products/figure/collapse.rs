@@ -1,4 +1,4 @@
-//! [`reason`]: a mechanism in words: which blocks turn about what, which slide, and how many hinges there are.
+//! [`reason`]: describes a mechanism in words: which blocks turn or slide, and how many hinges there are.
 
 use super::displacement::rigid_bodies;
 use super::joint::{Joint, joints};
@@ -7,15 +7,15 @@ use crate::analysis::{Analysis, Motion, Verdict};
 use crate::drawing::text::NO_BREAK;
 use crate::scene::BodyId;
 
-/// Up to this many rigid bodies are described one by one.
+/// Largest number of rigid bodies that are described one by one.
 const MAX_DESCRIBED_BODIES: usize = 3;
-/// Up to this many blocks of a body are named.
+/// Largest number of blocks of a body that are named.
 const MAX_NAMED_BLOCKS: usize = 4;
-/// A body whose rotation contributes less than this share of the speed of its fastest point is said to slide or fall, not to
-/// turn.
+/// If rotation contributes less than this share to the speed of a body's fastest point, the text says that the body
+/// slides or falls.
 const ROTATION_TOL: f64 = 0.02;
 
-/// The line below the verdict in a figure of a mechanism.
+/// Returns the line below the verdict in a figure of a mechanism.
 pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
@@ -67,7 +67,7 @@ struct Sentences<'a> {
 }
 
 impl Sentences<'_> {
-    /// The motion of one rigid body in words: `blocks 4 and 5 slide on block 3`.
+    /// Describes the motion of one rigid body: `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
         let scene = &self.analysis.scene;
         let names: Vec<String> = body
@@ -105,7 +105,7 @@ impl Sentences<'_> {
         });
         match (hinge, slip) {
             (Some((_, other)), _) => {
-                // The kernel moves what a block turns about away from its corners.
+                // With a kernel a block does not turn about its corners, but about points between them.
                 let about = if scene.kernel > 0.0 {
                     "hinge"
                 } else {
@@ -118,7 +118,7 @@ impl Sentences<'_> {
         }
     }
 
-    /// Whether the rotation of a body is visible in its motion.
+    /// True if the rotation of a body is visible in its motion. `fastest` is the speed of its fastest point.
     fn turning(&self, body: &[Motion], fastest: f64) -> bool {
         let scene = &self.analysis.scene;
         let turned = |m: &Motion| {
@@ -130,7 +130,7 @@ impl Sentences<'_> {
         body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// The joints of a body with other bodies, and these bodies; bodies at rest come first.
+    /// Returns the joints of a body with other bodies, and these bodies. Joints with bodies at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =
@@ -159,7 +159,8 @@ impl Sentences<'_> {
         }
     }
 
-    /// The robot about whose grip point a body turns.
+    /// Returns the name of the robot about whose grip point a body turns; `None` if there is none. `fastest` is the
+    /// speed of the fastest point of the body.
     fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
         let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;

@@ -1,7 +1,9 @@
-//! The differences between two consecutive frames: blocks that were added or removed, and interfaces whose forces changed.
+//! Draws the differences between consecutive frames: blocks that were added or removed, and interfaces whose forces
+//! changed.
 //!
-//! Each frame is compared with the one before it, arrows to one scale in all of them. Where an interface's force changed
-//! by more than a twentieth of the larger of the two, it is ringed, and its force before lies faint below the one now.
+//! Each frame is compared with the frame before it. Arrows have the same scale in all frames. An interface has a ring
+//! if its force changed by more than 5 % of the larger of the two forces. The force before is drawn faint below the
+//! present force.
 
 use std::collections::BTreeMap;
 
@@ -22,12 +24,12 @@ use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, St
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// A force has changed if it differs by more than this share of the larger of the two. Where forces are not unique, smaller
-/// differences come from the solver.
+/// A force has changed if it differs by more than this share of the larger of the two. If forces are not unique, the
+/// solver alone causes smaller differences.
 const CHANGE_TOL: f64 = 0.05;
 /// Radius of the ring around a change, unit edges; its least and its largest radius, pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
-/// A sentence names this many blocks at most.
+/// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
 
 /// An interface whose force changed.
@@ -36,7 +38,7 @@ struct Change<'a> {
     before: &'a Contact,
 }
 
-/// The blocks that were added since the previous frame, and those that were removed.
+/// Returns the blocks that were added since the previous frame, and the blocks that were removed.
 fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let Some(earlier) = frame.checked_sub(1) else {
         return [Vec::new(), Vec::new()];
@@ -48,13 +50,13 @@ fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     [without(now, before), without(before, now)]
 }
 
-/// The two bodies of a contact, in the same order in all frames.
+/// Returns the two bodies of a contact, in the same order in all frames.
 fn between(contact: &Contact) -> [BodyId; 2] {
     let [a, b] = contact.interface.bodies;
     [a.min(b), a.max(b)]
 }
 
-/// The force of a contact on the first of these two bodies, in newtons.
+/// Returns the force of a contact on the first body of [`between`], in newtons.
 fn force(contact: &Contact) -> Vector {
     if contact.resultant.on == between(contact)[0] {
         contact.resultant.force
@@ -63,7 +65,8 @@ fn force(contact: &Contact) -> Vector {
     }
 }
 
-/// The interfaces of both frames whose forces differ, and the number of interfaces that both frames have.
+/// Returns the common interfaces of a frame and the frame before it whose forces differ, and the number of all common
+/// interfaces.
 fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
@@ -100,7 +103,7 @@ fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize)
     (shared.into_iter().filter(differs).collect(), count)
 }
 
-/// The figure of what changed between frames.
+/// The figure of the changes between frames.
 pub(crate) struct Comparison;
 
 impl PanelContent for Comparison {
@@ -109,7 +112,7 @@ impl PanelContent for Comparison {
     }
 
     fn help(&self) -> &'static str {
-        "What changed from one frame to the next, or from the last frame of one scene to that of another"
+        "Changes between consecutive frames, or between the last frames of two scenes"
     }
 
     fn title(&self) -> &'static str {
@@ -263,7 +266,7 @@ impl PanelContent for Comparison {
             names.collect()
         };
         let (came, went) = (names(&came), names(&went));
-        // Blocks with the same name in both frames, but with another outline, weight or load.
+        // Blocks that have the same name in both frames, but another outline, weight or load.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
         let alone = |names: &[String]| -> Vec<String> {
             names
@@ -295,8 +298,9 @@ impl PanelContent for Comparison {
     }
 }
 
-/// The distance in metres by which an arrow was moved off its line of action. The arrow of the previous force is moved by
-/// the same distance. `true_lines` are the arrows of the frame before they were moved.
+/// Returns the vector in metres by which the arrow of the force on `on` from `from` was moved off its line of action.
+/// The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they were moved,
+/// `marks` afterwards.
 fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
     let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
     let far = |a: &ForceArrow| (a.force - force).norm();

@@ -1,4 +1,4 @@
-//! [`PanelContent`]: what the panels of one kind of figure show, and the [`FigureContext`] computed from it.
+//! [`PanelContent`]: a trait for the content of one kind of figure, and the [`FigureContext`] computed from it.
 //!
 //! A kind of figure is a type without fields that implements the trait in a file of its own;
 //! [`Kind`](super::Kind) lists them all. A new kind starts from the smallest one, `kernel.rs`.
@@ -20,66 +20,67 @@ use crate::analysis::{Analysis, MarginKind};
 use crate::drawing::{Camera, Group};
 use crate::geometry::{Bounds, Point};
 
-/// What the panels of one kind of figure show. The methods without a default are what every kind has to say.
+/// The content of the panels of one kind of figure. Every kind implements the methods without a default.
 pub(crate) trait PanelContent: Sync {
-    /// The name on the command line and in settings, in small letters.
+    /// Returns the name on the command line and in settings, in lower case.
     fn name(&self) -> &'static str;
 
-    /// One line for the help of `drystone render --kind`.
+    /// Returns one line for the help of `drystone render --kind`.
     fn help(&self) -> &'static str;
 
-    /// The title of a figure whose scene has none.
+    /// Returns the title of the figure if the scene has none.
     fn title(&self) -> &'static str;
 
-    /// Whether the analysis has to compute the margins.
+    /// True if the analysis has to compute the margins.
     fn needs_margins(&self) -> bool {
         false
     }
 
-    /// The margins that the figure states or draws from if the analysis has them. Unlike those of
+    /// Returns the margins that the figure shows if the analysis has them. Unlike with
     /// [`needs_margins`](PanelContent::needs_margins) the figure is complete without them.
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }
 
-    /// Whether each falling part is shown with one elementary mechanism
+    /// True if each falling part is shown with one elementary mechanism
     /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
     /// motion.
     fn needs_elementary_mechanisms(&self) -> bool {
         false
     }
 
-    /// Whether the arrows of all panels have one scale, whatever the options say.
+    /// True if the arrows of all panels have one scale, whatever the options say.
     fn shares_arrow_scale(&self) -> bool {
         false
     }
 
-    /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
+    /// True if the colour of a block shows its amplitude; otherwise blocks are plain.
     fn colours_show_amplitudes(&self) -> bool {
         false
     }
 
-    /// Whether the forces on each block are drawn. They often lie on one line and are then moved apart.
+    /// True if the forces on each block are drawn. Arrows on one line are then moved apart.
     fn draws_forces(&self) -> bool {
         false
     }
 
-    /// Whether arrows are longer than a unit edge where the figure has room for that.
+    /// True if arrows may be longer than a unit edge if unit edges are short on the page.
     fn stretches_arrows(&self) -> bool {
         false
     }
 
-    /// Whether lines run across the blocks, below their names.
+    /// True if lines run across the blocks, below their names.
     fn lines_cross_names(&self) -> bool {
         false
     }
 
-    /// The force that is one unit edge long where each panel has its own scale, N; 0 for a kind without arrows.
+    /// Returns the force, in N, whose arrow is one unit edge long if each panel has its own scale; 0 for a kind without
+    /// arrows.
     fn largest_force(&self, _analysis: &Analysis, _frame: usize, _options: &Options) -> f64 {
         0.0
     }
 
-    /// The arrows of a frame; an arrow of `newtons_per_unit` N is one unit edge long.
+    /// Returns the arrows of a frame. An arrow of `newtons_per_unit` N is one unit edge long.
     fn marks(
         &self,
         _analysis: &Analysis,
@@ -90,18 +91,19 @@ pub(crate) trait PanelContent: Sync {
         Marks::default()
     }
 
-    /// The way along which the blocks of a frame are displaced; nothing moves where all blocks are drawn in their places.
-    /// `unit` is the unit edge in metres.
+    /// Returns the paths along which the blocks of a frame are displaced; an empty course if blocks are drawn in their
+    /// places. `unit` is the unit edge in metres.
     fn course(&self, _analysis: &Analysis, _frame: usize, _unit: f64) -> Course {
         Course::default()
     }
 
-    /// The words beside the mark of a verdict.
+    /// Returns the text next to the mark of a verdict.
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
         verdict::badge(&context.analysis.frames[frame]).to_owned()
     }
 
-    /// A box around what a frame shows in addition to blocks, ground, robots and arrows, metres.
+    /// Returns a box in metres around items other than blocks, ground, robots and arrows; `None` if there are none.
+    /// `unit` is the unit edge in metres.
     fn extent(
         &self,
         _analysis: &Analysis,
@@ -113,7 +115,7 @@ pub(crate) trait PanelContent: Sync {
         None
     }
 
-    /// The picture of a frame; ground is cut at the edge of `view`.
+    /// Draws the picture of a frame. The ground is cut at the edge of `view` (metres).
     fn picture(
         &self,
         context: &FigureContext<'_>,
@@ -122,16 +124,16 @@ pub(crate) trait PanelContent: Sync {
         camera: &Camera,
     ) -> Group;
 
-    /// The entries of the key: every sign that occurs in the figure. `unit` is the unit edge in pixels.
+    /// Returns the entries of the legend: all signs that occur in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
-    /// The line below the verdict of a frame.
+    /// Returns the line below the verdict of a frame.
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String;
 }
 
 impl<'a> FigureContext<'a> {
-    /// The context of a figure with this content. Its steps depend on each other in this order: the scale of the arrows,
-    /// the arrows, the box that each frame shows, the line below each verdict.
+    /// Computes the context of a figure with this content, in this order: the scale of the arrows, the arrows, the box
+    /// that each frame shows, the line below each verdict.
     pub fn new(
         analysis: &'a Analysis,
         options: &'a Options,
@@ -187,7 +189,7 @@ impl<'a> FigureContext<'a> {
     }
 }
 
-/// The arrows of each frame, to the scale that the options ask for, moved apart where they lie on one line.
+/// Returns the arrows of each frame at the scale of the options. Arrows on one line are moved apart.
 fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelContent) -> Vec<Marks> {
     let frames = 0..analysis.frames.len();
     let own: Vec<f64> = frames
@@ -223,19 +225,19 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     own.iter().copied().enumerate().map(scaled).collect()
 }
 
-/// Length that the longest arrow has at least, pixels (9 mm).
+/// Least length of the longest arrow, pixels (9 mm).
 const LONG_ARROW: f64 = 34.0;
-/// Arrows are at most this many times as long as a unit edge, in frames of at most `FEW_BLOCKS` blocks and in others.
+/// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in others.
 const MOST_STRETCH: (f64, f64) = (3.0, 1.5);
 const FEW_BLOCKS: usize = 40;
-/// The longest arrow is at most this share of the longer side of what the figure shows.
+/// Largest length of an arrow, as a share of the longer side of the shown part.
 const LONGEST_SHARE: f64 = 0.25;
 
-/// Length that the longest arrow of a load has at least, pixels.
+/// Least length of the longest arrow of a load, pixels.
 const LONG_LOAD: f64 = 24.0;
 
-/// How many unit edges the longest arrow is long: more than one where unit edges are so short that small arrows would
-/// consist of their heads alone. And the least length of the longest arrow of a load, metres.
+/// Returns the length of the longest arrow in unit edges, at least 1, and the least length of the longest arrow of a
+/// load in metres. The first is above 1 if unit edges are so short that small arrows would only be heads.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
     let bare = FigureContext::new(analysis, options, &Bare);
@@ -254,8 +256,8 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     }
 }
 
-/// Draws loads to a scale of their own if the longest arrow of a load is shorter than this, metres: loads are given, and a
-/// reader has to see their directions.
+/// Makes the arrows of loads longer, by one factor, if the longest of them is shorter than `least` metres. A reader has
+/// to see their directions.
 fn lengthen_loads(marks: &mut Marks, least: f64) {
     let is_load = |arrow: &&mut ForceArrow| arrow.kind == ArrowKind::Load;
     let lengths = marks.arrows.iter_mut().filter(is_load);
@@ -267,7 +269,7 @@ fn lengthen_loads(marks: &mut Marks, least: f64) {
     }
 }
 
-/// A picture without arrows, by which the scale of a figure is known before its arrows are.
+/// A content without arrows, to compute the scale of a figure before its arrows are known.
 struct Bare;
 
 impl PanelContent for Bare {

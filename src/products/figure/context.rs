@@ -11,19 +11,19 @@ use super::view;
 use crate::analysis::{Analysis, ThrustStates};
 use crate::geometry::{Bounds, Point, Vector};
 
-/// In frames with more blocks than this, shapes of one colour are drawn as one path, without names: thousands of elements
-/// make a file slow to open.
+/// In frames with more blocks than this, shapes of one colour are drawn as one path without names. Thousands of
+/// elements would make a file slow to open.
 pub(crate) const MANY_BLOCKS: usize = 1000;
 
 /// If a unit edge is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
 const MIN_UNIT_EDGE: f64 = 8.4;
-/// Figures of fewer blocks keep their arrows in any case, and count those too short to be seen.
+/// Figures with fewer blocks than this always have arrows; arrows too short to be visible are counted.
 const MIN_CROWD: usize = 40;
 
-/// If less than this share of the arrows of a crowd is long enough to be seen, colours show the forces instead.
+/// If less than this share of the arrows is long enough to be visible, colours show the forces instead.
 const MIN_VISIBLE_SHARE: f64 = 0.2;
 
-/// What all panels of a figure share.
+/// The data that all panels of a figure share.
 pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
     /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
@@ -38,24 +38,24 @@ pub(crate) struct FigureContext<'a> {
     /// A box around all of them.
     pub view: Bounds,
     pub fills: Fills,
-    /// The arrows of each frame, those on displaced blocks where the blocks are.
+    /// The arrows of each frame; they move with displaced blocks.
     pub marks: Vec<Marks>,
     /// The arrows of each frame with all blocks in their places.
     pub still: Vec<Marks>,
-    /// The way that the blocks of each frame take.
+    /// The paths of the blocks of each frame.
     pub courses: Vec<Course>,
     /// For each frame the displacement of each block, by its number; empty if all blocks are drawn in their places.
     pub displaced: Vec<Vec<Option<Displacement>>>,
-    /// The line below each frame's verdict.
+    /// The line below the verdict of each frame.
     pub statements: Vec<String>,
-    /// The families of lines of thrust of all frames, once a figure asks for them.
+    /// The limit states of all frames for lines of thrust; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
-    /// How many labels had no position so far, or only one inside another block.
+    /// The number of labels so far that have no position, or only a position inside another block.
     pub cramped: Cell<usize>,
 }
 
 impl<'a> FigureContext<'a> {
-    /// Displaces the blocks of every frame along this share of their way, 0 … 1, and the arrows on them.
+    /// Displaces the blocks of every frame, and the arrows on them, by the share `way` (0 to 1) of their paths.
     pub fn go(&mut self, way: f64) {
         self.displaced = self.courses.iter().map(|course| course.at(way)).collect();
         let frames = self.still.iter().zip(&self.displaced);
@@ -64,7 +64,8 @@ impl<'a> FigureContext<'a> {
             .collect();
     }
 
-    /// The states between which the forces of a frame may vary; computed when they are first asked for.
+    /// Returns the limit states between which the forces of a frame may vary. They are computed for all frames at the
+    /// first call.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
         let frames = 0..self.analysis.frames.len();
         let all = || {
@@ -75,9 +76,10 @@ impl<'a> FigureContext<'a> {
         &self.thrust.get_or_init(all)[frame]
     }
 
-    /// The same context with more space around what each frame shows, metres to the left and right, and up and down.
+    /// Returns the same context with more space around the content of each frame: `across` metres on the left and
+    /// right, `up` metres above and below.
     pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
-        // The lower edge of visible ground is the lower edge of the picture.
+        // If ground is visible at the lower edge, add no space below it.
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
             _ => up,
@@ -92,7 +94,8 @@ impl<'a> FigureContext<'a> {
         self
     }
 
-    /// Whether arrows are too small to read at this scale, pixels per metre, so that blocks show forces by colour instead.
+    /// True if arrows are too small to read at this scale (pixels per metre). Then the colours of blocks show the
+    /// forces instead.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
         let has_plain_block = self
             .analysis
@@ -109,7 +112,8 @@ impl<'a> FigureContext<'a> {
             && !self.options.printed()
     }
 
-    /// Whether nearly all arrows are too short to be visible. Showing only the few visible ones would be misleading.
+    /// True if nearly all arrows are too short to be visible at this scale (pixels per metre). It would be misleading
+    /// to show only the others.
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
@@ -118,13 +122,13 @@ impl<'a> FigureContext<'a> {
         (arrows().filter(carried).filter(seen).count() as f64) < MIN_VISIBLE_SHARE * count as f64
     }
 
-    /// Whether all blocks have one plain colour.
+    /// True if all blocks have one plain colour.
     pub fn plain(&self) -> bool {
         !self.colours_show_amplitudes || self.fills.scale == FillScale::Plain
     }
 
-    /// The box that the panels of a row show: as wide as all frames need, so that structures line up below each other, and as
-    /// high as the frames of the row need.
+    /// Returns the box in metres that the panels of a row show. It is as wide as all frames need, so that structures
+    /// are aligned in columns, and as high as the frames of this row need.
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
         let row = rows.reduce(Bounds::union).unwrap_or(self.view);

@@ -7,7 +7,8 @@ use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
 pub(crate) use crate::wording::failure::{named, pair};
 
-/// The description of a block.
+/// Describes a block: its weight, and the meaning of its colour. `place` is its index among the placed blocks of the
+/// frame.
 pub(crate) fn block(
     context: &FigureContext<'_>,
     frame: usize,
@@ -27,8 +28,8 @@ pub(crate) fn block(
     format!("weight {weight}, {fill}")
 }
 
-/// Whether a force has a dot in place of an arrow: a load or a missing force that is not long enough to be seen, once for
-/// each pair of blocks.
+/// True if a force is drawn as a dot: a load or a missing force whose arrow is too short to be visible. Of the two
+/// opposite arrows between two blocks only one gets a dot.
 pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     let twice = match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,
@@ -37,7 +38,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     !seen && !twice && (arrow.kind == ArrowKind::Load || arrow.kind.is_failure())
 }
 
-/// The description of an arrow.
+/// Describes the arrow of a force.
 pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
@@ -71,7 +72,7 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     }
 }
 
-/// The description of a torque arrow.
+/// Describes the arrow of a torque.
 pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     let scene = &context.analysis.scene;
     let direction = if turn.torque > 0.0 {
@@ -96,7 +97,7 @@ pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     }
 }
 
-/// The description of a block's motion.
+/// Describes the motion of a block.
 pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     let name = &scene.blocks[motion.block.0].id;
     let degrees = libm::atan2(motion.velocity.y, motion.velocity.x).to_degrees();

@@ -1,5 +1,5 @@
-//! Dimension lines at the edges of a picture: the width and height of all blocks, or of the block in the centre of a zoomed
-//! picture.
+//! Draws dimension lines at the edges of a picture: the width and height of all blocks, or of the block in the centre
+//! of a zoomed picture.
 
 use super::context::FigureContext;
 use super::words::quantity;
@@ -7,14 +7,16 @@ use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stro
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
-/// Room below a picture for its width, pixels.
+/// Space below a picture for its width, pixels.
 pub(crate) const BELOW: f64 = 26.0;
-/// Room on either side of a picture for its height, pixels: a figure stays in the middle of its panel.
+/// Space on the left for the height of a picture, pixels. The same space on the right keeps the picture in the middle
+/// of its panel.
 pub(crate) const ASIDE: f64 = 58.0;
-/// Half the length of the stroke across an end, pixels.
+/// Half the length of the mark at each end, pixels.
 const TICK: f64 = 4.0;
 
-/// The dimension lines of a frame's picture, for the part of the scene in `view`; empty for a frame without blocks.
+/// Draws the dimension lines of the picture of a frame, which shows `view` (metres). The group is empty for a frame
+/// without blocks.
 pub(crate) fn lines(
     context: &FigureContext<'_>,
     frame: usize,
@@ -23,7 +25,7 @@ pub(crate) fn lines(
 ) -> Group {
     let group = Group::with_class("dimensions");
     let scene = &context.analysis.scene;
-    // A zoomed picture measures the block at its centre.
+    // In a zoomed picture measure only the block at its centre.
     let meant = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
     let blocks = scene.frames[frame].placed.iter().filter(meant);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());

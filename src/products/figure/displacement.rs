@@ -1,11 +1,13 @@
-//! [`Course`]: the way that blocks take along a collapse mechanism, as finite rigid motions, so that they keep their shapes.
+//! [`Course`]: the paths of blocks along a collapse mechanism. The motions are finite and rigid, so blocks keep their
+//! shapes.
 //!
-//! A mechanism gives velocities only, so the figure has to choose an amplitude. For each group of blocks in contact:
+//! A mechanism only gives velocities, so the figure has to choose an amplitude. For each group of blocks in contact:
 //!
-//! 1. The fastest point goes at least [`MIN_DISPLACEMENT`] and [`MIN_DISPLACEMENT_SHARE`] say, so that hinges are seen to open.
-//! 2. No block turns by more than [`MAX_ROTATION`]: the velocities hold for small rotations only.
-//! 3. [`linkage`] keeps hinges closed and sliding blocks on their joints along the whole way.
-//! 4. The motion ends before two blocks overlap, whether they touched at first or not ([`clearance`]).
+//! 1. The displacement of the fastest point is the larger of [`MIN_DISPLACEMENT`] and [`MIN_DISPLACEMENT_SHARE`], so
+//!    that open hinges are visible.
+//! 2. No block turns by more than [`MAX_ROTATION`], because the velocities are only valid for small rotations.
+//! 3. [`linkage`] keeps hinges closed and sliding blocks on their joints along the whole path.
+//! 4. The motion ends before two blocks overlap, whether they touched at the beginning or not ([`clearance`]).
 
 mod clearance;
 mod group;
@@ -25,36 +27,36 @@ pub(crate) use rigid::Displacement;
 
 /// Least displacement of the fastest point, unit edges.
 const MIN_DISPLACEMENT: f64 = 0.35;
-/// Least displacement of the fastest point, as a share of the diagonal of all that moves: in an arch of many voussoirs a unit
-/// edge is too little for a hinge to be seen to open.
+/// Least displacement of the fastest point, as a share of the diagonal of the group. In an arch of many voussoirs a
+/// unit edge is too short to make an open hinge visible.
 const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;
-/// Along the whole way overlaps are measured at this number of places.
+/// Number of positions along the path at which overlaps are measured.
 const PLACES: u32 = 8;
-/// How often the way of a group is shortened while its blocks overlap others, and by which factor at least.
+/// Largest number of reductions of the amplitude while blocks overlap, and the smallest factor of one reduction.
 const MAX_REDUCTIONS: u32 = 24;
 const REDUCTION: f64 = 0.6;
-/// The overlaps of more moving blocks are not measured, which would take longer than the drawing.
+/// Overlaps are not measured if more blocks than this move, because that would take longer than the drawing.
 const MAX_TESTED_BLOCKS: usize = 500;
 
-/// The way of every block of a frame from where it stands to where the figure shows it.
+/// The path of every block of a frame from its place to its displaced position.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Course {
     groups: Vec<GroupCourse>,
     blocks: usize,
 }
 
-/// The way of one group of connected blocks.
+/// The path of a group of connected blocks.
 #[derive(Clone, Debug)]
 struct GroupCourse {
     linkage: Linkage,
-    /// The displacement in metres of a point of speed 1 at the end of the way.
+    /// The displacement in metres of a point of speed 1 at the end of the path.
     amplitude: f64,
 }
 
 impl Course {
-    /// The course of a frame that falls; nothing moves in any other frame. `unit` is the unit edge in metres.
+    /// Computes the course of a frame that falls; it is empty for any other frame. `unit` is the unit edge in metres.
     pub fn new(analysis: &Analysis, frame: usize, unit: f64) -> Course {
         if analysis.frames[frame].verdict != Verdict::Unstable {
             return Course::default();
@@ -73,8 +75,8 @@ impl Course {
         course
     }
 
-    /// The displacement of each block at this share of the way, 0 … 1, by the number of the block; `None` for a block at
-    /// rest. Empty where nothing moves.
+    /// Returns the displacement of each block at this share of the path (0 to 1), by the index of the block; `None` for
+    /// a block at rest. The list is empty if nothing moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
         if self.groups.is_empty() {
             return Vec::new();
@@ -88,7 +90,8 @@ impl Course {
         displaced
     }
 
-    /// A box around all blocks that move, and the arrows on them, all along the way. `marks` are those before the motion.
+    /// Returns a box around all moving blocks and all arrows along the whole path; `None` if nothing moves. `marks` are
+    /// the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=PLACES).map(|place| self.at(f64::from(place) / f64::from(PLACES)));
         let each = places.filter_map(|displaced| {
@@ -106,7 +109,7 @@ impl Course {
         each.reduce(Bounds::union)
     }
 
-    /// Shortens the ways of all groups until no block overlaps another anywhere along them.
+    /// Shortens the paths of groups until no blocks overlap at any position along them.
     fn stop_before_overlaps(&mut self, analysis: &Analysis, frame: usize) {
         let moving: usize = self.groups.iter().map(|g| g.linkage.len()).sum();
         if moving > MAX_TESTED_BLOCKS {
@@ -138,7 +141,8 @@ impl Course {
         }
     }
 
-    /// The first place along the way, from 1, at which blocks overlap, and the pairs that do.
+    /// Returns the first of the [`PLACES`] positions along the path, from 1, at which blocks overlap, and the
+    /// overlapping pairs. Returns `None` if no blocks overlap.
     fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
         (1..=PLACES).find_map(|place| {
             let displaced = self.at(f64::from(place) / f64::from(PLACES));
@@ -148,7 +152,8 @@ impl Course {
     }
 }
 
-/// The arrows on displaced blocks where their points of action are now; a force keeps its direction.
+/// Moves each arrow on a displaced block with the point of the block at its tip. The direction of the force does not
+/// change.
 pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> Marks {
     let way = |on: BodyId, tip: Point| match on {
         BodyId::Block(id) => {
@@ -171,7 +176,8 @@ pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> 
     marks
 }
 
-/// The amplitude of a group before overlaps are considered: the displacement in metres of a point with speed 1.
+/// Returns the amplitude of a group before overlaps are considered: the displacement in metres of a point with speed 1.
+/// `unit` is the unit edge in metres.
 fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! [`draw`] and its variants: pages for an animation, separate panels, and pages for print.
+//! [`draw`] and its variants: animations, separate panels, and pages for print.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ use super::strip::{self, strip};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Drawing;
 
-/// Pictures of an animated motion are this far apart, seconds.
+/// Time between two pictures of an animated motion, seconds.
 const MOTION_STEP: f64 = 0.1;
 /// The least and the largest number of steps of a motion, in addition to the first picture.
 const MOTION_STEPS: (f64, f64) = (12.0, 150.0);
-/// How long the end of a motion is shown, seconds.
+/// Time for which the end of a motion is shown, seconds.
 const MOTION_REST: f64 = 1.0;
 
-/// A figure of this kind, one panel per frame.
+/// Draws a figure of this kind, one panel per frame.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
@@ -24,12 +24,13 @@ pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     strip(&analysis, kind.content(), &kind.options(options))
 }
 
-/// The figure of an analysis with one panel per frame: the forces, the caption and the verdict.
+/// Draws the forces of an analysis. Each frame has a panel with its arrows, its caption and its verdict.
 ///
-/// An arrow has the colour of the block it acts on; missing forces are thick and red; the colours of blocks show amplitudes
-/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
+/// An arrow has the colour of the block on which it acts. Missing forces are thick and red. The colours of blocks show
+/// amplitudes ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the
+/// same scale.
 ///
-/// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
+/// Units: the page is in pixels at natural size, about 370 to 1100 wide unless `columns` needs more.
 ///
 /// # Example
 /// ```
@@ -49,9 +50,9 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
     draw(analysis, Kind::Forces, options)
 }
 
-/// The panels of [`draw`], one page each, all of one size and scale: the pictures of an animation, and how long each is
-/// shown. A frame is shown for `seconds`. A frame that falls moves for that time along its mechanism, slowly at both ends,
-/// and then rests for a second.
+/// Draws the pictures of an animation, all of one size and scale. Returns each picture with the time in seconds for
+/// which it is shown. A frame is shown for `seconds`. If the kind shows mechanisms, a frame that falls moves during
+/// this time, slowly at both ends, and is then shown at rest for one second.
 ///
 /// Units: seconds.
 pub fn film(
@@ -84,12 +85,12 @@ pub fn film(
     pages.into_iter().zip(times).collect()
 }
 
-/// A share of the way for a share of the time: slow at both ends.
+/// Returns the share of the path (0 to 1) for a share of the time (0 to 1); slow at both ends.
 fn eased(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
 
-/// The panels of [`draw`], one page per frame, all of one size and scale.
+/// Draws the panels of [`draw`] as separate pages, one for each frame, all of one size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     frame_pages(&shown(analysis, kind), kind, &kind.options(options))
 }
@@ -107,22 +108,22 @@ pub fn panels_of(
     strip::pages(&analysis, kind.content(), &kind.options(options), existing)
 }
 
-/// The panels of [`draw`] in rows on pages at most `max_ratio` times as high as wide, each with its title and key, all to
-/// one scale. A single row that is higher has a page of its own.
+/// Draws the panels of [`draw`] on several pages at one scale, each with its title and legend. A page is at most
+/// `max_ratio` times as high as wide, unless a single row is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let analysis = shown(analysis, kind);
     strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)
 }
 
-/// A lower bound of the width and height of [`draw`]'s page, pixels. It is computed without drawing, so that a figure too
-/// large for a file is refused early.
+/// Returns a lower bound of the width and height of the page of [`draw`], in pixels. Nothing is drawn, so that a figure
+/// too large for a file is refused early.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
     let context = kind.context(analysis, &options);
     Layout::new(&context, analysis.frames.len()).least(&context)
 }
 
-/// The analysis as a kind shows it.
+/// Returns the analysis that a kind of figure shows: with elementary mechanisms if it needs them.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
     if kind.content().needs_elementary_mechanisms() {
         Cow::Owned(analysis.elementary())
@@ -131,7 +132,7 @@ fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
     }
 }
 
-/// One page per frame.
+/// Draws one page for each frame.
 fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     strip::pages(analysis, kind.content(), options, 0..analysis.frames.len())
 }

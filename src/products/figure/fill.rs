@@ -1,8 +1,9 @@
 //! [`Fills`]: the colours of blocks, and the quantity that they show.
 //!
-//! What a colour tells is [chosen](Fill), and the key says it: amplitudes, stresses or friction, always of every block
-//! alike. Under the rule of the source a held block tells how far its robot is used, and every other block its
-//! amplitude as a share of the smallest limit of all robots; where no robot has a limit, of the largest in the figure.
+//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names it, and it is the same for
+//! all blocks. Only the rule of the thesis differs. There a held block shows the used share of its robot's limits. Any
+//! other block shows its amplitude as a share of the smallest limit of all robots, or of the largest amplitude if no
+//! robot has a limit.
 
 use super::option::Fill;
 use super::words::quantity;
@@ -10,7 +11,7 @@ use crate::analysis::{Analysis, FrameAnalysis};
 use crate::drawing::{Colour, PLASMA, Theme};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
-/// What a full share stands for.
+/// The quantity that colours show, and its value for a share of 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FillScale {
     /// The smallest force limit of all robots, N.
@@ -21,14 +22,14 @@ pub(crate) enum FillScale {
     Stress(f64, f64),
     /// All friction available.
     Friction,
-    /// Nothing: blocks are plain.
+    /// None: blocks have one plain colour.
     Plain,
 }
 
 /// Shares of all blocks in all frames.
 #[derive(Clone, Debug)]
 pub(crate) struct Fills {
-    /// What a share of 1 stands for.
+    /// The quantity, and its value for a share of 1.
     pub scale: FillScale,
     /// For each frame the shares of its placed blocks, in placing order.
     pub shares: Vec<Vec<f64>>,
@@ -36,7 +37,7 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// The shares of the blocks of every frame.
+    /// Computes the shares of the blocks of every frame.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -64,7 +65,7 @@ impl Fills {
         }
     }
 
-    /// Whether the colours differ enough to need a key.
+    /// True if the colours differ enough to need a legend.
     pub fn vary(&self) -> bool {
         let all = || self.shares.iter().flatten().copied();
         let (least, most) = (
@@ -74,17 +75,17 @@ impl Fills {
         self.scale != FillScale::Plain && (most - least > 0.02 || most > 0.08)
     }
 
-    /// The colour of a share.
+    /// Returns the colour of a share (0 to 1).
     pub fn colour(&self, theme: &Theme, share: f64) -> Colour {
         ramp(self.rule)(theme, share)
     }
 
-    /// The function that turns a share into a colour.
+    /// Returns the function from share to colour.
     pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
         ramp(self.rule)
     }
 
-    /// The labels of both ends of the colour scale, and the name of the quantity.
+    /// Returns the labels of both ends of the colour scale, and the name of the quantity.
     pub fn key(&self) -> ([String; 2], String) {
         let ends = |most: String| ["0".to_owned(), most];
         match self.scale {
@@ -111,7 +112,7 @@ impl Fills {
         }
     }
 
-    /// The meaning of a block's colour in words; empty for plain blocks.
+    /// Describes the value that the colour of a block shows; empty for plain blocks.
     pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
@@ -134,7 +135,7 @@ impl Fills {
 fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     match rule {
         Fill::Source => |_, share| {
-            // `as` saturates, and turns a share that is not a number into 0.
+            // `as` saturates and turns NaN into 0.
             let entry = ((share * PLASMA.len() as f64) as usize).min(PLASMA.len() - 1);
             Colour::hex(PLASMA[entry])
         },
@@ -142,7 +143,7 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     }
 }
 
-/// Amounts as shares of the largest amount.
+/// Divides amounts by the largest amount. `scale` gets this largest amount.
 fn to_largest(
     amounts: Vec<Vec<f64>>,
     scale: impl Fn(f64) -> FillScale,
@@ -153,7 +154,7 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// The colour rule of the source.
+/// Computes the shares with the rule of the thesis.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
@@ -174,7 +175,7 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
     (FillScale::Limit(limit), shares)
 }
 
-/// The share of a limit that is used. If the limit is 0, every amount above 0 counts as the whole limit.
+/// Returns the used share of a limit. If the limit is 0, every amount above 0 gives 1.
 fn share(amount: f64, limit: f64) -> f64 {
     if limit > 0.0 {
         amount / limit
@@ -185,8 +186,8 @@ fn share(amount: f64, limit: f64) -> f64 {
     }
 }
 
-/// The largest share of a limit that the robot uses on this block; `None` if no robot holds the block, or the robot has no
-/// limits.
+/// Returns the larger of the used shares of the two force limits of the robot that holds this block. Returns `None` if
+/// no robot holds the block, or its forces have no limits.
 fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = found.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
@@ -196,7 +197,7 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-/// The largest amount of the interfaces of each placed block.
+/// Returns, for each placed block, the largest value of `amount` on its interfaces.
 fn largest(
     scene: &Scene,
     frame: &Frame,
@@ -225,8 +226,8 @@ fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
         .collect()
 }
 
-/// The normal force divided by the length and the thickness of the interface, in N/m². A corner has no area, so it has no
-/// stress.
+/// Returns, for each placed block, the largest mean normal stress on its interfaces in N/m²: normal force over length
+/// times thickness. A corner has no area; its stress counts as 0.
 fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, found, |contact| {
         let area = contact.interface.length() * scene.thickness;

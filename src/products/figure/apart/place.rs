@@ -1,4 +1,4 @@
-//! [`Places`]: boxes in a uniform grid (a spatial hash), so that the boxes near another one are found quickly.
+//! [`Places`]: boxes in a uniform grid (a spatial hash), which finds the boxes near a given box quickly.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// An empty grid whose cells are as large as these boxes on average.
+    /// Creates an empty grid. The width of a cell is the mean diagonal of these boxes.
     pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> Places {
         let count = boxes.len();
         Places {
@@ -42,7 +42,8 @@ impl Places {
         }
     }
 
-    /// Whether `matches` holds for some box that overlaps this one.
+    /// True if `matches` is true for a box that overlaps `near`. `matches` gets the index of the box, and may be called
+    /// several times for it.
     pub fn any(&self, near: Bounds, mut matches: impl FnMut(usize) -> bool) -> bool {
         let mut tested = |number: &usize| near.intersects(self.boxes[*number]) && matches(*number);
         let Some((low, high)) = self.covered(near) else {
@@ -52,7 +53,7 @@ impl Places {
         self.large.iter().any(&mut tested) || cells.any(|cell| cell.iter().any(&mut tested))
     }
 
-    /// The numbers of the boxes that overlap this one, in order; of all boxes for `None`.
+    /// Returns the indices of the boxes that overlap `near`, in rising order; of all boxes for `None`.
     pub fn meeting(&self, near: Option<Bounds>) -> Vec<usize> {
         let Some(near) = near else {
             return (0..self.boxes.len()).collect();
@@ -62,13 +63,13 @@ impl Places {
             found.push(number);
             false
         });
-        // A box lies in several cells.
+        // A box in several cells is found several times.
         found.sort_unstable();
         found.dedup();
         found
     }
 
-    /// The first and the last cell of a box; `None` if there are more than [`MAX_CELLS`].
+    /// Returns the first and the last cell of a box; `None` if it covers more than [`MAX_CELLS`].
     fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
         let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
         let (low, high) = (cell(its.min), cell(its.max));

@@ -1,10 +1,11 @@
-//! [`Clearance`]: which displaced blocks overlap others, whether they touched before or not.
+//! [`Clearance`]: finds displaced blocks that overlap other bodies.
 
 use super::rigid::Displacement;
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// Largest overlap of two bodies, as a share of the area of the smaller one. Readers see an overlap of one hundredth.
+/// Largest allowed overlap of two bodies, as a share of the area of the smaller one. An overlap of 1 % would be
+/// visible.
 const MAX_OVERLAP: f64 = 0.004;
 
 /// The blocks of an overlapping pair; `None` for the ground.
@@ -25,7 +26,8 @@ impl<'a> Clearance<'a> {
         }
     }
 
-    /// The pairs that overlap when blocks are displaced so, by the number of the block.
+    /// Returns the pairs of bodies that overlap. `displaced` has the displacement of each block by its index; the list
+    /// may be shorter.
     pub fn overlapping(&self, displaced: &[Option<Displacement>]) -> Vec<Pair> {
         let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
         let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();
@@ -40,7 +42,7 @@ impl<'a> Clearance<'a> {
             let near = placed[number + 1..].iter();
             let near = near.take_while(|other| other.2.min.x <= bounds.max.x);
             for (b, other, others) in near {
-                // Bodies that move as one, or both rest, keep their places to each other.
+                // Two bodies with the same motion, or both at rest, do not move relative to each other.
                 if motion(*a) != motion(*b)
                     && bounds.intersects(*others)
                     && overlap_share(one, other) > MAX_OVERLAP
@@ -53,7 +55,7 @@ impl<'a> Clearance<'a> {
     }
 }
 
-/// The common area of two polygons as a share of the smaller one.
+/// Returns the common area of two polygons as a share of the area of the smaller one.
 fn overlap_share(a: &Polygon, b: &Polygon) -> f64 {
     let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
     common.map_or(0.0, |o| o.area / a.area().min(b.area()))

@@ -1,4 +1,4 @@
-//! [`connected_groups`]: which moving blocks belong together.
+//! [`connected_groups`]: finds groups of moving blocks that are in contact.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use super::super::joint::Joint;
 use crate::analysis::{Analysis, Motion};
 use crate::scene::{BlockId, BodyId};
 
-/// A block is at rest if its fastest point is slower than this share of the fastest point of all. Slower motions are noise of
-/// the solution, or not visible.
+/// A block is at rest if its fastest point is slower than this share of the fastest point of all blocks. Slower motions
+/// are solver noise or not visible.
 const REST_TOL: f64 = 1e-3;
 
-/// The moving blocks in rigid bodies: blocks without a hinge or slip between them move as one. In the order of their first
-/// blocks.
+/// Groups the motions of the moving blocks into rigid bodies: two blocks in contact are in one body if there is no
+/// hinge or slip between them. The bodies are in the order of their first blocks.
 pub(crate) fn rigid_bodies(
     analysis: &Analysis,
     frame: usize,
@@ -24,8 +24,8 @@ pub(crate) fn rigid_bodies(
     connected_groups(analysis, frame, |contact| !separated[contact])
 }
 
-/// The motions of the moving blocks, in groups connected by the contacts for whose numbers `joins` is true: the connected
-/// components, by depth-first search, in the order of their first blocks.
+/// Groups the motions of the moving blocks by contacts: the connected components of the graph whose edges are the
+/// contacts for whose indices `joins` is true. The groups are in the order of their first blocks.
 pub(crate) fn connected_groups(
     analysis: &Analysis,
     frame: usize,
@@ -62,7 +62,7 @@ pub(crate) fn connected_groups(
     groups
 }
 
-/// The motions of the blocks of a frame that are not at rest.
+/// Returns the motions of the blocks of a frame that are not at rest.
 fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);

@@ -1,7 +1,7 @@
-//! [`Linkage`]: rigid bodies joined by hinges and sliding joints, which stay closed along the way.
+//! [`Linkage`]: rigid bodies joined by hinges and sliding joints, which stay closed along the path.
 //!
-//! Every body first goes along its own velocity. That alone would tear hinges open, by the square of the angle. The nearest
-//! positions at which all joints are closed follow from a few steps of Newton's method, each the smallest correction.
+//! Every body first moves along its own velocity. This alone would open the joints, by gaps proportional to the square
+//! of the angle. A few steps of Newton's method, each with the least-norm correction, then close all joints.
 
 use std::collections::BTreeMap;
 
@@ -14,24 +14,24 @@ use crate::analysis::{Analysis, Motion};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// The joints of more bodies are not closed, which would take longer than the drawing.
+/// With more bodies than this joints are not closed, because that would take longer than the drawing.
 const MAX_BODIES: usize = 40;
 const MAX_STEPS: usize = 12;
-/// Joints are closed up to this share of the length of the frame.
+/// Tolerance of closed joints, as a share of the length of the frame.
 const CLOSED: f64 = 1e-7;
-/// Corrections larger than this share of the way mean that the joints cannot all be closed: then none is.
+/// If a correction is larger than this share of the path, the joints cannot all be closed, and none is closed.
 const MAX_CORRECTION: f64 = 1.0;
-/// Keeps the equations of joints that say the same solvable, relative to the largest.
+/// Regularization for redundant equations, relative to the largest diagonal entry.
 const RIDGE: f64 = 1e-10;
 
-/// One equation that a joint keeps.
+/// A condition of a closed joint.
 #[derive(Clone, Copy, Debug)]
 enum Condition {
-    /// A point of both bodies stays one point: two equations.
+    /// A point is the same on both bodies: two equations.
     Hinge(Point),
     /// A point of the first body stays on a line of the second, through this point and across this normal.
     OnLine(Point, Vector),
-    /// The two bodies turn alike.
+    /// The two bodies turn by the same angle.
     Parallel,
 }
 
@@ -56,11 +56,11 @@ struct Member {
 pub(super) struct Linkage {
     members: Vec<Member>,
     links: Vec<Link>,
-    /// Turns are weighed against ways by this length, metres.
+    /// Factor between rotations in radians and translations in metres.
     length: f64,
 }
 
-/// Where a body is: its translation in metres and its rotation in radians.
+/// The position of a body: its translation in metres and its rotation in radians.
 #[derive(Clone, Copy, Debug)]
 struct Pose {
     way: Vector,
@@ -68,7 +68,7 @@ struct Pose {
 }
 
 impl Linkage {
-    /// The bodies and joints of a group of motions in a frame.
+    /// Creates the linkage of a group of moving blocks in a frame, with the joints between them.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
         let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
         let within = |body: &Vec<Motion>| {
@@ -113,19 +113,20 @@ impl Linkage {
         }
     }
 
-    /// The number of blocks.
+    /// Returns the number of blocks.
     pub fn len(&self) -> usize {
         self.blocks().count()
     }
 
-    /// All blocks.
+    /// Returns all blocks.
     pub fn blocks(&self) -> impl Iterator<Item = BlockId> {
         self.members
             .iter()
             .flat_map(|member| member.blocks.iter().copied())
     }
 
-    /// Where each block is when a point of speed 1 has gone `amplitude` metres.
+    /// Returns the displacement of each block after a point of speed 1 has moved `amplitude` metres. Joints are closed
+    /// if that is possible.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
         let start: Vec<Pose> = self
             .members
@@ -144,7 +145,8 @@ impl Linkage {
         displaced
     }
 
-    /// The nearest poses at which all joints are closed; `None` where Newton's method finds none nearby.
+    /// Returns poses near `start` at which all joints are closed. Returns `None` if there are no joints, if there are
+    /// too many bodies, or if Newton's method finds no such poses nearby.
     fn closed(&self, start: &[Pose]) -> Option<Vec<Pose>> {
         if self.links.is_empty() || self.members.len() > MAX_BODIES {
             return None;
@@ -176,7 +178,8 @@ impl Linkage {
         None
     }
 
-    /// How far every joint is open, metres, and how that changes with the poses: x, y and angle times length of each body.
+    /// Returns the gaps of all conditions in metres, and their derivatives: three columns for each body, for x, y and
+    /// angle times [`Linkage::length`].
     fn equations(&self, poses: &[Pose]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.links.iter().map(|link| match link.condition {
             Condition::Hinge(_) => 2,
@@ -195,7 +198,7 @@ impl Linkage {
         (system.rows, system.gaps)
     }
 
-    /// Adds the equations of a link from this row on, and returns their number.
+    /// Writes the equations of a link into `system`, beginning at `row`. Returns their number.
     fn add(&self, link: &Link, poses: &[Pose], row: usize, system: &mut System) -> usize {
         let [first, second] = link.bodies;
         match link.condition {
@@ -217,7 +220,7 @@ impl Linkage {
                 let way = self.place(first, poses, point) - self.place(second, poses, point);
                 system.gaps[row] = normal.dot(&way);
                 system.add(row, first, normal, self.arm(first, poses, point));
-                // The line turns with its body, about the body's centre.
+                // The line turns with the second body about its centre.
                 let arm = self.arm(second, poses, point) + way;
                 system.add(row, second, -normal, arm);
                 1
@@ -235,7 +238,8 @@ impl Linkage {
         }
     }
 
-    /// From the centre of a body, where it is now, to one of its points.
+    /// Returns the vector from the centre of a body to one of its points after its displacement; zero for a body at
+    /// rest. `point` is the position before the displacement.
     fn arm(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Vector {
         body.map_or(Vector::zeros(), |body| {
             let (centre, pose) = (self.members[body].centre, poses[body]);
@@ -243,7 +247,7 @@ impl Linkage {
         })
     }
 
-    /// Where a body takes a point.
+    /// Returns the displaced position of a point of a body.
     fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
         body.map_or(point, |body| {
             self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point)
@@ -251,7 +255,7 @@ impl Linkage {
     }
 }
 
-/// Linear equations of the poses.
+/// The linearized conditions of the poses.
 struct System {
     rows: DMatrix<f64>,
     gaps: DVector<f64>,
@@ -259,7 +263,8 @@ struct System {
 }
 
 impl System {
-    /// Adds how a point of a body, `arm` from its centre, moves along a direction.
+    /// Adds the derivatives of the position of a point along a direction to a row. `arm` is the vector from the centre
+    /// of its body to the point.
     fn add(&mut self, row: usize, body: Option<usize>, along: Vector, arm: Vector) {
         let Some(body) = body else {
             return;
@@ -279,7 +284,8 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
     }
 }
 
-/// What a joint keeps; `true` where the line belongs to the first body. A joint that lifts while it slides keeps nothing.
+/// Returns the conditions of a joint. The flag is true if the line of [`Condition::OnLine`] belongs to the first body.
+/// A joint that opens while it slides has no conditions.
 fn conditions(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -293,7 +299,7 @@ fn conditions(
         return Vec::new();
     }
     match joint.touch {
-        // It slides on its whole face.
+        // The bodies slide on a whole face.
         None => vec![
             (false, Condition::Parallel),
             (false, Condition::OnLine(joint.at, normal)),

@@ -13,16 +13,16 @@ pub(crate) struct Displacement {
 }
 
 impl Displacement {
-    /// A block's motion with this amplitude: a rotation about its instantaneous centre by `amplitude`·spin, or, without spin,
-    /// a translation by `amplitude`·velocity.
+    /// Returns the motion of a block with this amplitude: a rotation about its instantaneous centre by
+    /// `amplitude`·spin, or, without spin, a translation by `amplitude`·velocity.
     ///
     /// Units: `amplitude` is the displacement in metres of a point of speed 1.
     pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
         let angle = amplitude * motion.spin;
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        // The rotation about the instantaneous centre is written as one about the centroid, plus the chord of the
-        // centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first terms of the series are exact
-        // to rounding, and a translation needs no case of its own.
+        // The rotation about the instantaneous centre is a rotation about the centroid plus the chord of the centroid's
+        // arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first terms of the series are exact up to
+        // rounding, and they include a pure translation.
         let (along, aside) = if angle.abs() < 1e-6 {
             (1.0, 0.5 * angle)
         } else {
@@ -38,7 +38,7 @@ impl Displacement {
         }
     }
 
-    /// A rotation by an angle in radians about a point, followed by a translation in metres.
+    /// Creates a rotation by an angle in radians about a point, followed by a translation in metres.
     pub fn from_pose(centre: Point, angle: f64, translation: Vector) -> Displacement {
         Displacement {
             centre,
@@ -48,23 +48,23 @@ impl Displacement {
         }
     }
 
-    /// The translation of the centre of rotation, metres.
+    /// Returns the translation of the centre of rotation, metres.
     pub fn translation(&self) -> Vector {
         self.translation
     }
 
-    /// The displaced position of a point of the block.
+    /// Returns the displaced position of a point of the block.
     pub fn moved(&self, point: Point) -> Point {
         self.centre + self.turned(point - self.centre) + self.translation
     }
 
-    /// The point of the block whose displaced position this is.
+    /// Returns the original position of the point of the block that is displaced to `point`.
     pub fn back(&self, point: Point) -> Point {
         let d = point - self.centre - self.translation;
         self.centre + d * self.cos - quarter_turn(d) * self.sin
     }
 
-    /// A direction, turned with the block.
+    /// Returns a direction turned with the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin
     }
