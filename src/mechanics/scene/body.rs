@@ -1,4 +1,4 @@
-//! The parts of a scene: bodies, blocks, ground, robots and loads.
+//! The parts of a scene: blocks, parts of the ground, robots and loads.
 
 use crate::geometry::{Cell, Point, Polygon, Vector};
 

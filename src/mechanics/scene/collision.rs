@@ -1,5 +1,5 @@
-//! Finds bodies that overlap: exactly, by shared cells, on a lattice; otherwise bodies that overlap by more than their
-//! gaps.
+//! Finds bodies that overlap. On a lattice this is exact: two bodies overlap if they share a cell. Otherwise they
+//! overlap if they penetrate each other by more than their gaps.
 //!
 //! Only bodies that stand together in some frame are compared, and never two parts of the ground.
 
@@ -14,56 +14,56 @@ use crate::geometry::{
     Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap,
 };
 
-/// So many overlaps are listed; a scene with more has one cause for them all.
+/// The largest number of overlaps that are listed. In a scene with more, they most likely have one cause.
 const MOST: usize = 1000;
-/// An overlap of less than this part of the smaller block's size may come from rounding.
+/// An overlap with a depth below this fraction of the smaller block's size may come from rounding.
 const SLIGHT: f64 = 0.01;
 
-/// Two bodies in the same place.
+/// An overlap of two bodies.
 struct Found {
     bodies: [BodyId; 2],
     area: f64,
-    /// How far one would have to move to be clear of the other, metres.
+    /// How far one body must move so that they no longer overlap, metres.
     depth: f64,
     at: Point,
-    /// Whether they lie in each other by less than a hundredth of the smaller block's size.
+    /// Whether the depth is less than a hundredth of the smaller block's size.
     may_be_meant: bool,
-    /// The first frame in which they stand together.
+    /// The first frame in which both are present.
     frame: usize,
 }
 
-/// A sound body with its number.
+/// A body that could be read, with its number.
 pub(super) type Numbered<'s> = (BodyId, &'s Body);
 
-/// What to compare, and how.
+/// The bodies to compare, and what decides whether an overlap is an error.
 pub(super) struct Comparison<'s> {
-    /// The sound bodies.
+    /// The bodies that could be read.
     pub(super) bodies: Vec<Numbered<'s>>,
     /// Names of all blocks.
     pub(super) names: &'s [String],
-    /// What stands when.
+    /// The frames: which blocks are present in each.
     pub(super) frames: &'s [Frame],
-    /// The lattice, where all bodies are cells of it.
+    /// The lattice, if all bodies consist of its cells.
     pub(super) lattice: Option<Lattice>,
-    /// Whether the scene gives a contact tolerance: then deeper overlaps are refused.
+    /// Whether the scene gives a contact tolerance. Every deeper overlap is then an error.
     pub(super) given: bool,
 }
 
-/// Two bodies that lie in each other, deeper than they may and by less than a hundredth of the smaller one's size: they may
-/// have been meant to touch.
+/// Two bodies that probably were meant to touch but overlap: deeper than the tolerance, and by less than a hundredth of
+/// the smaller block's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Penetration {
     /// The two bodies, the later block second.
     pub bodies: [BodyId; 2],
-    /// How far one would have to move to be clear of the other, metres.
+    /// How far one body must move so that they no longer overlap, metres.
     pub depth: f64,
-    /// The middle of what they share.
+    /// Centroid of the common area.
     pub at: Point,
 }
 
-/// Reports each pair of bodies that overlap in some frame. Returns the pairs with a small overlap, which may be a drawing
-/// error, unless the scene gives a contact tolerance.
+/// Reports each pair of bodies that overlap in some frame. Pairs with a small overlap, which may be a drawing error,
+/// are not reported but returned. If the scene gives a contact tolerance, they are reported too.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
@@ -119,7 +119,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
     slight.collect()
 }
 
-/// In which frames each block stands, as spans from first to last.
+/// The frames in which each block is present, as ranges (first, last).
 struct Presence {
     blocks: Vec<Vec<(usize, usize)>>,
     always: Vec<(usize, usize)>,
@@ -150,7 +150,8 @@ impl Presence {
         }
     }
 
-    /// The first frame in which both bodies stand; `None` for two parts of the ground.
+    /// The first frame in which both bodies are present. `None` if there is none, or if both bodies are parts of the
+    /// ground.
     fn together(&self, a: BodyId, b: BodyId) -> Option<usize> {
         if matches!((a, b), (BodyId::Ground(_), BodyId::Ground(_))) {
             return None;

@@ -1,24 +1,24 @@
-//! [`isolate`]: limits an internal fault of the program to the scene on which it happened.
+//! [`isolate`]: runs the work on one scene so that an internal error of the program does not affect other scenes.
 //!
-//! Every command that answers several scenes runs each of them in here. A panic becomes a problem of that one scene, and the
-//! other scenes are answered.
+//! Commands that process several scenes use it for each of them. If the program panics, only that scene gets a problem,
+//! and the others are processed.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{Code, Problem, SceneError};
 
-/// In builds with debug assertions, `faulty#2` in this variable makes the second work on a scene whose name contains `faulty`
-/// end in a fault. It lets tests look at what every command does then.
+/// An environment variable for tests, in builds with debug assertions only. If its value is `faulty#2`, the second call
+/// of [`isolate`] for a scene whose name contains `faulty` panics.
 #[cfg(debug_assertions)]
 const INJECTED: &str = "DRYSTONE_TEST_FAULT";
 
-/// Runs `work` for one scene. A panic becomes a problem with the code [`Code::InternalFault`].
+/// Runs `work` for one scene. If it panics, the panic becomes a problem with the code [`Code::InternalFault`].
 ///
-/// `name` is how a person knows the scene: its path. The work may leave its own data half done, so nothing that it changes may
-/// be used after a fault.
+/// `name` is the scene's path. A panic can leave the data of `work` half changed, so the caller must not use these data
+/// afterwards.
 ///
 /// # Errors
-/// The fault, as the one problem of the scene.
+/// The internal error, as the only problem of the scene.
 pub(crate) fn isolate<R>(name: &str, work: impl FnOnce() -> R) -> Result<R, SceneError> {
     let work = || {
         inject_fault(name);
@@ -59,7 +59,7 @@ fn internal_fault() -> Problem {
         column: 0,
         span: None,
         message:
-            "the program failed on this scene; that is its own fault and no fault of the scene"
+            "an internal error of the program occurred on this scene; the scene itself may be correct"
                 .into(),
         help: "please report it with the scene".into(),
         place: None,

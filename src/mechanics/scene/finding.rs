@@ -8,30 +8,30 @@ use super::source::{Mark, Source};
 
 /// The largest number of findings that are kept. A file with more has one cause, and it is among the first.
 const MAX_FINDINGS: usize = 2000;
-/// The largest number of findings with a suggestion of the nearest known name: each compares with all names.
+/// The largest number of findings that suggest a similar name. Each suggestion needs a comparison with all names.
 const MAX_SUGGESTIONS: usize = 50;
 
-/// One thing that is wrong, and where.
+/// A problem and its place in the file.
 pub(super) struct Finding {
-    /// Where.
+    /// The place.
     pub(super) path: Path,
-    /// Whether it is the key or the value there.
+    /// Whether the key or the value there is wrong.
     pub(super) mark: Mark,
-    /// What to say.
+    /// The message.
     pub(super) wording: Wording,
 }
 
-/// All that was found wrong.
+/// All problems found so far.
 #[derive(Default)]
 pub(super) struct Findings {
-    /// In the order of finding.
+    /// The problems, in the order in which they were found.
     pub(super) list: Vec<Finding>,
     /// Parts of the file that could not be read.
     pub(super) doubt: UnreadParts,
 }
 
 impl Findings {
-    /// An empty list of problems for a file of which some parts could not be read.
+    /// An empty list of problems for a file of which the parts in `doubt` could not be read.
     pub(super) fn doubting(doubt: UnreadParts) -> Findings {
         Findings {
             list: Vec::new(),
@@ -39,18 +39,18 @@ impl Findings {
         }
     }
 
-    /// Whether some part of the entry that contains this place could not be read.
+    /// True if some part of the entry that contains this place could not be read.
     pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
         // Test the common case first: a file that could be read completely.
         !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
     }
 
-    /// Whether the list is full, so that no more problems are kept.
+    /// True if the list is full. No more problems are kept then.
     pub(super) fn is_full(&self) -> bool {
         self.list.len() > MAX_FINDINGS
     }
 
-    /// Whether messages of further problems should still suggest a correction.
+    /// True if there are still so few problems that their messages suggest a correction.
     pub(super) fn hints(&self) -> bool {
         self.list.len() < MAX_SUGGESTIONS
     }
@@ -60,7 +60,7 @@ impl Findings {
         self.note(at, Mark::Value, wording);
     }
 
-    /// Reports a problem of a key.
+    /// Reports a problem of a key, unless it lies in a part that could not be read.
     pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Key, wording);
     }
@@ -79,7 +79,8 @@ impl Findings {
         }
     }
 
-    /// Adds a problem. If the list is full, it adds the note that there are more problems.
+    /// Adds a problem. If the list is full, it adds one entry which states that there are more problems, and after that
+    /// none.
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
             n if n < MAX_FINDINGS => self.list.push(finding),
@@ -93,7 +94,7 @@ impl Findings {
     }
 }
 
-/// Findings as problems with their places in a text, sorted by place.
+/// Converts findings to problems, sorted by their places in the text `source`. Without a text they have no places.
 pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
     let mut list: Vec<Problem> = findings
         .into_iter()
@@ -117,8 +118,8 @@ pub(super) struct UnreadParts {
 }
 
 impl UnreadParts {
-    /// Whether some part of an entry (of `blocks`, `materials`, …) could not be read. The entry is the one that contains
-    /// `path`.
+    /// True if some part of the entry that contains `path` could not be read. An entry is an element of `blocks`,
+    /// `materials` and so on.
     pub(super) fn touches(&self, path: &Path) -> bool {
         let entry = &path.0[..path.0.len().min(2)];
         self.paths
@@ -126,7 +127,7 @@ impl UnreadParts {
             .any(|p| p.starts_with(entry) || path.starts_with(&p.0))
     }
 
-    /// Whether something at or below a top-level key could not be read.
+    /// True if the value of a top-level key, or something in it, could not be read.
     pub(super) fn touches_key(&self, key: &str) -> bool {
         let key = [Segment::Key(key.to_string())];
         self.paths
@@ -134,7 +135,8 @@ impl UnreadParts {
             .any(|p| p.starts_with(&key) || p.0.is_empty())
     }
 
-    /// The first entry of a list that could not be read completely; 0 if the list itself could not be read.
+    /// The index of the first entry of a list that could not be read completely; 0 if the list itself could not be
+    /// read. `None` if all entries could be read.
     pub(super) fn first_entry(&self, list: &str) -> Option<usize> {
         let mut first = None;
         for path in &self.paths {
@@ -149,10 +151,10 @@ impl UnreadParts {
         first
     }
 
-    /// Whether some names of a list or object may be missing because parts of it could not be read. Unknown names are then
-    /// not reported.
+    /// True if some names of a list or object may be missing because parts of it could not be read. Unknown names are
+    /// then not reported.
     ///
-    /// `known` is how many there are. A misspelt top-level key may have been meant to hold them all.
+    /// `known` is the number of names that were read. If it is 0, a misspelt top-level key may contain the whole list.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,

@@ -1,8 +1,8 @@
-//! The scene file as it is written: one type per object of the JSON, and the JSON Schema made from them.
+//! The scene file as Rust types: one type for each object of the JSON. The JSON Schema is made from these types.
 //!
-//! Build a [`SceneFile`] in Rust, by methods with the keys' names, or read one; [`SceneFile::build`] checks it. Nothing here
-//! is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. Only this file and its
-//! folder name serde, serde_json and schemars in the scene module.
+//! Build a [`SceneFile`] in Rust, by methods with the keys' names, or read one; [`SceneFile::build`] checks it. Nothing
+//! here is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. Only this
+//! file and its folder name serde, serde_json and schemars in the scene module.
 
 mod body;
 mod build;
@@ -54,15 +54,16 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
-    /// Friction coefficient μ of whatever gives none itself, at least 0. Default 0.7.
+    /// Friction coefficient μ of bodies and materials that give none, at least 0. Default 0.7.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.7)))]
     pub friction: Option<f64>,
-    /// Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default 0.
+    /// Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default
+    /// 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0)))]
     pub kernel: Option<f64>,
-    /// Density in kg/m³ of whatever gives none itself, at least 0. Default 1.
+    /// Density in kg/m³ of blocks and materials that give none, at least 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub density: Option<f64>,
@@ -79,7 +80,8 @@ pub struct SceneFile {
     /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
-    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl, whose names are taken.
+    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl, whose names are
+    /// taken.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub shapes: Map<ShapeEntry>,
     /// Parts of the ground: they carry anything and never move.
@@ -93,12 +95,12 @@ pub struct SceneFile {
     /// Loads on blocks, in addition to their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
-    /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default: estimated
-    /// from how the coordinates are written and how large the scene is.
+    /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default:
+    /// estimated from how the coordinates are written and how large the scene is.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
-    /// Whether tips that touch edges or tips carry force. Default false.
+    /// Whether a corner that touches an edge or another corner carries force. Default false.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = false)))]
     pub corner_contacts: Option<bool>,
@@ -113,7 +115,8 @@ pub struct SceneFile {
     pub silence: Vec<String>,
 }
 
-/// An entry of a scene file from JSON of its own, with nothing checked beyond its type; or why it is none.
+/// Parses one entry of a scene file from its JSON text. Only the types of values are checked. The error is a message
+/// for the user.
 #[cfg(feature = "python")]
 pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string())
@@ -123,17 +126,18 @@ pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String
 impl SceneFile {
     optional_setters! {
         gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
-        friction: f64, "Friction coefficient μ of whatever gives none itself, at least 0.";
+        friction: f64, "Friction coefficient μ of bodies and materials that give none, at least 0.";
         kernel: f64, "Safety kernel, 0 to 1.";
-        density: f64, "Density in kg/m³ of whatever gives none itself, at least 0.";
+        density: f64, "Density in kg/m³ of blocks and materials that give none, at least 0.";
         thickness: f64, "Thickness of all blocks across the plane in metres, at least 0.";
         contact_tolerance: f64, "Edges within this many metres of each other touch; at least 0.";
-        corner_contacts: bool, "Whether tips that touch edges or tips carry force.";
+        corner_contacts: bool, "Whether a corner that touches an edge or another corner carries force.";
     }
 }
 
 impl SceneFile {
-    /// The file as text: a line for each key, and one for each body, robot or step. Ends with a line feed.
+    /// Writes the file as JSON text, with one line for each key and one for each body, robot and step. The text ends
+    /// with a line feed.
     ///
     /// # Example
     /// ```
@@ -292,7 +296,7 @@ pub(super) fn agrees(text: &str) -> bool {
                 .collect(),
         }
     }
-    /// Every number as a float, as the tree has it.
+    /// Converts every number to a float, because the syntax tree holds floats.
     fn floats(value: serde_json::Value) -> serde_json::Value {
         match value {
             serde_json::Value::Number(x) => x.as_f64().into(),
@@ -306,7 +310,7 @@ pub(super) fn agrees(text: &str) -> bool {
     match (tree::parse(text), serde_json::from_str(text)) {
         (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
         (Err(_), Err(_)) => true,
-        // A number beyond all floats is no fault of the text; the reader of values complains of it.
+        // A number that is too large for a float is not a syntax error: the reader of values reports it.
         (Ok(_), Err(error)) => error.to_string().contains("number out of range"),
         (Err(_), Ok(_)) => false,
     }

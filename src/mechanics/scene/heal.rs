@@ -1,9 +1,10 @@
-//! Healing: the structure that was meant, once, before anything is judged.
+//! Healing: moves corners of bodies that were meant to touch so that they touch exactly, before the analysis.
 //!
-//! Rounded coordinates leave wedges of 10⁻⁴ rad and slits between stones that were drawn to touch. Corners and edges
-//! within a body's reach of each other are brought together here, by the code that also heals imported drawings; contacts,
-//! centroids and proofs all come from the healed outlines. A block's weight stays that of its outline as written. Invariant:
-//! where everything fits already, nothing changes by a single bit.
+//! Rounded coordinates leave wedges of 10⁻⁴ rad and narrow gaps between stones that were drawn to touch. Corners and
+//! edges of two bodies whose distance is within tolerance are moved onto each other, by the code that also heals
+//! imported drawings ([`snapped`]). Contacts, centroids and proofs are all computed from the healed outlines. A block
+//! keeps the weight of its outline as written. Invariant: if everything already fits, no coordinate changes, not even
+//! by rounding.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,24 +13,25 @@ use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
-/// A block rounded more coarsely than this part of its size is taken as it is written.
+/// Coordinates rounded more coarsely than this fraction of a block's size are not healed.
 pub(super) const FINE: f64 = 1.0 / 200.0;
-/// A body counts for touching within this part of its size at most, where its coordinates are given in full.
+/// The largest gap of a body as a fraction of its size, if its coordinates are not rounded.
 const SLIGHT: f64 = 1e-3;
-/// A gap is closed only if it is smaller than this part of the body's size, whatever tolerance is given.
+/// A gap is closed only if it is smaller than this fraction of the body's size, even if the given tolerance is larger.
 const MOST: f64 = 1.0 / 20.0;
-/// Within a given tolerance a corner moves by at most this part of its shorter edge.
+/// If a tolerance is given, a corner moves by at most this fraction of its shorter side.
 ///
-/// A tolerance speaks of gaps between bodies. Where it is wider than an edge is long it says nothing about that edge: the
-/// outline of a round stone stays round. The two ends of an edge together change its length by half at most and turn it by
-/// 30° at most. A tenth of this would leave joints next to short edges open; at twice this an edge can lose its whole length.
+/// A tolerance is meant for gaps between bodies, not for sides shorter than itself: the outline of a round stone stays
+/// round. When both ends of a side move, its length changes by at most half and its direction by at most 30°. With a
+/// tenth of this value, joints next to short sides would stay open. With twice this value, a side could lose its whole
+/// length.
 const OF_EDGE: f64 = 0.25;
-/// Healing may deepen an overlap by less than this part of the gap; it does not count as an overlap.
+/// Healing may make an overlap deeper by less than this fraction of the gap; such an overlap is ignored.
 const NOISE: f64 = 0.25;
-/// Where this part of all corners, and at least so many, lie within a millionth of the scene's reach of what they touch and
-/// not on it, the coordinates are noisy however many digits they have.
+/// The smallest share and number of corners that show that coordinates are noisy, however many digits they have. The
+/// corners counted lie off the edge that they should touch, by at most a millionth of the scene's extent.
 const NOISY: (f64, usize) = (0.2, 8);
-/// Coordinates are assumed to be off by this many units in the last place of the largest one.
+/// Coordinates are assumed to have an error of this many units in the last place of the largest one.
 const LAST: f64 = 16.0;
 
 /// Where the contact tolerance of a scene comes from.
@@ -46,57 +48,57 @@ pub enum ToleranceSource {
     Digits(usize),
     /// The coordinates are 32-bit floats.
     Float32,
-    /// The coordinates are written in full: a millionth of the scene's reach.
+    /// The coordinates are not rounded: the tolerance is a millionth of the scene's extent.
     #[default]
     Size,
-    /// Most corners lie up to a millionth of the scene's reach off what they touch.
+    /// Many corners lie off the edges that they should touch, by up to a millionth of the scene's extent.
     Noise,
 }
 
-/// What healing has moved.
+/// The result of healing: how many bodies and corners moved, and how far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Healed {
     /// Where the tolerance comes from.
     pub source: ToleranceSource,
-    /// Corners and edges within this have become one, metres; 0 where coordinates are taken as they are written.
+    /// Corners and edges up to this distance apart were snapped, metres; 0 if coordinates are used as written.
     pub within: f64,
-    /// How many bodies have changed.
+    /// The number of bodies that changed.
     pub bodies: usize,
-    /// How many of their corners moved.
+    /// The number of corners that moved.
     pub corners: usize,
-    /// How far the farthest moved, metres.
+    /// The largest distance by which a corner moved, metres.
     pub distance: f64,
-    /// How many bodies would have lost their shape, or come to lie deeper in others, and stayed as they are written.
+    /// The number of bodies left as written, because healing would have damaged their shape or made an overlap deeper.
     pub kept: usize,
     /// The first of these bodies, the ground's parts before the blocks.
     pub first_kept: Option<BodyId>,
 }
 
-/// How close is close, and how far corners may move.
+/// The tolerance of healing: at what distance edges touch, and how far corners may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HealingReach {
     pub(super) source: ToleranceSource,
-    /// A millionth of the scene's reach, metres: within this edges touch however their coordinates are written.
+    /// A millionth of the scene's extent, metres: edges at this distance touch, however their coordinates are written.
     pub(super) usual: f64,
-    /// Corners and edges within this are brought together, metres; 0 for none.
+    /// Corners and edges up to this distance apart are snapped, metres; 0 if nothing is snapped.
     pub(super) healing: f64,
 }
 
 impl HealingReach {
-    /// Of a lattice.
+    /// The tolerance of a scene on a lattice.
     pub(super) const EXACT: HealingReach = HealingReach {
         source: ToleranceSource::Lattice,
         usual: 0.0,
         healing: 0.0,
     };
 
-    /// Two edges within this touch, metres.
+    /// Two edges touch if their distance is at most this, metres.
     pub(super) fn gap(self) -> f64 {
         self.usual.max(self.healing)
     }
 
-    /// How far a body of some size comes to another; metres both.
+    /// The largest distance, in metres, by which corners of a body of the given size (metres) move.
     fn healing_of(self, size: f64) -> f64 {
         let part = match self.source {
             ToleranceSource::Given => MOST,
@@ -106,30 +108,33 @@ impl HealingReach {
         self.healing.min(part * size)
     }
 
-    /// How far a corner may move, in parts of its shorter edge.
+    /// The largest move of a corner, as a fraction of its shorter side.
     fn share_of_edge(self) -> f64 {
         match self.source {
             ToleranceSource::Given => OF_EDGE,
-            // Rounding is smaller than the edges it leaves.
+            // Rounding errors are smaller than the sides of outlines, so no further limit is needed.
             _ => f64::INFINITY,
         }
     }
 
-    /// How far the coordinates of a body of some size, up to `farthest`, may be off; metres all.
+    /// The largest error of the coordinates of a body, metres. `farthest` is its largest coordinate; all lengths in
+    /// metres.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
         self.healing_of(size).max(LAST * f64::EPSILON * farthest)
     }
 
-    /// Within what a body of some size, with coordinates up to `farthest`, touches another; metres all.
+    /// The largest distance, in metres, at which a body touches another. `farthest` is its largest coordinate in
+    /// metres.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
         let usual = self.usual.min(SLIGHT * size);
         usual.max(self.rounding_of(size, farthest))
     }
 }
 
-/// The size of a body, metres: four times its area over the length of its boundary, the side of a square.
+/// The size of a body in metres: four times its area divided by the length of its boundary. For a square it is the
+/// side.
 ///
-/// Of a long thin stone it is twice the thickness.
+/// For a long thin stone it is twice the thickness.
 pub(crate) fn size(polygon: &Polygon) -> f64 {
     let around: f64 = polygon.edges().map(|e| e.length()).sum();
     4.0 * polygon.area() / around
@@ -139,31 +144,31 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
 struct Drawn {
     /// The number of parts of the ground.
     parts: usize,
-    /// Their numbers among all bodies, sound or not; the parts of the ground come first.
+    /// Their numbers among all bodies, readable or not; the parts of the ground come first.
     numbers: Vec<usize>,
-    /// How large they are, metres.
+    /// Their sizes, metres.
     sizes: Vec<f64>,
     outlines: Vec<Rings>,
     /// Whether they may not move, because they are cells of a lattice.
     fixed: Vec<bool>,
 }
 
-/// The bodies after corners were brought together.
+/// The bodies after snapping.
 struct Closed<'d> {
-    /// Borrowed where nothing was moved.
+    /// The outlines; borrowed from the input if nothing was moved.
     outlines: Cow<'d, [Rings]>,
-    /// The bodies that stayed as they are written, because moved they would lose their shape or lie deeper in others.
+    /// The bodies left as written, because snapping would have damaged their shape or made an overlap deeper.
     kept: Vec<usize>,
     reach: HealingReach,
 }
 
-/// Brings together what lies within reach, and gives every body its own gap.
+/// Moves corners and edges that are within tolerance onto each other, and sets the gap of every body.
 ///
 /// 1. Measure the bodies.
-/// 2. Bring corners and edges together within the tolerance that was given or that the digits of the coordinates show.
-/// 3. If then many corners still lie slightly off what they touch, the coordinates are noisy: bring these together too.
-/// 4. Replace the outlines that changed by more than rounding, and count what moved.
-/// 5. Give every body its gap, and every block its centroid.
+/// 2. Snap corners and edges within the tolerance that was given, or that follows from the digits of the coordinates.
+/// 3. If many corners still lie slightly off the edges they should touch, the coordinates are noisy: snap these too.
+/// 4. Replace the outlines that changed by more than rounding, and count the corners that moved.
+/// 5. Set the gap of every body and the centroid of every block.
 pub(super) fn heal(
     ground: &mut [Option<Ground>],
     blocks: &mut [Option<Block>],
@@ -189,7 +194,8 @@ pub(super) fn heal(
 }
 
 impl Drawn {
-    /// Step 1: measures the bodies. A part of the ground is as large as the largest block, however thin it is drawn.
+    /// Step 1: measures the bodies. Every part of the ground gets the size of the largest block, even if it is drawn
+    /// thin.
     fn new(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>]) -> Drawn {
         let parts = ground.len();
         let mut drawn = Drawn {
@@ -214,7 +220,7 @@ impl Drawn {
         drawn
     }
 
-    /// The id of a drawn body.
+    /// The id of the body with this index in the lists.
     fn body(&self, drawn: usize) -> BodyId {
         let number = self.numbers[drawn];
         match number.checked_sub(self.parts) {
@@ -223,12 +229,12 @@ impl Drawn {
         }
     }
 
-    /// How far each body may move, metres.
+    /// The largest distance by which the corners of each body may move, metres.
     fn gaps(&self, reach: HealingReach) -> Vec<f64> {
         self.sizes.iter().map(|s| reach.healing_of(*s)).collect()
     }
 
-    /// Step 2: brings together what lies within the tolerance.
+    /// Step 2: snaps corners and edges that are within the tolerance `reach`.
     fn within_reach(&self, reach: HealingReach) -> Closed<'_> {
         let mut closed = Closed {
             outlines: Cow::Borrowed(&self.outlines[..]),
@@ -246,7 +252,7 @@ impl Drawn {
         closed
     }
 
-    /// Step 3: brings together what noise holds apart, if [`NOISY`] says that there is noise.
+    /// Step 3: snaps corners and edges that noise has separated, if the limits in [`NOISY`] are exceeded.
     fn without_noise<'d>(&self, closed: Closed<'d>) -> Closed<'d> {
         let usual = closed.reach.usual;
         if usual <= closed.reach.healing {
@@ -272,7 +278,8 @@ impl Drawn {
         }
     }
 
-    /// Step 4: what moved, and the new outlines of the bodies that changed, by number.
+    /// Step 4: counts what moved, and returns the new outlines of the bodies that changed, by the numbers of the
+    /// bodies.
     fn changes<'c>(&self, closed: &'c Closed<'_>) -> (Healed, BTreeMap<usize, &'c Rings>) {
         let reach = closed.reach;
         let mut healed = Healed {
@@ -290,7 +297,7 @@ impl Drawn {
         let bodies = self.numbers.iter().zip(&self.outlines).zip(&self.sizes);
         for (((number, old), size), new) in bodies.zip(new) {
             let corners = old.iter().flatten().zip(new.iter().flatten());
-            // Less than a millionth of the gap is the rounding of numbers.
+            // A move below a millionth of the gap is the rounding of numbers.
             let rounding = 1e-6 * reach.healing_of(*size);
             let moves = corners.map(|(a, b)| (b.at - a.at).norm());
             let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
@@ -306,7 +313,7 @@ impl Drawn {
     }
 }
 
-/// The sound bodies, the ground's parts first, with their numbers among all.
+/// The bodies that could be read, with their numbers among all bodies. The parts of the ground come first.
 fn bodies<'b>(
     ground: &'b mut [Option<Ground>],
     blocks: &'b mut [Option<Block>],
@@ -327,13 +334,15 @@ fn rings(polygon: &Polygon) -> Rings {
 }
 
 impl Scene {
-    /// How close two bodies have to be to touch: the smaller of their own gaps. What is rounding is the larger of theirs.
+    /// The tolerance for contact between two bodies. Its gap is the smaller of their gaps, its rounding the larger of
+    /// their roundings.
     pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
         let (a, b) = (self.body(a), self.body(b));
         Tolerance::from_gap(a.gap.min(b.gap)).with_rounding(a.rounding.max(b.rounding))
     }
 
-    /// The scene with everything within `gap` metres brought together, and a contact where that cannot be done.
+    /// The scene healed again with the tolerance `gap` in metres. Bodies that cannot be moved still touch within that
+    /// distance.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {
@@ -351,18 +360,18 @@ impl Scene {
         scene
     }
 
-    /// How close two edges have to be to touch, where that length comes from, and what was moved to make them; `None` on
-    /// a lattice, where contacts are exact.
+    /// Describes for users at what distance edges touch, where this tolerance comes from, and what healing moved.
+    /// `None` on a lattice, where contacts are exact.
     pub fn tolerance_words(&self) -> Option<String> {
         let from: String = match self.healed.source {
             ToleranceSource::Lattice => return None,
-            ToleranceSource::Given => "as asked for".into(),
+            ToleranceSource::Given => "as given".into(),
             ToleranceSource::Decimals(1) => "coordinates with 1 decimal".into(),
             ToleranceSource::Decimals(k) => format!("coordinates with {k} decimals"),
             ToleranceSource::Digits(n) => format!("coordinates with {n} digits"),
             ToleranceSource::Float32 => "coordinates of 32-bit floats".into(),
             ToleranceSource::Size | ToleranceSource::Noise => {
-                "most corners lie off what they touch, by less than a millionth of the scene's reach".into()
+                "many corners lie up to a millionth of the scene's extent off the edges that they touch".into()
             }
         };
         let Healed {
@@ -376,10 +385,10 @@ impl Scene {
         } = self.healed;
         let gap = self.tolerance.gap;
         let mut words = if within <= 0.0 {
-            format!("edges touch within {gap:.2e} m, a millionth of the scene's reach")
+            format!("edges touch within {gap:.2e} m, a millionth of the scene's extent")
         } else if within < gap {
             format!(
-                "edges touch within {gap:.2e} m, a millionth of the scene's reach, and are one within {within:.2e} m ({from})"
+                "edges touch within {gap:.2e} m, a millionth of the scene's extent, and are joined within {within:.2e} m ({from})"
             )
         } else {
             format!("edges touch within {gap:.2e} m ({from})")
@@ -388,7 +397,7 @@ impl Scene {
             let of = if bodies == 1 { "body" } else { "bodies" };
             let corner = if corners == 1 { "corner" } else { "corners" };
             words += &format!(
-                "; {corners} {corner} of {bodies} {of} moved onto what they touch, by up to {distance:.1e} m"
+                "; {corners} {corner} of {bodies} {of} moved onto the edges they touch, by up to {distance:.1e} m"
             );
         }
         if let Some(body) = first_kept {
@@ -399,8 +408,8 @@ impl Scene {
                 n => format!(" and {} more", n - 1),
             };
             words += &format!(
-                "; {name} (from {:.4}, {:.4} to {:.4}, {:.4}){more} stayed as written: moved it would lose its shape or lie \
-                 deeper in others",
+                "; {name} (from {:.4}, {:.4} to {:.4}, {:.4}){more} stayed as written: healing would damage its shape \
+                 or deepen an overlap",
                 least.x, least.y, most.x, most.y
             );
         }

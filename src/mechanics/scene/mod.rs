@@ -1,7 +1,8 @@
 //! [`Scene`]: a checked description of blocks, ground, robots and loads.
 //!
-//! Invariant: a `Scene` in hand is sound. Names are resolved, outlines are simple, numbers finite and in range, the
-//! steps have been played into [`Frame`]s, and no block lies in another body in any frame.
+//! Invariant: a `Scene` is valid. Names are resolved, outlines are simple, numbers are finite and in range, the steps
+//! have been converted to [`Frame`]s, and no block overlaps another body in any frame, except for
+//! [`Scene::penetrations`].
 
 mod body;
 mod collision;
@@ -48,37 +49,39 @@ pub use crate::geometry::{
     Bounds, Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Tolerance, Vector,
 };
 
-/// A structure to be examined, checked. It cannot be changed: [`Scene::builder`] and the readers of files are the ways in.
+/// A checked structure, ready for analysis. It cannot be changed. [`Scene::builder`] and [`Scene::from_json`] make
+/// scenes.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Title, empty where the file gives none.
+    /// Title, empty if the file gives none.
     pub(crate) title: String,
-    /// Author of the calculation, empty where the file gives none.
+    /// Author of the calculation, empty if the file gives none.
     pub(crate) author: String,
-    /// Project that the structure belongs to, empty where the file gives none.
+    /// Project that the structure belongs to, empty if the file gives none.
     pub(crate) project: String,
-    /// Date of the calculation as written in the file, empty where the file gives none.
+    /// Date of the calculation as written in the file, empty if the file gives none.
     pub(crate) date: String,
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
     pub(crate) gravity: Vector,
-    /// How thick the structure is, metres, across the plane.
+    /// Thickness of the structure perpendicular to the plane, metres.
     pub(crate) thickness: f64,
-    /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
+    /// The safety kernel, 0 to 1: each application point is moved inward by half this fraction of the contact's length.
     pub(crate) kernel: f64,
-    /// The lattice, where the scene has one.
+    /// The lattice of the scene, if it has one.
     pub(crate) lattice: Option<Lattice>,
     /// Whether every body is a set of lattice cells, so that contacts are decided in whole numbers.
     pub(crate) exact: bool,
-    /// How close is close in this scene; exact on a lattice.
+    /// The lengths below which differences count as rounding; all 0 on a lattice.
     pub(crate) tolerance: Tolerance,
-    /// Where the tolerance comes from, and what was moved within it before anything was judged.
+    /// Where the tolerance comes from, and which corners healing moved before the analysis.
     pub(crate) healed: Healed,
-    /// How far corners may lie off what they touch by the rounding of the coordinates as they are written, metres; 0 where
-    /// they are written in full.
+    /// The largest distance by which rounded coordinates may separate a corner from the edge it touches, metres; 0 if
+    /// the coordinates are not rounded.
     pub(crate) misfit: f64,
-    /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
+    /// Pairs of bodies with an overlap so small that they may have been meant to touch. Empty if the scene gives a
+    /// tolerance.
     pub(crate) penetrations: Vec<Penetration>,
-    /// The ground's parts.
+    /// The parts of the ground.
     pub(crate) ground: Vec<Ground>,
     /// The blocks, in the file's order.
     pub(crate) blocks: Vec<Block>,
@@ -88,37 +91,37 @@ pub struct Scene {
     pub(crate) loads: Vec<Load>,
     /// Materials, in the file's order.
     pub(crate) materials: Vec<Material>,
-    /// Friction coefficients of pairs of materials, by their numbers.
+    /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
-    /// Whether tips that touch edges or tips carry force.
+    /// Whether a corner that touches an edge or another corner carries force.
     pub(crate) corner_contacts: bool,
-    /// The frames, at least one.
+    /// The frames, one for each step; at least one.
     pub(crate) frames: Vec<Frame>,
-    /// What is allowed and seldom meant, in the order of looking.
+    /// Notes on input that is allowed but probably not intended, in the order in which they were found.
     pub(crate) notes: Vec<Note>,
-    /// Sorts of notes that the author does not want.
+    /// The kinds of notes that the author switched off.
     pub(crate) silenced: Vec<NoteCode>,
-    /// In which lines of the file the bodies stand.
+    /// The lines of the bodies in the file.
     pub(crate) lines: note::Lines,
 }
 
 impl Scene {
-    /// Title, empty where the file gives none.
+    /// Title, empty if the file gives none.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// Author of the calculation, empty where the file gives none.
+    /// Author of the calculation, empty if the file gives none.
     pub fn author(&self) -> &str {
         &self.author
     }
 
-    /// Project that the structure belongs to, empty where the file gives none.
+    /// Project that the structure belongs to, empty if the file gives none.
     pub fn project(&self) -> &str {
         &self.project
     }
 
-    /// Date of the calculation as written in the file, empty where the file gives none.
+    /// Date of the calculation as written in the file, empty if the file gives none.
     pub fn date(&self) -> &str {
         &self.date
     }
@@ -128,17 +131,17 @@ impl Scene {
         self.gravity
     }
 
-    /// How thick the structure is, metres, across the plane.
+    /// Thickness of the structure perpendicular to the plane, metres.
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
+    /// The safety kernel, 0 to 1: each application point is moved inward by half this fraction of the contact's length.
     pub fn kernel(&self) -> f64 {
         self.kernel
     }
 
-    /// The lattice, where the scene has one.
+    /// The lattice of the scene, if it has one.
     pub fn lattice(&self) -> Option<Lattice> {
         self.lattice
     }
@@ -148,22 +151,23 @@ impl Scene {
         self.exact
     }
 
-    /// How close is close in this scene; exact on a lattice.
+    /// The lengths below which differences count as rounding; all 0 on a lattice.
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
-    /// Where the tolerance comes from, and what was moved within it before anything was judged.
+    /// Where the tolerance comes from, and which corners healing moved before the analysis.
     pub fn healed(&self) -> &Healed {
         &self.healed
     }
 
-    /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
+    /// Pairs of bodies with an overlap so small that they may have been meant to touch. Empty if the scene gives a
+    /// tolerance.
     pub fn penetrations(&self) -> &[Penetration] {
         &self.penetrations
     }
 
-    /// The ground's parts.
+    /// The parts of the ground.
     pub fn ground(&self) -> &[Ground] {
         &self.ground
     }
@@ -188,27 +192,27 @@ impl Scene {
         &self.materials
     }
 
-    /// Friction coefficients of pairs of materials, by their numbers.
+    /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
     pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
         &self.friction_pairs
     }
 
-    /// Whether tips that touch edges or tips carry force.
+    /// Whether a corner that touches an edge or another corner carries force.
     pub fn corner_contacts(&self) -> bool {
         self.corner_contacts
     }
 
-    /// The frames, at least one.
+    /// The frames, one for each step; at least one.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
 
-    /// What is allowed and seldom meant, in the order of looking.
+    /// Notes on input that is allowed but probably not intended, in the order in which they were found.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 
-    /// The body behind an id.
+    /// The body with this id.
     pub fn body(&self, id: BodyId) -> &Body {
         match id {
             BodyId::Ground(i) => &self.ground[i].body,
@@ -216,7 +220,7 @@ impl Scene {
         }
     }
 
-    /// How results name a body: the block's id, `"ground"` for every part of the ground.
+    /// The name of a body in results: a block's id, or `"ground"` for every part of the ground.
     pub fn name(&self, id: BodyId) -> &str {
         match id {
             BodyId::Ground(_) => "ground",
@@ -224,7 +228,8 @@ impl Scene {
         }
     }
 
-    /// Friction coefficient between two bodies: their materials' pair, else the smaller of their own.
+    /// Friction coefficient between two bodies: the one given for the pair of their materials, otherwise the smaller of
+    /// the two bodies' own coefficients.
     pub fn friction_between(&self, a: BodyId, b: BodyId) -> f64 {
         let (a, b) = (self.body(a), self.body(b));
         if let (Some(m), Some(n)) = (a.material, b.material) {
@@ -236,7 +241,7 @@ impl Scene {
         a.friction.min(b.friction)
     }
 
-    /// The direction of gravity as a unit vector, zero where there is no gravity.
+    /// The direction of gravity as a unit vector; zero if there is no gravity.
     pub fn down(&self) -> Vector {
         let g = self.gravity.norm();
         if g > 0.0 {

@@ -7,7 +7,7 @@ use super::format::Map;
 use super::path::Trail;
 use super::problem;
 
-/// Reports keys that occur twice in an object made in code. For a file, the reader has already reported them.
+/// Reports keys that occur twice in an object that was built in code. For a file, the reader has already reported them.
 pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
     let mut seen = BTreeSet::new();
     for (name, _) in &map.0 {
@@ -28,7 +28,7 @@ pub(super) struct Names<'f> {
 }
 
 impl<'f> Names<'f> {
-    /// A table of names in the order of the list. If a name occurs twice, its first number counts.
+    /// A table of names in the order of the list. If a name occurs twice, it has its first number.
     pub(super) fn new(sort: &'static str, list: Vec<&'f str>, incomplete: bool) -> Names<'f> {
         let mut numbers = BTreeMap::new();
         for (i, name) in list.iter().enumerate() {

@@ -1,7 +1,6 @@
 //! [`Note`]: something that a scene may contain but that its author probably did not intend.
 //!
-//! A note is no problem: the scene is examined as it is written. Each can be silenced by its code, in the scene's
-//! `silence`.
+//! A note is not an error: the scene is analysed as written. A scene can switch off notes by their codes, in `silence`.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +12,7 @@ use super::source::{Mark, Source};
 use super::{BlockId, BodyId, RobotId, Scene};
 use crate::geometry::{Point, Polygon};
 
-/// Friction coefficients above this are seldom meant: dry stone, brick, wood and rubber stay below.
+/// Friction coefficients above this are probably mistakes: those of dry stone, brick, wood and rubber are lower.
 pub(super) const MOST_FRICTION: f64 = 2.0;
 
 codes! {
@@ -30,15 +29,15 @@ codes! {
     AngleRadians "angle_radians" "an angle that is a multiple of 15°, up to a full turn, in radians with three decimals or more",
 }
 
-/// Something that is allowed, and seldom meant.
+/// Something that is allowed but probably not intended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Note {
-    /// What sort of note it is.
+    /// The kind of note.
     pub code: NoteCode,
-    /// Where in the scene, as `robots[0].at`.
+    /// Its place in the scene, such as `robots[0].at`.
     pub path: String,
-    /// Line in the text, from 1; 0 where there is no text.
+    /// Line in the text, from 1; 0 if there is no text.
     pub line: usize,
     /// What was found, with its numbers.
     pub message: String,
@@ -47,14 +46,14 @@ pub struct Note {
 }
 
 impl NoteCode {
-    /// The code with this word; `None` for an unknown word.
+    /// The note code that is written as this word; `None` if there is no such code.
     pub fn named(word: &str) -> Option<NoteCode> {
         NoteCode::ALL.iter().copied().find(|c| c.word() == word)
     }
 }
 
 impl Note {
-    /// A note. The hint also says how to silence it.
+    /// Creates a note. A sentence on how to silence it is added to the hint.
     fn new(code: NoteCode, path: String, line: usize, message: &str, hint: &str) -> Note {
         Note {
             code,
@@ -69,7 +68,7 @@ impl Note {
 }
 
 impl Scene {
-    /// A note about a body, with its line in the file.
+    /// Creates a note about a body, with the line of the body in the file.
     pub(crate) fn note(&self, code: NoteCode, body: BodyId, message: &str, hint: &str) -> Note {
         let (list, lines, number) = match body {
             BodyId::Ground(i) => ("ground", &self.lines.ground, i),
@@ -79,13 +78,13 @@ impl Scene {
         Note::new(code, format!("{list}[{number}]"), line, message, hint)
     }
 
-    /// Whether the scene silences notes with this code.
+    /// True if the scene silences notes with this code.
     pub(crate) fn silences(&self, code: NoteCode) -> bool {
         self.silenced.contains(&code)
     }
 }
 
-/// In which lines of the file the bodies stand, from 1; empty for a scene made in code.
+/// The line of each body in the file, from 1; empty for a scene built in code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Lines {
     pub(crate) ground: Vec<usize>,
@@ -93,7 +92,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// The line numbers of the entries of the scene file.
+    /// Finds the line numbers of the entries of `ground` and `blocks` in the text of a scene file.
     pub(super) fn new(source: &Source<'_>) -> Lines {
         let list = |key| {
             let starts = source.starts(key);
@@ -304,8 +303,9 @@ impl Notes<'_> {
     }
 }
 
-/// The multiple of 15° to which an angle was probably converted in radians. The angle is at most a full turn, agrees to
-/// three decimals, and is not written in whole hundredths, as angles in degrees are.
+/// If the angle is probably in radians by mistake, returns it in degrees: a multiple of 15°. The angle must be at most
+/// a full turn and agree with that multiple to three decimals. Angles in whole hundredths are not suspect, because
+/// degrees are often written so.
 fn in_degrees(angle: f64) -> Option<f64> {
     let step = std::f64::consts::PI / 12.0;
     let count = (angle / step).round();

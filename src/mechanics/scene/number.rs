@@ -1,21 +1,20 @@
-//! The allowed numbers of a scene: finite, within ±10¹², not tiny without being 0, and not negative where a negative number
-//! makes no sense.
+//! Checks the numbers of a scene: finite, within ±10¹², either 0 or not tiny, and not negative if that makes no sense.
 
 use super::finding::Findings;
 use super::path::Trail;
 use super::problem;
 
-/// Largest amount of any number of a scene file, in whatever unit.
+/// The largest amount of any number in a scene file, in any unit.
 pub(super) const LARGEST: f64 = 1e12;
 
-/// Smallest amount but 0, in whatever unit: a weight is a product of several, and its square is still to be a number.
-/// Coordinates may be smaller: next to others they are rounding noise.
+/// The smallest amount other than 0, in any unit. A weight is a product of several amounts, and its square must not
+/// underflow. Coordinates may be smaller: compared with other coordinates they are rounding noise.
 pub(super) const SMALLEST: f64 = 1e-30;
 
 /// Smallest extent of a body or a cell, in metres: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
-/// Whether all numbers are finite and within ±10¹². Reports the first one that is not.
+/// True if all numbers are finite and within ±10¹². Reports the first one that is not.
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {
@@ -30,8 +29,8 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
     true
 }
 
-/// Whether an amount, or each component of a vector, is in the allowed range, and either 0 or not too small to calculate
-/// with. Reports the first one that is not.
+/// True if the numbers are in the allowed range and the largest amount is 0 or at least 10⁻³⁰. Reports the first
+/// problem. The numbers are one amount, or the components of one vector.
 pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     if !is_sane(findings, at, numbers) {
         return false;
@@ -44,7 +43,8 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     true
 }
 
-/// An optional number of an entry that must be at least 0; `None` if it is absent or not allowed.
+/// Checks an optional number of an entry that must be at least 0. Returns `None` if it is absent or not allowed, and
+/// reports it if it is not allowed.
 pub(super) fn at_least_zero(
     findings: &mut Findings,
     entry: &Trail<'_>,

@@ -9,10 +9,10 @@ use crate::geometry::{
     Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector,
 };
 
-/// Largest lattice coordinate: sums and products of a few of them stay exact.
+/// The largest lattice coordinate: sums and products of a few coordinates stay exact.
 pub(super) const REACH: f64 = 1e6;
 
-/// A body's or shape's extent about its own origin.
+/// The shape of a body relative to its own origin.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
     /// In metres.
@@ -21,7 +21,8 @@ pub(super) enum Outline {
     Cells(Vec<Cell>),
 }
 
-/// A valid polygon from the corners of an entry. Reports all its problems and returns `None` if it is not valid.
+/// Builds a polygon from the corners and holes of an entry. Reports all its problems, and returns `None` if it is not
+/// valid.
 pub(super) fn polygon(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -60,7 +61,7 @@ pub(super) fn polygon(
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));
             }
-            // The area is too small for a float.
+            // The area is so small that it rounds to 0.
             vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,
@@ -123,7 +124,7 @@ fn note(
     }
 }
 
-/// A valid set of cells from an entry. Reports all its problems and returns `None` if it is not valid.
+/// Builds a set of lattice cells from an entry. Reports all its problems, and returns `None` if it is not valid.
 pub(super) fn cells(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -184,7 +185,8 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
-/// A lattice point with whole coordinates in the allowed range. Reports any problem.
+/// Converts a pair to a lattice point. Reports a problem and returns `None` if a coordinate is not whole or out of
+/// range.
 fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;
@@ -200,10 +202,11 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
     Some((pair[0] as i64, pair[1] as i64))
 }
 
-/// The outline in its position: turned about its origin, then moved.
+/// Rotates the outline by `angle` degrees about its origin and then moves it by `at`. Returns the polygon and the
+/// cells, if any.
 ///
-/// `at` is a lattice point where the scene has a lattice, and has to be whole, and the turn one of the lattice's own,
-/// where the body is made of cells.
+/// If the scene has a lattice, `at` is a lattice point; otherwise it is in metres. For cells, `at` must be whole and
+/// `angle` a multiple of 60° or 90°. Reports a problem and returns `None` if they are not.
 pub(super) fn placed(
     findings: &mut Findings,
     trail: &Trail<'_>,

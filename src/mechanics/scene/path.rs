@@ -1,6 +1,6 @@
 //! [`Path`]: the place of a value in a scene file, such as `blocks[3].polygon[1]`.
 //!
-//! A [`Trail`] is the same while walking: it borrows its way up, so that a sound file costs no allocation.
+//! A [`Trail`] is a path on the stack: each step borrows the path above it, so that a valid file needs no allocation.
 
 use std::fmt;
 
@@ -29,14 +29,14 @@ pub(super) enum Trail<'a> {
 }
 
 impl Path {
-    /// Whether this path equals `other` or lies inside it.
+    /// True if this path equals `other` or lies inside it.
     pub(super) fn starts_with(&self, other: &[Segment]) -> bool {
         self.0.starts_with(other)
     }
 }
 
 impl<'a> Trail<'a> {
-    /// The path of a key inside this object.
+    /// The path of the value of a key in this object.
     pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
         Trail::Key(self, name)
     }
@@ -46,7 +46,7 @@ impl<'a> Trail<'a> {
         Trail::Index(self, number)
     }
 
-    /// Whether the place is the value of a key with this name.
+    /// True if the path ends with this key.
     pub(super) fn ends_in(&self, name: &str) -> bool {
         matches!(self, Trail::Key(_, key) if *key == name)
     }
@@ -87,7 +87,7 @@ impl fmt::Display for Path {
     }
 }
 
-/// Whether a key can be written after a dot without ambiguity.
+/// True if a key can be written after a dot without ambiguity.
 fn is_plain(key: &str) -> bool {
     !key.is_empty()
         && key

@@ -1,7 +1,7 @@
-//! Plays the steps of a scene file into [`Frame`]s.
+//! Executes the steps of a scene file, one after the other, and makes a [`Frame`] of each.
 //!
-//! Within a step: release, remove, place, hold, and then the plans. A step that cannot be played as it is written is
-//! noted, and played on as it was most likely meant, so that one slip is one problem.
+//! The order within a step is: release, remove, place, hold, plan. If a step cannot be executed as written, the problem
+//! is reported, and the step is executed as it was most likely meant, so that one mistake gives only one problem.
 
 use std::collections::BTreeMap;
 
@@ -15,17 +15,16 @@ use super::problem;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
-/// In so many frames, counted once for each block that stands in one, a scene may be played: a wall of 4 000 blocks laid one
-/// by one.
+/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of 4 000 blocks laid one by one.
 const MOST: usize = 8_000_000;
 
-/// What playing needs to know of the scene.
+/// The parts of the scene that the steps refer to.
 pub(super) struct StepContext<'s> {
     /// Block numbers by name.
     pub(super) blocks: &'s Names<'s>,
     /// Robot numbers by name.
     pub(super) robots: &'s Names<'s>,
-    /// Every block's centroid; the origin where the block is unsound.
+    /// Every block's centroid; the origin for a block that could not be read.
     pub(super) centroids: &'s [Point],
     /// Every robot's own grip point for the block it holds.
     pub(super) grips: &'s [Option<(BlockId, Point)>],
@@ -41,7 +40,7 @@ impl StepContext<'_> {
     }
 }
 
-/// The only frame of a scene without steps: all blocks stand, and each robot holds its block.
+/// The only frame of a scene without steps: all blocks are placed, and each robot holds its block.
 pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),
@@ -52,7 +51,7 @@ pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     }
 }
 
-/// The frames of some steps, one for each step.
+/// Executes the steps and returns one frame for each. Problems of a step are reported.
 pub(super) fn frames(
     findings: &mut Findings,
     steps: &[StepEntry],
@@ -80,7 +79,7 @@ pub(super) fn frames(
     frames
 }
 
-/// What stands, and who holds what, after the steps so far.
+/// The placed blocks and the blocks held by robots, after the steps so far.
 struct Standing {
     /// In which step a block was placed, and its number in placing order.
     since: BTreeMap<BlockId, (usize, usize)>,

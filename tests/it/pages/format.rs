@@ -189,7 +189,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(9.81)),
         ),
         Claim(
-            "Density in kg/m³ of whatever gives none itself, at least 0. Default 1.",
+            "Density in kg/m³ of blocks and materials that give none, at least 0. Default 1.",
             file(json!({})),
             Result(WEIGHT, json!(9.81)),
         ),
@@ -199,7 +199,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(19.62)),
         ),
         Claim(
-            "Friction coefficient μ of whatever gives none itself, at least 0. Default 0.7.",
+            "Friction coefficient μ of bodies and materials that give none, at least 0. Default 0.7.",
             file(json!({})),
             Result(MU, json!(0.7)),
         ),
@@ -220,7 +220,7 @@ fn defaults_and_units_are_those_of_the_page() {
             ),
         ),
         Claim(
-            "Whether tips that touch edges or tips carry force. Default false.",
+            "Whether a corner that touches an edge or another corner carries force. Default false.",
             block(
                 json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
                 json!({}),
@@ -228,7 +228,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(STANDS, json!("unstable")),
         ),
         Claim(
-            "Whether tips that touch edges or tips carry force.",
+            "Whether a corner that touches an edge or another corner carries force.",
             block(
                 json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
                 json!({ "corner_contacts": true }),

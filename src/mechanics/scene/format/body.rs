@@ -1,4 +1,4 @@
-//! The bodies of a scene file, and what acts on them.
+//! The types of the scene file for bodies, and for the robots and loads that act on them.
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
@@ -28,12 +28,13 @@ pub struct GroundEntry {
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
+    /// Position of its origin: in metres, or a lattice point if the scene has a grid (whole numbers for cells). Default
+    /// [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
-    /// lattice, 90. Default 0.
+    /// Rotation about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60, or of 90 on
+    /// the square lattice. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
@@ -73,12 +74,13 @@ pub struct BlockEntry {
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
+    /// Position of its origin: in metres, or a lattice point if the scene has a grid (whole numbers for cells). Default
+    /// [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
-    /// lattice, 90. Default 0.
+    /// Rotation about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60, or of 90 on
+    /// the square lattice. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,

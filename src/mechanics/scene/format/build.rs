@@ -1,7 +1,8 @@
-//! Methods that build a scene file in code: one for each key, with the same name. Each method returns the object itself.
+//! Methods that build a scene file in code: one for each key, with the same name. Each method returns the object on
+//! which it was called.
 //!
-//! Nothing is checked before [`SceneFile::build`], which is the way of every scene: what a file may not say may not be said
-//! here either, and all problems are reported at once.
+//! Nothing is checked before [`SceneFile::build`]. It applies the same rules as for a file and reports all problems at
+//! once.
 
 use super::{
     BlockEntry, CellEntry, FrictionPairEntry, GridEntry, GridKind, GripEntry, GroundEntry,
@@ -10,7 +11,7 @@ use super::{
 };
 use crate::scene::{NoteCode, Scene, SceneError};
 
-/// Methods that set a key whose value is words.
+/// Methods that set a key whose value is text.
 macro_rules! words {
     ($($key:ident, $doc:literal;)*) => {
         $(
@@ -23,10 +24,10 @@ macro_rules! words {
     };
 }
 
-/// Methods that say what an outline is.
+/// Methods that set an outline.
 macro_rules! outline {
     () => {
-        /// Sets the outline: corners [x, y] in metres, in either direction.
+        /// Sets the outline to a polygon: its corners [x, y] in metres, clockwise or anticlockwise.
         pub fn polygon(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.polygon = Some(corners.into());
             self
@@ -38,7 +39,7 @@ macro_rules! outline {
             self
         }
 
-        /// Sets the outline: lattice cells that are connected by edges.
+        /// Sets the outline to lattice cells. They must be connected by common edges.
         pub fn cells(mut self, cells: impl Into<Vec<CellEntry>>) -> Self {
             self.cells = Some(cells.into());
             self
@@ -46,24 +47,24 @@ macro_rules! outline {
     };
 }
 
-/// Methods that say where a body goes and what its surface is like.
+/// Methods that set the outline, position, friction, material and colour of a body.
 macro_rules! body {
     () => {
         outline!();
         optional_setters! {
-            at: Pair, "Where its origin goes: metres, or a lattice point where the scene has a grid.";
-            angle: f64, "Turn about its own origin before it is moved, degrees anticlockwise.";
+            at: Pair, "Position of its origin, in metres; a lattice point if the scene has a grid.";
+            angle: f64, "Rotation about its own origin before it is moved, degrees anticlockwise.";
             friction: f64, "Its own friction coefficient, at least 0.";
         }
         words! {
-            shape, "Name of a shape that it has, in place of an outline of its own.";
+            shape, "Name of a shape of the scene, used instead of an outline of its own.";
             material, "Name of its material.";
             fill, "Fill colour, `#rrggbb` or `#rgb`.";
         }
     };
 }
 
-/// What corners alone make: a body or shape with this outline.
+/// Converts corners to a body or shape with this outline.
 macro_rules! from_corners {
     ($($entry:ident)*) => {
         $(
@@ -149,7 +150,7 @@ impl SceneFile {
         self
     }
 
-    /// Switches off the notes with a code.
+    /// Switches off the notes that have this code.
     pub fn silence(mut self, code: NoteCode) -> Self {
         self.silence.push(code.to_string());
         self
@@ -158,7 +159,7 @@ impl SceneFile {
     /// Checks the scene, like [`Scene::new`].
     ///
     /// # Errors
-    /// Everything that is wrong with it, each with its path.
+    /// All problems of the scene, each with its path.
     pub fn build(self) -> Result<Scene, SceneError> {
         Scene::new(self)
     }
@@ -183,7 +184,7 @@ impl GroundEntry {
 }
 
 impl BlockEntry {
-    /// A block with an id.
+    /// Creates a block with this id.
     pub fn new(id: impl Into<String>) -> BlockEntry {
         BlockEntry::default().id(id)
     }
@@ -200,7 +201,7 @@ impl BlockEntry {
 }
 
 impl RobotEntry {
-    /// A robot with an id. It has no force limits and gives no torque.
+    /// Creates a robot with this id. Its force has no limits, and it gives no torque.
     pub fn new(id: impl Into<String>) -> RobotEntry {
         RobotEntry::default().id(id)
     }
@@ -225,7 +226,7 @@ impl LimitsEntry {
 }
 
 impl LoadEntry {
-    /// A load on a block. Force and torque are zero until they are set.
+    /// Creates a load on the block with this id. Force and torque are zero until they are set.
     pub fn on(block: impl Into<String>) -> LoadEntry {
         LoadEntry {
             block: block.into(),
@@ -241,7 +242,7 @@ impl LoadEntry {
 }
 
 impl StepEntry {
-    /// A step with a title for its frame.
+    /// Creates a step. `title` is the title of its frame.
     pub fn new(title: impl Into<String>) -> StepEntry {
         StepEntry::default().title(title)
     }

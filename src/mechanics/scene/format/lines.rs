@@ -1,11 +1,11 @@
-//! [`Lines`]: a JSON formatter that puts each entry of the outer objects on a line of its own, so that a person can read
+//! [`Lines`]: a JSON formatter that writes each entry of the outer objects on its own line, so that a person can read
 //! the file.
 
 use std::io;
 
 use serde_json::ser::Formatter;
 
-/// Objects down to a depth have a line per property; what lies deeper has one line each.
+/// Objects down to a depth have one line per property. Each object below that depth is written on one line.
 pub(crate) struct Lines {
     depth: usize,
     /// For every open bracket: whether it is an array, and whether it has broken into lines.
@@ -14,7 +14,8 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// A formatter that breaks the outermost object into lines, and the objects inside it down to `depth` levels.
+    /// A formatter that writes one line for each entry of the outermost object, and of the objects inside it down to
+    /// `depth` levels.
     pub(crate) fn new(depth: usize) -> Lines {
         Lines {
             depth,

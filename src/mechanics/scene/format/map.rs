@@ -1,4 +1,4 @@
-//! [`Map`]: an object of the scene file whose keys are names that the author chose.
+//! [`Map`]: an object of the scene file whose keys are names chosen by the author.
 //!
 //! Entries keep the file's order. No key stands twice in one that was read; of one that was made in code it is checked
 //! with all else.
@@ -26,7 +26,7 @@ impl<T> Default for Map<T> {
 }
 
 impl<T> Map<T> {
-    /// Whether the map is empty.
+    /// True if the map has no entries.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -42,7 +42,7 @@ codes! {
     /// What sort of problem it is. Words are added in later versions, never renamed.
     Code;
     NotReadable "not_readable" "the file cannot be read at all; the message holds the system's reason",
-    InternalFault "internal_fault" "the program failed on this scene, by its own fault",
+    InternalFault "internal_fault" "an internal error of the program occurred on this scene",
     NoSuchFrame "no_such_frame" "`--frame` asks for a frame that the scene does not have",
     NotUtf8 "not_utf8" "the bytes are not UTF-8 text",
     EmptyFile "empty_file" "the file holds nothing but white space",
