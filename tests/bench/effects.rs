@@ -1,7 +1,7 @@
 //! What each effect costs: the same wall with effects switched on one by one, the unknowns each adds as the result counts
 //! them, and the time in parts of that of the wall with weight and contact alone.
 //!
-//! `cargo bench --bench effects` prints the table of `src/doc/numerics.md`. All walls take turns, so that they see the same
+//! `cargo bench --bench effects` prints the table of `src/doc/performance.md`. All walls take turns, so that they see the same
 //! machine; each time is a median.
 
 #![allow(

@@ -22,7 +22,7 @@ use drystone::{Analysis, Scene};
 const ROUNDS: usize = 41;
 
 fn main() {
-    println!("| blocks | step | µs, median | of them answered by what was known |");
+    println!("| blocks | step | µs, median | answered from the warm start |");
     println!("|---|---|---|---|");
     let asked = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
     for blocks in asked.map_or(vec![20, 200], |blocks: usize| vec![blocks]) {

@@ -36,7 +36,7 @@ const TURNS: Turns = Turns {
 fn main() {
     let most: usize = std::env::var("BLOCKS").map_or(2_100, |text| text.parse().unwrap());
     println!(
-        "| bricks | turned by | program | unknowns | says | iterations | ms | clarabel says | iterations | ms | ratio |"
+        "| bricks | turned by | program | unknowns | status | iterations | ms | status of clarabel | iterations | ms | ratio |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for (across, courses) in [(20, 20), (30, 30), (45, 45), (99, 100)] {

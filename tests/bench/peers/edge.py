@@ -16,7 +16,7 @@ import scenes
 
 # Bricks to a course, and courses.
 WALLS = [(20, 20), (30, 30), (45, 44)]
-# Past the edge, and short of it, in parts of the tilt.
+# Differences from the tilt, as fractions of it; positive ones are beyond the limit.
 BESIDE = [1e-3, 1e-4, 1e-5, -1e-5, -1e-4]
 
 
@@ -39,7 +39,7 @@ def asked(binary, path, scene, *options):
 
 def main():
     binary = sys.argv[1]
-    print("| bricks | past the edge by | verdict | failures | decided by | iterations | s | in parts of the upright wall |")
+    print("| bricks | beyond the limit by | verdict | failures | decided by | iterations | s | relative to the upright wall |")
     print("|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "wall.json"
