@@ -48,7 +48,7 @@ pub(crate) struct FigureContext<'a> {
     pub displaced: Vec<Vec<Option<Displacement>>>,
     /// The line below the verdict of each frame.
     pub statements: Vec<String>,
-    /// The limit states of all frames for lines of thrust; computed when they are first needed.
+    /// The extreme lines of thrust of all frames; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
     /// The number of labels so far that have no position, or only a position inside another block.
     pub cramped: Cell<usize>,
@@ -64,7 +64,7 @@ impl<'a> FigureContext<'a> {
             .collect();
     }
 
-    /// Returns the limit states between which the forces of a frame may vary. They are computed for all frames at the
+    /// Returns the extreme states between which the forces of a frame may vary. They are computed for all frames at the
     /// first call.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
         let frames = 0..self.analysis.frames.len();

@@ -1,7 +1,7 @@
-//! Force flow: how the forces run through the blocks, with lines as wide as the forces.
+//! Draws the force flow: the paths of the forces through the blocks, as bands as wide as the forces.
 //!
-//! Inside each block strands join the points where forces enter to the points where they leave; [`strands`] computes them.
-//! Bands of one force on both sides of a joint have the same width and the same direction.
+//! In each block strands join the points where forces enter to the points where they leave; [`strands`] computes them.
+//! The bands of one force have the same width and direction on both sides of a joint.
 
 mod line;
 mod ribbon;
@@ -31,7 +31,7 @@ use crate::scene::Scene;
 
 /// Width of the band of the largest force, unit edges; its least and its largest width, pixels.
 const LARGEST_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
-/// Least width of a band, pixels: a thinner one cannot be seen.
+/// Least width of a band, pixels; thinner bands are not visible.
 const LEAST_WIDTH: f64 = 0.4;
 /// In frames with more blocks than this, bands of one colour are one path, and joints have no dots.
 const MANY_STRANDS: usize = 150;
@@ -49,7 +49,7 @@ impl PanelContent for ForceFlow {
     }
 
     fn help(&self) -> &'static str {
-        "How the forces run through the blocks, in lines as wide as the forces"
+        "The paths of the forces through the blocks, as lines as wide as the forces"
     }
 
     fn title(&self) -> &'static str {
@@ -98,7 +98,7 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// The largest load or missing force of a frame, N; a torque counts with the unit edge as its arm.
+/// Returns the largest load or missing force of a frame, N. A torque counts as torque divided by the unit edge.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
@@ -110,7 +110,7 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// The length of the longest arrow, metres.
+/// Returns the length of the longest arrow, metres.
 fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
     let edge = unit(&analysis.scene, options.zoom);
     let blocks = analysis.scene.blocks.iter();
@@ -121,7 +121,7 @@ fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
     edge.max(LONGEST_ARROW * longer)
 }
 
-/// The arrows of loads, which end where they act, and those of missing forces.
+/// Returns the arrows of loads, whose tips are at the points where they act, and the arrows of missing forces.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let width = SHAFT * longest_arrow(analysis, options);
@@ -142,7 +142,7 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
             .collect(),
         newtons_per_unit,
     };
-    // Without arrows there is nothing to give a scale for.
+    // Without arrows the legend needs no scale.
     if shown.arrows.is_empty() && shown.turns.is_empty() {
         Marks::default()
     } else {
@@ -150,7 +150,8 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     }
 }
 
-/// The contact with the largest force of a frame; of forces that are equal but for rounding, the first.
+/// Returns the contact with the largest force of a frame. If several forces are equal except for rounding, it is the
+/// first of them. Returns `None` if no contact has a force.
 pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
     let contacts = found.contacts.iter();
@@ -163,7 +164,7 @@ pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     })
 }
 
-/// The largest force of a joint or a robot in all frames, N.
+/// Returns the largest force of a joint or a robot in all frames, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let frames = &context.analysis.frames;
     let contacts = frames.iter().filter_map(largest_contact);
@@ -174,13 +175,13 @@ fn largest(context: &FigureContext<'_>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Width of the band of the largest force, pixels, for a unit edge of this length.
+/// Returns the width of the band of the largest force, for a unit edge of this length; both in pixels.
 fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
 }
 
-/// The colour of force that is carried, in a frame with this verdict.
+/// Returns the colour of carried forces in a frame with this verdict.
 fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     match verdict {
         Verdict::Stable => theme.motion,
@@ -188,7 +189,7 @@ fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     }
 }
 
-/// The colour of a strand.
+/// Returns the colour of strands of this kind in a frame with this verdict.
 fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
     let carried = carried(theme, verdict);
     match kind {
@@ -241,12 +242,12 @@ impl<'a> Picture<'a> {
         )
     }
 
-    /// Whether bands are joined by colour, without titles, and joints have no dots.
+    /// True if the frame has many blocks. Then bands are joined by colour, without titles, and joints have no dots.
     fn many(&self) -> bool {
         self.scene.frames[self.pen.number].placed.len() > MANY_STRANDS
     }
 
-    /// The bands: weights at the bottom, then what is carried, and on top what is missing.
+    /// Draws the bands: weights at the bottom, above them carried forces, and missing forces on top.
     fn flow(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("flow");
         let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];
@@ -272,14 +273,14 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// The outline of a strand; its axis is ink that no label may hide.
+    /// Returns the outline of a strand. Adds its axis to the ink, so that no label covers it.
     fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
         let camera = self.pen.camera;
         let width = |newtons: &f64| camera.metres((newtons * self.scale).max(LEAST_WIDTH));
         let mut widths: Vec<f64> = strand.widths.iter().map(width).collect();
         let mut axis = strand.axis.clone();
         if self.many() && !strand.exact {
-            // Among many blocks nobody sees the bends, and straight bands make a small file.
+            // In figures with many blocks bends are not visible, and straight bands make the file smaller.
             axis = axis
                 .first()
                 .into_iter()
@@ -300,7 +301,7 @@ impl<'a> Picture<'a> {
         ribbon::ribbon(&axis, &widths, camera)
     }
 
-    /// A dot where the resultant of each joint acts.
+    /// Draws a dot at the point of action of each joint's resultant.
     fn dots(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("resultants");
         if self.many() {
@@ -331,7 +332,7 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// The amount of the largest force of a joint, at its dot.
+    /// Returns the callout with the magnitude of the largest force of a joint, at its dot.
     fn callout(&self) -> Vec<Callout> {
         let largest = largest_contact(self.found).into_iter();
         let callout = |contact: &Contact| {
@@ -347,7 +348,7 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Radius of the dot at a joint, pixels.
+/// Returns the radius of the dot at a joint, for a unit edge of this length; both in pixels.
 fn dot(unit: f64) -> f64 {
     (0.06 * unit).clamp(1.1, 3.2)
 }
@@ -389,7 +390,8 @@ fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// The entries for bands, of which the figure shows these.
+/// Returns the legend entries for the bands. `all` are the strands of the figure with the verdicts of their frames.
+/// `unit` is the unit edge in pixels.
 fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> Vec<Entry> {
     let theme = &context.options.theme;
     let mut entries = Vec::new();

@@ -1,4 +1,4 @@
-//! The figure of forces: every force as an arrow on the block it acts on.
+//! Draws the figure of forces: every force is an arrow on the block on which it acts.
 
 use super::arrow::{ForceArrow, Marks};
 use super::content::PanelContent;
@@ -13,21 +13,21 @@ use crate::analysis::Analysis;
 use crate::drawing::{Camera, Group};
 use crate::geometry::Bounds;
 
-/// The figure of forces, each panel with its own scale of arrows.
+/// The figure of forces; each panel has its own scale of arrows.
 pub(crate) const FORCES: Forces = Forces {
     name: "forces",
-    help: "Every force as an arrow on the block it acts on, and what is missing",
+    help: "Every force, and every missing force, as an arrow on the block on which it acts",
     shares_arrow_scale: false,
 };
 
-/// The forces in the steps of a construction, to one scale, so that the steps can be compared.
+/// The forces in the steps of a construction. All panels have the same scale, so that steps can be compared.
 pub(crate) const BUILD: Forces = Forces {
     name: "build",
     help: "The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other",
     shares_arrow_scale: true,
 };
 
-/// Whether missing forces are drawn to another scale than the other forces.
+/// True if missing forces have a larger scale than other forces.
 fn own_scale(marks: &Marks) -> bool {
     let ratio = |arrow: &ForceArrow| arrow.vector.norm() / arrow.force.norm();
     let of = |missing: bool| {

@@ -1,42 +1,43 @@
-//! [`ThrustSegment`]: the straight segments of the line of thrust, block by block.
+//! [`segments`]: computes the straight segments of the line of thrust, block by block.
 //!
 //! A segment lies on the true line of action of a force. In a block between two bodies the line of thrust is a funicular
 //! polygon. Its construction, in [`BlockForces::funicular`]:
 //!
 //! 1. It starts at the first joint, along the line of action of that joint's force.
-//! 2. Where it meets the line of action of a load or of the weight, it goes on along the line of their resultant.
-//! 3. Step 2 is repeated for every load. At last it must arrive at the second joint, along the line of that joint's force.
+//! 2. At the line of action of a load or of the weight it turns into the line of their resultant.
+//! 3. Step 2 is repeated for every load. The polygon must end at the second joint, along the line of action of that
+//!    joint's force.
 //!
-//! It is drawn only if every vertex and every segment lies inside the block, or nearly. The order of the loads is not known,
-//! so all orders are tried, and at last the sum of all loads. If none works (three bodies press, the forces are parallel and
-//! apart, or they do not balance), there is no single line of action. Then the path is schematic: a straight line between
-//! the two joints, or one from every joint and load to the point where they meet. So the line has no gaps.
+//! It is only drawn if every vertex and every segment lies inside the block, or nearly. The order of the loads is not
+//! known, so all orders are tried, and finally the sum of all loads. No order works if three bodies press the block, if
+//! forces are parallel on different lines, or if they do not balance. Then the path is schematic: a straight line
+//! between the two joints, or one from every joint and load to a common point. So the line has no gaps.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
 use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
 
-/// A line passes through a point if it misses it by less than this share of the block's size. Forces are known to about
-/// 1e-9, so rounding stays far below; a larger miss would be a different line of action.
+/// A line passes through a point if their distance is below this share of the block's size. Forces are accurate to
+/// about 1e-9, so rounding errors are far below it.
 const LENGTH_TOL: f64 = 1e-6;
 /// Forces on a block are in equilibrium up to this share of their sum.
 const BALANCE_TOL: f64 = 1e-6;
-/// A line of action runs through the block if it leaves it by at most this share of the mean thickness of the block.
+/// A line of action counts as inside the block if it leaves the block by at most this share of its mean thickness.
 const NEARLY_INSIDE: f64 = 0.06;
-/// With more loads than this on a block their orders are not tried (4! with the weight); their sum is used.
+/// With more loads than this on a block only their sum is tried. Together with the weight there are up to 4! orders.
 const MAX_ORDERED_LOADS: usize = 3;
 
 /// The origin of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ForceOrigin {
-    /// Another body, through the contact of this number.
+    /// Another body, through the contact with this index.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
-    /// The load of this number in the scene.
+    /// The load with this index in the scene.
     Load(usize),
-    /// The resultant of a joint's force and the loads that the line has met since.
+    /// The resultant of a joint's force and the loads that the line has met so far.
     Resultant,
 }
 
@@ -57,7 +58,7 @@ pub(crate) struct ThrustSegment {
     pub through: bool,
 }
 
-/// The segments of the line of thrust, block by block in placing order.
+/// Returns the segments of the line of thrust, block by block in placing order.
 pub(crate) fn segments(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<ThrustSegment> {
     let (pressing, loads) = (pressing(scene, found), loads(scene));
     let mut segments = Vec::new();
@@ -85,7 +86,7 @@ struct Line {
     force: Vector,
 }
 
-/// The forces of bodies and robots on each block, by its number.
+/// Returns the forces of bodies and robots on each block, by its index.
 fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, found);
@@ -123,7 +124,8 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     lines
 }
 
-/// The weight and the loads of each block, by its number. A torque without a force shifts the line of the weight.
+/// Returns the weight and the loads of each block, by its index. A torque without a force shifts the line of action of
+/// the weight.
 fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     let mut torques = vec![0.0; scene.blocks.len()];
     for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
@@ -155,7 +157,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     lines
 }
 
-/// A point on the line of action of a force at `at` together with a torque: shifted by torque/force across the force.
+/// Returns a point on the line of action of a force at `at` together with a torque: `at`, shifted across the force by
+/// torque divided by force.
 fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
     let squared = force.norm_squared();
     if torque == 0.0 || squared <= 0.0 {
@@ -181,7 +184,8 @@ impl BlockForces<'_> {
         self.polygon().bounds().diagonal()
     }
 
-    /// The funicular polygon of the block; `None` if none lies inside it.
+    /// Returns the funicular polygon of the block; `None` if there is none inside it, or the block is not between one
+    /// or two bodies.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),
@@ -203,7 +207,7 @@ impl BlockForces<'_> {
             .find_map(|loads| self.funicular(first, &loads, last))
     }
 
-    /// Whether the forces on the block are in equilibrium; in a structure that falls they need not be.
+    /// True if the forces on the block are in equilibrium. In a structure that falls this need not be true.
     fn balances(&self) -> bool {
         let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
         for line in self.pressing.iter().chain(self.loads) {
@@ -214,7 +218,7 @@ impl BlockForces<'_> {
         sum.norm() <= BALANCE_TOL * all && moment.abs() <= BALANCE_TOL * all * self.size()
     }
 
-    /// The resultant of the weight and all loads.
+    /// Returns the resultant of the weight and all loads; `None` for fewer than two of them, or if it is zero.
     fn total_load(&self) -> Option<Line> {
         let centroid = self.block.centroid;
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
@@ -227,8 +231,8 @@ impl BlockForces<'_> {
         (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
     }
 
-    /// The funicular polygon from one joint over the lines of these loads, in this order, to the other joint; without
-    /// another joint to the last load. `None` if it does not close or leaves the block.
+    /// Returns the funicular polygon from the joint `first` over the lines of action of these loads, in this order, to
+    /// the joint `last`, or to the last load for `None`. Returns `None` if it does not close or leaves the block.
     fn funicular(
         &self,
         first: &Line,
@@ -243,7 +247,7 @@ impl BlockForces<'_> {
             let vertex = intersection(at, force, load, tolerance)?;
             let ends_here = last.is_none() && number + 1 == loads.len();
             if ends_here && matches!(load.origin, ForceOrigin::Load(_)) {
-                // Only this load is left: the line ends where it acts.
+                // This is the last load and there is no other joint: the line ends at the point where the load acts.
                 path.extend(self.segment(load.origin, (load.at, at), load.force));
                 continue;
             }
@@ -253,7 +257,7 @@ impl BlockForces<'_> {
             }
             at = vertex;
             force += load.force;
-            // After the last load only the force of the other joint is left.
+            // After the last load only the force of the other joint remains.
             origin = match last {
                 Some(last) if number + 1 == loads.len() => last.origin,
                 _ => ForceOrigin::Resultant,
@@ -265,7 +269,7 @@ impl BlockForces<'_> {
         }
         if let Some(last) = last {
             let miss = cross(last.at - at, force).abs() / force.norm().max(f64::MIN_POSITIVE);
-            // Each intersection adds its own rounding.
+            // Each intersection adds a rounding error.
             if miss > 10.0 * tolerance {
                 return None;
             }
@@ -280,7 +284,7 @@ impl BlockForces<'_> {
         (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
-    /// A segment of a line that runs through the block; `None` if it has no length.
+    /// Creates a segment on a true line of action; `None` if it has no length.
     fn segment(
         &self,
         origin: ForceOrigin,
@@ -298,7 +302,7 @@ impl BlockForces<'_> {
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
-    /// Whether the straight line between two points stays in the block, or nearly, tested at nine points.
+    /// True if nine points on the straight line between two points all lie in the block, or nearly.
     fn within(&self, from: Point, to: Point) -> bool {
         let near = NEARLY_INSIDE * self.polygon().area() / self.size();
         (0..=8).all(|i| {
@@ -311,8 +315,8 @@ impl BlockForces<'_> {
         })
     }
 
-    /// The path where no line of action runs through the block: straight between two joints, else from every joint and load
-    /// to the point where they meet.
+    /// Returns the schematic path: a straight line between two forces, otherwise one from every joint and load to a
+    /// common point.
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
@@ -339,7 +343,8 @@ impl BlockForces<'_> {
             .collect()
     }
 
-    /// Where the paths of several forces meet: the mean of their points by their amounts, if it lies in the block.
+    /// Returns the common point of a schematic path: the mean of the points of more than two forces, weighted with
+    /// their magnitudes, if it lies in the block. Otherwise it is the centroid.
     fn meeting(&self, given: &[&Line]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;
@@ -355,8 +360,8 @@ impl BlockForces<'_> {
     }
 }
 
-/// Whether a line of thrust runs onward from its beginning to its end; one that turns back covers itself and cannot be read.
-/// Segments that belong to a load are side branches and do not count.
+/// True if no segment of the path points backwards from its beginning to its end. A line that turns back would cover
+/// itself. Segments of loads are side branches and do not count.
 fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     let main = || {
         path.iter()
@@ -369,13 +374,14 @@ fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     main().all(|s| (s.to - s.from).dot(&chord) >= -tolerance * chord.norm())
 }
 
-/// The intersection of the line of a force through a point with the line of a load. If the two are one line, the point next
-/// to the load.
+/// Returns the intersection of the line of a force through `at` with the line of action of a load. If both are the same
+/// line within `near` metres, it is the point on it next to the load. Returns `None` for other parallel lines.
 fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
     let between = load.at - at;
-    // Lines this close to parallel are one line or never meet: rounding alone would decide where they cross.
+    // Nearly parallel lines are the same line or do not meet, because only rounding errors would determine their
+    // intersection.
     if sine.abs() < LENGTH_TOL {
         let off = cross(between, a).abs();
         return (off <= near).then(|| at + a * between.dot(&a));
@@ -388,7 +394,7 @@ fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Poin
         .then_some(corner)
 }
 
-/// All permutations of a few loads, the given order first.
+/// Returns all permutations of a few loads, the given order first.
 fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
     let Some((first, rest)) = loads.split_first() else {
         return vec![Vec::new()];
@@ -404,7 +410,7 @@ fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
     all
 }
 
-/// The distance of a point from a straight edge.
+/// Returns the distance of a point from the segment between two points, metres.
 fn distance_to_edge(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);

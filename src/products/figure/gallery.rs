@@ -1,4 +1,4 @@
-//! [`gallery`]: the figures of the source, redrawn from the scenes of this crate.
+//! [`gallery`]: draws the figures of the thesis again, from the scenes of this crate.
 
 use super::caption::caption;
 use super::freebody::freebody;
@@ -14,17 +14,17 @@ use crate::scene::Scene;
 /// A figure of the gallery.
 #[derive(Clone, Debug)]
 pub struct Plate {
-    /// What its files are called, such as `figure-4`.
+    /// The name of its files, such as `figure-4`.
     pub name: &'static str,
-    /// What it shows, in plain words.
+    /// A description in plain words.
     pub caption: String,
     /// The figure.
     pub drawing: Drawing,
 }
 
-/// What a plate is made of.
+/// The content of a plate.
 enum Subject {
-    /// A block of a scene cut free.
+    /// The free-body diagram of a block of a scene: the scene and the name of the block.
     Freebody(&'static str, &'static str),
     /// The ring of colours.
     Ring,
@@ -118,9 +118,10 @@ const PLATES: [(&str, Subject); 10] = [
     ),
 ];
 
-/// All figures of the source. Next to each is the variant with the effect that the source leaves out.
+/// Draws all figures of the thesis. Figures 8 and 9 also show variants with effects that the thesis leaves out.
 ///
-/// Arrows and their lengths are the source's: normal and friction force apart, the largest single unknown one edge long.
+/// Arrows are drawn as in the thesis: normal and friction forces separately, and the largest single unknown is one unit
+/// edge long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
     PLATES
         .iter()
@@ -150,7 +151,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
             let id = crate::scene::BlockId(id.expect("the block is in our own scene"));
-            // The figures of the source name every unknown.
+            // The figures of the thesis name every unknown.
             let options = Options {
                 corners: Corners::All,
                 ..options

@@ -1,34 +1,34 @@
 //! [`Joint`]: the motion of a mechanism at an interface: a hinge if one end keeps contact, a slip if the interface slides.
 //!
-//! Along a mechanism nothing admissible can object to, a contact opens with at least μ times the speed at which it
-//! slides. One that opens with just that still rubs: it slips. One that opens faster is free.
+//! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
+//! with exactly this speed slips with friction. A contact that opens faster is free.
 
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// Relative speeds below this share of the largest one between two bodies count as zero: rounding of the solver, which is
-/// larger in motions than in forces.
+/// Relative speeds below this share of the largest one between two bodies count as zero. Solver errors are larger in
+/// motions than in forces.
 const SPEED_TOL: f64 = 2e-3;
 
-/// How the two bodies of an interface move against each other; they part where it neither is a hinge nor slips.
+/// The relative motion of the two bodies of an interface. They separate if it is neither a hinge nor slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Joint {
-    /// The contact's number in the frame.
+    /// The index of the contact in the frame.
     pub contact: usize,
-    /// The application point about which it turns, where one keeps contact, the other opens, and nothing slides.
+    /// The application point of a hinge: this point keeps contact, the other one opens, and nothing slides.
     pub hinge: Option<Point>,
-    /// The application point that slides, where only one keeps contact and slides.
+    /// The application point that slides, if only one of the two keeps contact.
     pub touch: Option<Point>,
-    /// The middle of what is in contact.
+    /// The middle of the part that keeps contact.
     pub at: Point,
-    /// Speed of the first body past the second along (−n_y, n_x), 0 where it does not slide or no longer touches.
+    /// Speed of the first body relative to the second along (−n_y, n_x); 0 if it does not slide or loses contact.
     pub slip: f64,
-    /// Speed at which a joint that slides opens, 0 where it goes along the joint.
+    /// Speed at which a sliding joint opens; 0 if the motion is along the joint.
     pub lift: f64,
 }
 
-/// The joints of a frame: all interfaces whose bodies move relative to each other.
+/// Returns the joints of a frame: all interfaces whose bodies move relative to each other.
 pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let found = &analysis.frames[frame];
     let motions = by_block(analysis, found);
@@ -66,12 +66,13 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     found.contacts.iter().enumerate().filter_map(one).collect()
 }
 
-/// The joint at a contact; `None` if the two bodies move together.
+/// Returns the joint at a contact; `None` if the two bodies move together. `relative` are the relative velocities at
+/// the application points. Speeds up to `noise` count as zero. Its contact index is not set.
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
     let opening = relative.map(|v| v.dot(&interface.normal));
-    // An end keeps contact if it opens only by the dilation μ of sliding, or if it moves along the joint.
+    // An end keeps contact if it does not open, or only by the dilation μ of sliding.
     let touches = [0, 1].map(|k| {
         let free = opening[k] - interface.friction * along[k].abs();
         opening[k] <= noise || free.abs() <= noise
@@ -80,7 +81,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     let turns_about = match touches {
         [true, false] => Some(points[0]),
         [false, true] => Some(points[1]),
-        // Both points nearly coincide: they keep contact while the bodies turn about them.
+        // The two points nearly coincide. Both keep contact while the bodies turn about them.
         [true, true] if turning > 5.0 * noise => Some(points[0]),
         _ => None,
     };
@@ -115,7 +116,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     })
 }
 
-/// The motion of each block by its number; `None` for a block at rest.
+/// Returns the motion of each block by its index; `None` for a block at rest.
 fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
     for motion in &found.mechanism {

@@ -1,4 +1,4 @@
-//! The kernel: the safe part of each interface, and the position of its resultant in it.
+//! Draws the kernels: the safe part of each interface, and the position of its resultant in it.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -15,9 +15,10 @@ use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
 
-/// A resultant farther from the middle than this, in half lengths of its safe stretch, lies beyond it and not at its end.
+/// If the distance of a resultant from the middle is larger than this, in half lengths of the safe part, it lies
+/// outside this part.
 const BEYOND_KERNEL: f64 = 1.0 + 1e-6;
-/// Width of the line of a safe stretch, unit edges; its least and its largest width, pixels.
+/// Width of the line of a safe part, unit edges; its least and its largest width, pixels.
 const STRETCH_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// The figure of kernels.
@@ -29,7 +30,7 @@ impl PanelContent for Kernel {
     }
 
     fn help(&self) -> &'static str {
-        "The safe stretch of each interface, and where in it the resultant sits"
+        "The safe part of each interface, and the position of the resultant in it"
     }
 
     fn title(&self) -> &'static str {
@@ -136,7 +137,7 @@ impl PanelContent for Kernel {
     }
 }
 
-/// Whether a resultant lies at an end of the safe part.
+/// True if a resultant lies at an end of the safe part, or outside it.
 fn at_end(bearing: &Bearing) -> bool {
     bearing.eccentricity.is_some_and(|share| share >= FULL)
 }
@@ -146,7 +147,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// The radius of a dot in pixels.
+/// Returns the radius of a dot, for a unit edge of this length; both in pixels.
 fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
@@ -193,7 +194,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
                 .with(casing(rests.clone()))
                 .with(Path::stroked(rests, rest(theme, bold)));
         }
-        // A very short line is visible as a dot only if its ends are round.
+        // A safe part without length is a point: draw it as a dot.
         let path = if scene.kernel < 1.0 && length > 0.0 {
             let stroke = Stroke::new(theme.safe, bold).mitred();
             Path::stroked(Outline::line(points), stroke)
@@ -213,7 +214,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     group
 }
 
-/// A mark at the position of each resultant, in a frame that stands.
+/// Draws a mark at the position of each resultant in a frame that stands. Calls `ink` with each position.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
@@ -250,7 +251,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// The mark of a resultant: a disc inside the safe part, a diamond at its end, and red outside.
+/// Returns the mark of a resultant: a disc inside the safe part, a diamond at its end, and a red diamond outside.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;

@@ -1,4 +1,4 @@
-//! [`Kind`]: the kinds of figures. Each is a type in a file of its own; here they are listed.
+//! [`Kind`]: lists the kinds of figures. Each kind is a type in a file of its own.
 
 use super::compare::Comparison;
 use super::content::PanelContent;
@@ -14,34 +14,33 @@ use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
 use crate::analysis::{Analysis, MarginKinds};
 
-/// What the panels of a figure show.
+/// The content of the panels of a figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// Every force as an arrow on the block it acts on, and the forces that are missing.
+    /// Every force, and every missing force, as an arrow on the block on which it acts.
     #[default]
     Forces,
-    /// How the forces run through the blocks: lines as wide as the forces, from where forces enter a block to where they
-    /// leave it.
+    /// The paths of the forces through the blocks: lines as wide as the forces, from the points where forces enter a
+    /// block to the points where they leave it.
     Flow,
-    /// How the blocks of a frame that falls begin to move: dashed outlines where they stand, the blocks displaced as
-    /// rigid bodies, hinges and slips.
+    /// The beginning of the motion of a frame that falls: dashed outlines of the blocks in their places, the blocks
+    /// displaced as rigid bodies, hinges and slips.
     Mechanism,
     /// The line of thrust through the blocks, from interface to interface.
     Thrust,
-    /// The stretch of each interface within which its resultant is safe, and where in it the resultant lies.
+    /// The part of each interface in which its resultant is safe, and the position of the resultant.
     Kernel,
-    /// Friction used as a share of the friction available at each interface, and the share of its limits that each robot
-    /// uses.
+    /// The used share of the available friction at each interface, and of the limits of each robot.
     Utilisation,
     /// The forces of every step of a construction, with arrows to one scale in all panels.
     Build,
-    /// The external forces on the structure, and their force polygon, tip to tail.
+    /// The external forces on the structure, and their force polygon.
     Polygon,
-    /// The structure as it stands, and as a ghost how it falls just beyond its margin: gravity turned, a horizontal push
-    /// added, or the loads increased.
+    /// The structure in its place, and its faint displaced shape just beyond its margin: with gravity turned, a
+    /// horizontal force added, or the loads increased.
     Margin,
-    /// What changed from one frame to the next: blocks and forces, with arrows to one scale in all panels.
+    /// The changes of blocks and forces from one frame to the next, with arrows to one scale in all panels.
     Compare,
 }
 
@@ -60,7 +59,7 @@ impl Kind {
         Kind::Compare,
     ];
 
-    /// What its panels show.
+    /// Returns the content of its panels.
     pub(crate) fn content(self) -> &'static dyn PanelContent {
         match self {
             Kind::Forces => &FORCES,
@@ -76,34 +75,34 @@ impl Kind {
         }
     }
 
-    /// Its name, in small letters.
+    /// Returns its name, in lower case.
     pub fn name(self) -> &'static str {
         self.content().name()
     }
 
-    /// The kind with this name.
+    /// Returns the kind with this name; `None` if there is none.
     pub fn from_name(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// One line that says what it shows, for a list of all kinds.
+    /// Returns one line that describes the figure, for a list of all kinds.
     pub fn help(self) -> &'static str {
         self.content().help()
     }
 
-    /// The margins that a figure of this analysis states or draws from, where they were computed; `None` for none.
+    /// Returns the margins that a figure of this analysis shows if they have been computed; `None` if it shows none.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
-    /// Whether it shows margins, which the analysis computes only on request
+    /// True if it needs margins, which the analysis only computes on request
     /// ([`analysis::Options::margins`](crate::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
         self.content().needs_margins()
     }
 
-    /// The options, with those replaced that the kind decides itself.
+    /// Returns the options, with those replaced that the kind determines itself.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
         if self.content().shares_arrow_scale() {
@@ -112,7 +111,7 @@ impl Kind {
         options
     }
 
-    /// What all panels of a figure of this kind share.
+    /// Computes the data that all panels of a figure of this kind share.
     pub(crate) fn context<'a>(
         self,
         analysis: &'a Analysis,

@@ -1,9 +1,10 @@
-//! [`labels`]: names of blocks and robots, and amounts on request, where they hide nothing.
+//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, where they cover nothing.
 //!
-//! [`placement`](crate::drawing::placement) finds the positions; this file says which labels there are and what they prefer.
-//! A name stands inside its block if there is space, else next to it with a leader line. Labels lie on no arrow, outline,
-//! disc or other label. A label without a position is left out, and the figure counts those. Blocks that the line below the
-//! verdict names come first, and have their names in frames of any number of blocks.
+//! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
+//! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels do not
+//! cover arrows, outlines, discs or other labels. A label without a position is left out, and the figure counts these
+//! labels. Blocks that the line below the verdict mentions come first; they are named in frames with any number of
+//! blocks.
 
 mod obstacle;
 mod solid;
@@ -26,73 +27,75 @@ use crate::drawing::{
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::scene::{BlockId, BodyId};
 
-/// No labels in frames with more blocks than this, except those that the text names.
+/// In frames with more blocks than this only blocks that the text mentions are labelled.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
-/// In such frames about this many amounts of loads and missing forces at most.
+/// Largest number of magnitudes of loads and missing forces in such frames, approximately.
 const MAX_WRITTEN: usize = 16;
-/// If a unit edge is at least this long, pixels, any name may stand at any distance from its block.
+/// If a unit edge is at least this long, pixels, names may be at any distance from their blocks …
 const ROOMY_UNIT_EDGE: f64 = 26.0;
-/// In frames of at most this many blocks, too.
+/// … and also in frames with at most this many blocks.
 const FEW_BLOCKS: usize = 12;
-/// In other frames a name stands at most this far from its block, pixels: longer leaders would hide the figure.
+/// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
 const MAX_DISTANCE: f64 = 8.0;
-/// A name outside its block has a leader if another block's centroid is less than this many times as far away.
+/// A name outside its block has a leader if the centroid of another block is nearer than this multiple of the distance
+/// to its own block's centroid.
 const AMBIGUITY_RATIO: f64 = 1.5;
-/// Positions tried along each axis of a block.
+/// Number of positions tried along each axis of a block.
 const POSITIONS_PER_AXIS: usize = 13;
-/// Least size of letters, pixels.
+/// Least font size, pixels.
 const MIN_SIZE: f64 = 9.0;
-/// Distances from a block's centroid are compared in steps of this share of the block's diagonal. Rounding of a centroid must
-/// not move a name.
+/// Distances from a block's centroid are rounded to this share of the block's diagonal, so that rounding errors do not
+/// move a name.
 const DISTANCE_STEP: f64 = 1e-3;
-/// Most lines of a name of several words.
+/// Largest number of lines of a name.
 const MAX_LINES: usize = 3;
-/// Distance of its lines, in sizes of its letters.
+/// Distance of the lines of a name, as a multiple of the font size.
 const LINE_PITCH: f64 = 1.1;
-/// Its distance from the sides of its block, pixels.
+/// Distance of a broken name from the sides of its block, pixels.
 const INSET: f64 = 4.0;
-/// The beginning of a character that is written as its code point, as no font has it.
+/// The prefix of a code point, which replaces a character that no font has.
 const SPELLED: &str = "U+";
-/// Height of a line, in sizes of its letters.
+/// Height of a line, as a multiple of the font size.
 const LINE_HEIGHT: f64 = 0.96;
 
 /// A label without a position yet.
 struct Label {
-    /// Its words, in lines.
+    /// Its lines of text.
     lines: Vec<String>,
     face: Face,
     size: f64,
     class: &'static str,
     request: LabelRequest,
-    /// The colour of the arrow it belongs to; `None` for plain letters.
+    /// The colour of its arrow; `None` for plain text.
     colour: Option<Colour>,
-    /// Whether the text below the frame names it: then it is drawn in any case.
+    /// Whether the text below the frame mentions it. Then it is drawn in any case.
     named: bool,
-    /// The block it names: inside another block it would seem to name that one.
+    /// The block that it names. Inside another block it would seem to name that block.
     of: Option<BlockId>,
 }
 
-/// The class of a frame's labels. The description of their group counts those without a position.
+/// The class of the group of a frame's labels. The description of the group counts labels without a position.
 pub(crate) const CLASS: &str = "labels";
 
-/// Words at a point of a picture.
+/// A text at a point of a picture.
 pub(crate) struct Callout {
     /// The point.
     pub at: PagePoint,
-    /// How far from the point the words stand at least, pixels.
+    /// Least distance of the text from the point, pixels.
     pub clear: f64,
-    /// The words.
+    /// The text.
     pub words: String,
-    /// The colour of what they belong to.
+    /// The colour of the text.
     pub colour: Colour,
 }
 
-/// The labels of a frame, clear of all `ink`, which is computed only if there are labels.
+/// Draws the labels of a frame. They do not cover `ink`, which is only computed if there are labels. `view` is the
+/// shown part of the scene, metres.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
     labels_with(pen, view, Vec::new(), ink)
 }
 
-/// As [`labels`]; callouts come first.
+/// Like [`labels`], with callouts, which are placed first.
 pub(crate) fn labels_with(
     pen: &Pen<'_>,
     view: Bounds,
@@ -153,7 +156,8 @@ pub(crate) fn labels_with(
     group
 }
 
-/// Whether a name outside its block could be taken for the name of another block, whose centroid is nearly as near.
+/// True if a name lies outside its block and could be the name of another block, because its centroid is nearly as
+/// close.
 fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {
@@ -174,7 +178,7 @@ fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
 }
 
-/// The note on labels that are left out because a frame has too many blocks; `None` if none is.
+/// Returns the note on labels that are left out because a frame has too many blocks; `None` if no label is left out.
 pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     let options = context.options;
     let frames = &context.analysis.scene.frames;
@@ -194,7 +198,7 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
-/// All labels of a frame, the most important first.
+/// Returns all labels of a frame, the most important first.
 fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.context.options;
     let frame = &pen.context.analysis.scene.frames[pen.number];
@@ -232,7 +236,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     labels
 }
 
-/// The blocks that the text below a frame names, in placing order.
+/// Returns the blocks that the text below a frame mentions, in placing order.
 fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
     let scene = &context.analysis.scene;
     let stated = &context.statements[frame];
@@ -242,12 +246,12 @@ fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
         .collect()
 }
 
-/// The edge of a block is this share of the square root of its area.
+/// Length of a block's edge for the font size of its name, as a share of the square root of its area.
 const EDGE_SHARE: f64 = 0.6;
-/// A block whose edge is longer than this, unit edges, has a name of its own size.
+/// The name of a block whose edge is longer than this, in unit edges, has a font size of its own.
 const LARGE_BLOCK: f64 = 3.0;
 
-/// Size of the name of a block with an edge of this length, both in pixels.
+/// Returns the font size of the name of a block with an edge of this length; both in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
         .max(MIN_SIZE)
@@ -277,8 +281,8 @@ fn label(
     }
 }
 
-/// A name of several words, broken into lines that fit the width of its block, if one line does not fit and a few do. A name
-/// written as code points may be broken between any two of them.
+/// Breaks a name of several words into lines that fit into `across` pixels, if one line is too wide. Code points can be
+/// separated too. Returns the label unchanged if it would need too many lines or a word would be split.
 fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
     if label.request.size.0 <= across {
@@ -289,7 +293,7 @@ fn broken(label: Label, across: f64) -> Label {
         false => (name, MAX_LINES),
     };
     let lines = text::balanced(&name, label.face, label.size, across, most + 1);
-    // A word broken in two is not readable as a name.
+    // A name with a split word is not readable.
     let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
     if !whole || lines.len() > most {
         return label;
@@ -310,14 +314,14 @@ fn broken(label: Label, across: f64) -> Label {
     }
 }
 
-/// The name of a block; `None` if no part of the block is in view.
+/// Returns the name of a block; `None` if a zoomed picture does not show any part of the block.
 fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.context.analysis.scene.blocks[id.0];
     let zoomed = pen.context.options.zoom.is_some();
     if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
-    // The name of a large block among small ones is larger.
+    // The name of a large block among small blocks is larger.
     let own = pen
         .camera
         .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
@@ -326,7 +330,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     } else {
         name_size(pen, pen.unit())
     };
-    // A small block has its name nearer.
+    // The name of a small block is nearer to it.
     let extent = block.body.polygon.bounds().diagonal();
     let request = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
@@ -350,7 +354,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
-    // Names of robots are a little smaller than those of blocks, but not below the least size.
+    // Names of robots are slightly smaller than names of blocks, but not below the least size.
     let size = (0.9 * size).max(size.min(MIN_SIZE));
     let named = |hold: &crate::scene::Hold| {
         let request = LabelRequest {
@@ -376,14 +380,14 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     shown.map(named).collect()
 }
 
-/// Size of the letters of amounts, pixels.
+/// Returns the font size of magnitudes, pixels.
 fn amount_size(pen: &Pen<'_>) -> f64 {
     (0.2 * pen.unit())
         .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.amount)
 }
 
-/// A callout as a label. Without room it is left out and counted; the line below the verdict says the same.
+/// Converts a callout to a label. If there is no space for it, it is left out and counted.
 fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     let request = LabelRequest {
         anchor: callout.at,
@@ -400,12 +404,12 @@ fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     }
 }
 
-/// The amounts that are written next to arrows. In a frame that has not `few` blocks they are those of what is given and
-/// what is missing, and of that the largest.
+/// Returns the labels with the magnitudes of arrows. If a frame does not have `few` blocks, they are only those of the
+/// largest loads and missing forces.
 fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let marks = &pen.context.marks[pen.number];
     let size = amount_size(pen);
-    // Between two blocks the same amount acts both ways: it is written once, on the block of the lower number.
+    // The two forces between two blocks have the same magnitude. Write it once, on the block with the lower index.
     let written_here = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
@@ -462,7 +466,8 @@ fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     straight.chain(turning).collect()
 }
 
-/// The amount of a load is part of the problem, and that of what is missing is the answer: both are written in any case.
+/// True if the magnitude of an arrow is written. Those of loads and missing forces from `least` N on are written even
+/// if the options do not request magnitudes, because they are problem and answer.
 fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
     let options = pen.context.options;
     let missing = arrow.kind.is_failure() && !options.printed();
@@ -470,10 +475,11 @@ fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool 
     (options.amounts && few) || (options.labels && given && arrow.force.norm() >= least)
 }
 
-/// Forces that differ by less than this share are equal: ten times what the proof of a balance allows.
+/// Forces that differ by less than this share count as equal: ten times the tolerance of a proof of equilibrium.
 pub(super) const SAME_FORCE: f64 = 1e-6;
 
-/// The arrows of the largest force between two bodies and of the largest force of a robot, where arrows are readable.
+/// Returns the arrows of the largest force between two bodies and of the largest force of a robot. Returns none if
+/// arrows are too small or the options exclude labels.
 fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let context = pen.context;
     let small = context.arrows_too_small(pen.camera.length(1.0));
@@ -484,7 +490,7 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let largest = |kind: fn(ArrowKind) -> bool| {
         let own = arrows.iter().filter(|a| kind(a.kind) && pen.seen(a));
         own.reduce(|most, a| {
-            // Of forces that are equal but for rounding the first is the largest, so that noise moves no label.
+            // If several forces are equal except for rounding, take the first, so that noise does not move a label.
             if a.force.norm() > (1.0 + SAME_FORCE) * most.force.norm() {
                 a
             } else {
@@ -497,8 +503,8 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     contact.into_iter().chain(robot).collect()
 }
 
-/// The least amount of a load or a missing force that is written in a frame, N: of many blocks only the largest have
-/// amounts.
+/// Returns the least magnitude of a load or a missing force that is written in a frame, N. If the frame does not have
+/// `few` blocks, only the largest magnitudes are written.
 fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     if few {
         return 0.0;
@@ -510,7 +516,8 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
 }
 
-/// Preferred centres of a label of this size: on either side of an arrow's shaft, and beyond its tip.
+/// Returns preferred centres of a label of this size: on both sides of an arrow's shaft, and beyond its tip. All
+/// lengths are in pixels.
 fn centres_along(
     from: PagePoint,
     along: (f64, f64),
@@ -522,7 +529,7 @@ fn centres_along(
         return Vec::new();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
-    // The distance of a label's centre from a line that it touches, for a line with this normal.
+    // The distance of a label's centre from a line with this normal that touches the label.
     let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
     let mut middles = Vec::new();
     for share in [0.5, 0.7, 0.3, 0.9, 0.1] {
@@ -537,7 +544,8 @@ fn centres_along(
     middles
 }
 
-/// Preferred centres inside a polygon, those nearest to its centroid first; inside the visible part of it for a `view`.
+/// Returns preferred centres inside a polygon, those nearest to `middle` first. If a `view` is given, they are inside
+/// the visible part.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
     let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
@@ -550,7 +558,8 @@ fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    // Distances that differ by rounding alone are equal; the sort is stable, so the order of the grid decides then.
+    // Rounded distances are equal if they only differ by rounding errors. The sort is stable, so the order of the grid
+    // then decides.
     let step = DISTANCE_STEP * whole.diagonal();
     let rank = |p: &Point| ((p - middle).norm() / step).round();
     let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();
@@ -562,19 +571,19 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.context.options.theme;
     let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
-        // A thin grey line would be lost on a dark fill: it has a seam of the page's colour.
+        // A thin grey line is not visible on a dark fill, so draw a border in the colour of the page.
         let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
         let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
         group = group.with(seam.with_opacity(0.7)).with(line);
     }
-    // A label lies on no outline, so what is below it has one colour.
+    // A label does not cross outlines, so its background has one colour.
     let below = pen.below(middle(placed.rect));
     let colour = theme.letters_on(below, label.colour);
     let halo = pen.context.lines_cross_names.then_some(below);
     lettered(group, label, middle(placed.rect), colour, halo)
 }
 
-/// A label without a clear position, drawn over whatever lies at its anchor, with a halo around its letters.
+/// Draws a label without a free position at its anchor, with a halo around its letters.
 fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.request.anchor);
     let colour = pen.context.options.theme.letters_on(below, label.colour);
@@ -582,7 +591,7 @@ fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
-/// The lines of a label about its centre, with a halo of this colour if one is given.
+/// Adds the lines of a label about its centre to a group, with a halo of this colour if one is given.
 fn lettered(
     mut group: Group,
     label: &Label,

@@ -14,11 +14,12 @@ const MAX_ROW_WIDTH: f64 = 1028.0;
 const MIN_PANEL_WIDTH: f64 = 240.0;
 /// Least width of one of many panels, if wider ones would make the figure longer than a page, pixels.
 const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
-/// Most columns, unless the options ask for more.
+/// Largest number of columns, unless the options set another number.
 const MAX_COLUMNS: usize = 8;
-/// All panels of a page together are at most this many times as high as wide, so that title and key fit on the page.
+/// Largest ratio of height to width of all panels of a page together, so that title and legend fit on the page.
 const MAX_PAGE_RATIO: f64 = 1.2;
-/// A page narrower than the first number, pixels (110 mm), is a column of print; the second is its largest ratio.
+/// A row of panels narrower than the first number, pixels (110 mm), is a column of print; the second number is its
+/// largest ratio.
 const PRINT_COLUMN: (f64, f64) = (520.0, 2.2);
 /// Height of the verdict and its text below a panel, pixels.
 const VERDICT_HEIGHT: f64 = 64.0;
@@ -27,12 +28,12 @@ const MAX_UNIT_EDGE: f64 = 72.0;
 /// Shortest unit edge, pixels, if fewer columns can achieve it.
 const MIN_UNIT_EDGE: f64 = 30.0;
 
-/// What a figure has to fit on.
+/// What has to fit on a page.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fit {
-    /// All of it on one page, if possible.
+    /// The whole figure, if possible.
     Page,
-    /// Each row on a page.
+    /// Each row of panels.
     Rows,
 }
 
@@ -54,17 +55,17 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// A layout of `count` panels that fits on one page if possible.
+    /// Computes a layout of `count` panels that fits on one page if possible.
     pub fn new(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Page)
     }
 
-    /// A layout of `count` panels whose rows may fill several pages.
+    /// Computes a layout of `count` panels whose rows may fill several pages.
     pub fn roomy(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// A layout in which the panels of both fit, at the smaller of their scales.
+    /// Returns this layout with panels that also fit the other layout: the larger width and the smaller scale.
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;
@@ -76,7 +77,7 @@ impl Layout {
         }
     }
 
-    /// A lower bound of the width and height of the page, pixels.
+    /// Returns a lower bound of the width and height of the page, pixels.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -100,7 +101,7 @@ impl Layout {
         let columns = match context.options.columns {
             Some(columns) => columns.clamp(1, count),
             None => {
-                // On as many pages as it takes panels may be small, but not narrow.
+                // If the rows may fill several pages, panels may have a small scale, but they must not be narrow.
                 let fits = |columns: usize| {
                     (fit == Fit::Rows || scale(columns) * context.unit >= MIN_UNIT_EDGE)
                         && room(columns) >= MIN_PANEL_WIDTH.min(across)
@@ -121,7 +122,8 @@ impl Layout {
                 } else {
                     MAX_PAGE_RATIO
                 };
-                // More columns where the figure would not fit on a page; the fewest that help, or those that help most.
+                // If the figure is too high for a page, use more columns: the least number with which it fits, or else
+                // the number with the least height.
                 let narrow = roomy + 1..=count.min(MAX_COLUMNS);
                 let narrow = || {
                     narrow
@@ -164,8 +166,8 @@ impl Layout {
             (_, 1) => 460.0,
             _ => 360.0,
         };
-        // A page of its own width fixes the scale, and so do many panels; otherwise panels are as wide as their captions
-        // need.
+        // With a given page width or many columns the available width limits the scale. Otherwise panels are at least
+        // as wide as captions need.
         let wide = match context.options.width {
             Some(_) => room,
             None if columns > 3 => room,
@@ -174,12 +176,12 @@ impl Layout {
         let scale = ((wide - dimensions(context)).max(1.0) / context.view.width())
             .min(high / context.view.height())
             .min(MAX_UNIT_EDGE / context.unit);
-        // A scene too small for its own coordinates to tell its places apart has no scale.
+        // If a scene is so small that its scale is infinite, use 1.
         if scale.is_finite() { scale } else { 1.0 }
     }
 }
 
-/// Room that dimension lines take beside a picture, pixels.
+/// Returns the total width that dimension lines need next to a picture, pixels.
 fn dimensions(context: &FigureContext<'_>) -> f64 {
     if context.options.dimensions {
         2.0 * dimension::ASIDE
@@ -188,7 +190,7 @@ fn dimensions(context: &FigureContext<'_>) -> f64 {
     }
 }
 
-/// How high the longest caption is in panels of this width, pixels.
+/// Returns the height of the longest caption in panels of this width, pixels; 0 if there are no captions.
 fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     let (scene, size) = (&context.analysis.scene, context.options.theme.sizes.caption);
     if !context.options.captions || count < 2 {
@@ -201,12 +203,12 @@ fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     lines.max().unwrap_or(0) as f64 * 1.3 * size
 }
 
-/// Room around a figure on a page of this width, pixels.
+/// Returns the margin of a figure on a page of this width, pixels.
 fn margin(width: f64) -> f64 {
     (0.025 * width).min(MAX_MARGIN)
 }
 
-/// Room for one of several panels beside each other, pixels.
+/// Returns the width available for each of several panels next to each other, pixels. `across` is the width of the row.
 fn room(across: f64, gap: f64, columns: usize) -> f64 {
     ((across - (columns - 1) as f64 * gap) / columns as f64).max(1.0)
 }

@@ -1,17 +1,17 @@
-//! [`path`]: the true lines of action in a block that two bodies press.
+//! [`path`]: finds the path of force along true lines of action through a block between two joints.
 //!
-//! The path starts along the force at the first joint. Where it meets the line of action of a load or of the weight, it
-//! goes on along the line of their resultant. At last it arrives at the second joint along the line of the force there.
+//! The path starts along the force at the first joint. At the line of action of a load or of the weight it turns into
+//! the line of their resultant. It ends at the second joint, along the line of the force there.
 
 use crate::geometry::{Point, Polygon, Vector, cross};
 
-/// A line passes through a point if it misses it by less than this share of the block's size.
+/// Tolerance of the distance between a line and a point, as a share of the block's size.
 const LENGTH_TOL: f64 = 1e-6;
 /// Corners of the path lie at most this far outside the block, as a share of the square root of its area.
 const NEAR: f64 = 0.15;
 /// The sine of the angle below which two lines of action are parallel.
 const PARALLEL: f64 = 1e-6;
-/// With more loads than this, the weight counted in, their orders are not tried.
+/// With more loads than this, including the weight, no path is sought.
 const MAX_ORDERED: usize = 4;
 
 /// A force with a point of its line of action.
@@ -25,16 +25,17 @@ pub(super) struct Pressed {
 /// A path along true lines of action.
 #[derive(Clone, Debug)]
 pub(super) struct TruePath {
-    /// From the first joint over every corner to the second joint.
+    /// The first joint, the corners in order, and the second joint.
     pub corners: Vec<Point>,
-    /// The force along each piece between them, N.
+    /// The force along each segment between them, N.
     pub amounts: Vec<f64>,
-    /// For each load its number and the corner where it joins.
+    /// For each load its index and the corner at which it joins the path.
     pub joins: Vec<(usize, Point)>,
 }
 
-/// The path from the first joint to the second, if all of it lies in or near the block and leads forward. The order of the
-/// loads is not known, so all orders are tried.
+/// Returns the path from the first joint to the second. The order of the loads is not known, so all orders are tried.
+/// Returns `None` if no path lies in or near the block and leads forward, or if there are more than [`MAX_ORDERED`]
+/// loads.
 pub(super) fn path(
     polygon: &Polygon,
     first: Pressed,
@@ -71,7 +72,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The path completed from its last corner along `force`.
+    /// Continues a path from its last corner along `force` to the second joint. Returns `None` if that is not possible.
     fn onward(&self, path: TruePath, force: Vector) -> Option<TruePath> {
         let amount = force.norm();
         let at = *path.corners.last()?;
@@ -98,7 +99,8 @@ impl Search<'_> {
         })
     }
 
-    /// The path with its last piece, if that lies on the line of the second joint's force.
+    /// Adds the last segment, from `at` to the second joint. Returns `None` if `force` at `at` does not point to this
+    /// joint.
     fn arrived(&self, mut path: TruePath, at: Point, force: Vector) -> Option<TruePath> {
         let way = self.second.at - at;
         let aside = cross(force, way) / force.norm();
@@ -111,14 +113,15 @@ impl Search<'_> {
         Some(path)
     }
 
-    /// Whether a point lies in the block or near it.
+    /// True if a point lies in the block or near it.
     fn is_near(&self, p: Point) -> bool {
         let mut edges = self.polygon.edges();
         self.polygon.contains(p) || edges.any(|edge| from_edge(edge.from, edge.to, p) <= self.near)
     }
 }
 
-/// Where two lines meet, `None` where they are parallel. A force whose point lies on the other line meets it there.
+/// Returns the intersection of two lines; `None` if they are parallel and different. If they are the same line, it is
+/// `b`.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);
     if sine.abs() <= PARALLEL * along_a.norm() * along_b.norm() {
@@ -129,7 +132,7 @@ fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point
     Some(a + along_a * (cross(b - a, along_b) / sine))
 }
 
-/// The distance of a point from the piece of a line between two points, metres.
+/// Returns the distance of a point from the segment between two points, metres.
 fn from_edge(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);

@@ -1,4 +1,4 @@
-//! [`ribbon`]: the outline of a band along an axis, as wide at each point as it is told.
+//! [`ribbon`]: computes the outline of a band from its axis and its width at each point.
 
 use crate::drawing::{Camera, Outline};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -6,8 +6,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 /// At a corner a band is at most this many times as wide as on either side.
 const LONGEST_MITRE: f64 = 1.6;
 
-/// The outline of a band along `axis`, with its full width at each point, all in metres, on the page. At a point that
-/// stands twice the width steps from one to the other.
+/// Returns the outline on the page of a band along `axis`, with its full width at each point, in metres. At a point
+/// that occurs twice the width changes in a step.
 pub(super) fn ribbon(axis: &[Point], widths: &[f64], camera: &Camera) -> Outline {
     let points = 0..axis.len().min(widths.len());
     if axis.iter().all(|p| same(*p, axis[0])) {
@@ -24,7 +24,8 @@ fn same(a: Point, b: Point) -> bool {
     (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
 }
 
-/// The direction across the band at point `i`, longer at a corner, so that the band keeps its width on both sides.
+/// Returns the vector across the band at point `i`, to the left. It is a unit vector, but longer at a corner, so that
+/// the band keeps its width on both sides.
 fn aside(axis: &[Point], i: usize) -> Vector {
     let apart = |p: &&Point| !same(**p, axis[i]);
     let across = |along: Vector| quarter_turn(along / along.norm());

@@ -1,8 +1,10 @@
-//! [`strands`]: how the forces of a frame run through its blocks, as strands with exact widths at their ends.
+//! [`strands`]: computes the paths of the forces through the blocks of a frame, as strands with exact widths at their
+//! ends.
 //!
-//! In each block a strand joins a point where force enters to a point where it leaves. Where the true lines of action meet
-//! in or near the block, [`line`](super::line) has the strands. Elsewhere every force that enters is shared among the
-//! forces that leave, in proportion to their amounts. All strands of a force together are as wide as the force.
+//! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
+//! action meet in or near the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
+//! divided among the forces that leave, in proportion to their magnitudes. All strands of a force together are as wide
+//! as the force.
 
 use super::line::{self, Pressed};
 use crate::analysis::{Failure, FrameAnalysis};
@@ -10,17 +12,18 @@ use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 
-/// A force whose component along gravity is below this share of it enters or leaves by its direction across gravity.
+/// If the component along gravity is below this share of a force, its component across gravity decides whether it
+/// enters or leaves.
 const ACROSS: f64 = 1e-6;
-/// A curve that is not a true line has this many pieces.
+/// Number of segments of a schematic curve.
 const PIECES: usize = 12;
-/// A curve follows the direction of its force for this share of its way along that direction.
+/// Distance of the control points of a curve from its ends, as a share of the chord's component along the force.
 const STRAIGHT: f64 = 0.2;
 
 /// The origin of a force on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Origin {
-    /// Another body, through the contact of this number.
+    /// Another body, through the contact with this index.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
@@ -28,7 +31,7 @@ pub(crate) enum Origin {
     Load,
     /// The weight of the block.
     Weight,
-    /// The failure of this number: what would have to stick.
+    /// The missing force of the failure with this index.
     Missing(usize),
 }
 
@@ -49,7 +52,7 @@ pub(crate) enum StrandKind {
     Carried,
     /// The weight of the block, on its way to the forces that carry it.
     Weight,
-    /// Force that comes from or goes to a place where something is missing.
+    /// Force from or to a point where a force is missing.
     Missing,
 }
 
@@ -63,14 +66,14 @@ pub(crate) struct Strand {
     pub to: Origin,
     /// Its axis, metres, from where the force enters to where it leaves.
     pub axis: Vec<Point>,
-    /// Its width at each point of the axis, N. A point that stands twice has the widths on either side.
+    /// Its width at each point of the axis, N. A point that occurs twice has the widths on both sides.
     pub widths: Vec<f64>,
     /// Whether it runs along true lines of action; otherwise it is schematic.
     pub exact: bool,
 }
 
-/// The strands of a frame, block by block in placing order; an axis is moved aside by `metres_per_newton`, so that the
-/// strands of a force lie side by side.
+/// Returns the strands of a frame, block by block in placing order. `metres_per_newton` is the scale of the widths. The
+/// axes are offset accordingly, so that the strands of a force lie next to each other.
 pub(crate) fn strands(
     scene: &Scene,
     frame: &Frame,
@@ -94,7 +97,7 @@ pub(crate) fn strands(
     all
 }
 
-/// Every force on each block, by its number.
+/// Returns all forces on each block, by its index.
 fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting>> {
     let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
@@ -141,7 +144,7 @@ fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting
     acting
 }
 
-/// The missing force of a failure on each body that it acts on.
+/// Returns the missing force of a failure on each body on which it acts.
 fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
     match *failure {
         Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
@@ -152,7 +155,8 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
     }
 }
 
-/// The strands along true lines of action: of a block between two bodies, with its weight and its loads.
+/// Returns the strands of a block between two bodies or robots along true lines of action. Returns `None` if other
+/// forces than these, the weight and loads act, or if there is no such path.
 fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Strand>> {
     let presses = |f: &&Acting| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
     let given = |f: &&Acting| matches!(f.origin, Origin::Load | Origin::Weight);
@@ -161,7 +165,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Stran
     let [one, other] = pressing[..] else {
         return None;
     };
-    // The path runs the way of the weights.
+    // The path begins at the joint whose force points more downwards.
     let along = |f: &Acting| f.force.dot(&scene.down());
     let (first, second) = match along(one) < along(other) {
         true => (other, one),
@@ -211,7 +215,7 @@ fn pressed(acting: &Acting) -> Pressed {
     }
 }
 
-/// How the forces on a block are shared.
+/// Divides the forces that enter a block among the forces that leave it.
 struct Sharing {
     on: BlockId,
     /// The direction of gravity.
@@ -220,7 +224,7 @@ struct Sharing {
 }
 
 impl Sharing {
-    /// Whether a force enters the block: it acts along gravity, and leaves where it acts against it.
+    /// True if a force enters the block: its component along gravity is positive. Other forces leave the block.
     fn enters(&self, acting: &Acting) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ACROSS * acting.force.norm() {
@@ -229,7 +233,7 @@ impl Sharing {
         acting.force.dot(&quarter_turn(self.down)) > 0.0
     }
 
-    /// A strand for each force that enters and each force that leaves.
+    /// Returns a strand for each pair of a force that enters and a force that leaves.
     fn strands(&self, forces: &[Acting]) -> Vec<Strand> {
         let (ins, outs): (Vec<&Acting>, Vec<&Acting>) = forces.iter().partition(|f| self.enters(f));
         let sum = |side: &[&Acting]| side.iter().map(|f| f.force.norm()).sum::<f64>();
@@ -242,7 +246,7 @@ impl Sharing {
             for to in &outs {
                 let (start, end) = (from.force.norm(), to.force.norm());
                 let widths = [start * end / leaving, end * start / entering];
-                // What enters flows along its force; what leaves flows against the force that carries it.
+                // A strand begins along the force that enters, and ends against the force that leaves.
                 let first = self.end(from.at, from.force, &outs, to, leaving);
                 let last = self.end(to.at, -to.force, &ins, from, entering);
                 strands.push(self.strand(from, to, [first, last], widths));
@@ -251,8 +255,8 @@ impl Sharing {
         strands
     }
 
-    /// Where the strand of `force` to or from `partner` ends, and its direction there: beside the strands of the other
-    /// `partners`, in their order across the force.
+    /// Returns the end of the strand between the force at `at` and `partner`, and its direction there. The strands of
+    /// all `partners` lie next to each other, in their order across the force. `sum` is the sum of their magnitudes.
     fn end(
         &self,
         at: Point,
@@ -307,8 +311,8 @@ impl Sharing {
     }
 }
 
-/// A curve between two points that leaves the first and reaches the second in these directions, as far as that leads
-/// forward.
+/// Returns a curve between two points that leaves the first and reaches the second in these directions. A direction
+/// that points backwards is ignored.
 fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
     let chord = b - a;
     let handle = |along: Vector| STRAIGHT * chord.dot(&along).max(0.0);

@@ -1,4 +1,4 @@
-//! Force flow in words: titles of bands and joints, and the line below the verdict.
+//! The text of force flow figures: titles of bands and joints, and the line below the verdict.
 
 use super::largest_contact;
 use super::strand::{Origin, Strand};
@@ -13,7 +13,7 @@ use crate::scene::{BodyId, Scene};
 /// Forces that differ by less than this share are equally large.
 const ALIKE: f64 = 1e-3;
 
-/// What a band shows.
+/// Describes a band.
 pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
     let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), "N");
@@ -27,7 +27,7 @@ pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> S
     )
 }
 
-/// The origin of a force on a body.
+/// Returns a name for the origin of a force on a body.
 fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
     let other = |[a, b]: [BodyId; 2]| description::named(scene, if a == on { b } else { a });
     match origin {
@@ -39,14 +39,14 @@ fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> Str
     }
 }
 
-/// The resultant of a joint.
+/// Describes the resultant of a joint.
 pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
     let pair = description::pair(scene, contact.interface.bodies);
     let amount = quantity(contact.resultant.force.norm(), "N");
     format!("Between {pair}: {amount}")
 }
 
-/// The line below the verdict: why the frame does not stand, and its largest force.
+/// Returns the line below the verdict: why the frame does not stand, its largest force, and its joints at a limit.
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let why = verdict::reason(scene, found);
@@ -55,7 +55,7 @@ pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     parts.join("; ")
 }
 
-/// The largest force of a joint; empty where no joint has a force.
+/// Describes the largest force of a joint; empty if no joint has a force.
 fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
     let Some(contact) = largest_contact(found) else {
         return String::new();

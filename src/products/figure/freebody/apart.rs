@@ -1,20 +1,20 @@
 //! [`apart`]: moves arrows of a free-body diagram that lie on one line next to each other.
 //!
-//! A stone in the middle of a pile is pushed up on the line along which its weight pulls it down: drawn there, the two
-//! heads would run into each other. Only where an arrow is drawn changes; the list keeps the line along which it acts.
+//! A block in the middle of a pile is pushed up on the same line on which its weight pulls it down. Drawn there, the
+//! two arrows would overlap. Only the position of the arrow changes; the list keeps the line of action.
 
 use super::arrow::{Arrow, WIDTH};
 use crate::drawing::Camera;
 use crate::drawing::arrow::HEAD_WIDTH;
 
-/// Arrows whose directions differ by less than this, rad, run side by side.
+/// Arrows whose directions differ by less than this, rad, count as parallel.
 const PARALLEL_ANGLE: f64 = 0.12;
-/// Arrows that overlap along their line by less than this, pixels, touch end to end and stay on it.
+/// Arrows that overlap along their line by less than this, pixels, are not moved.
 const END_TO_END: f64 = 2.0;
-/// Distance of two axes, pixels: the heads and a small gap.
+/// Distance of two axes, pixels: the width of a head and a small gap.
 const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
 
-/// Moves each arrow that lies on an earlier one to its side.
+/// Moves each arrow that overlaps an earlier one to its side, by up to two steps, if there is space.
 pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     for i in 1..arrows.len() {
         let (before, rest) = arrows.split_at_mut(i);
@@ -47,7 +47,8 @@ pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     }
 }
 
-/// Whether two arrows overlap. `offset` is the vector from the beginning of the first to the beginning of the second.
+/// True if two arrows are parallel and overlap. `offset` is the vector from the beginning of the first to the beginning
+/// of the second, in pixels.
 fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
     let (long, other) = (
         libm::hypot(first.0, first.1),

@@ -7,10 +7,10 @@ use crate::drawing::{Camera, PageRect};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Room beyond the tip of an arrow for its name, pixels.
+/// Space beyond the tip of an arrow for its name: width and height, pixels.
 const NAMED: (f64, f64) = (38.0, 24.0);
 
-/// The bodies that touch a block, each once.
+/// Returns the bodies that touch a block, each once.
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     let mut bodies: Vec<BodyId> = Vec::new();
     for contact in contacts {
@@ -23,7 +23,7 @@ pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     bodies
 }
 
-/// The different application points of a contact: two, or one if they coincide.
+/// Returns the distinct application points of a contact: two, or one if they coincide.
 pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     let [a, b] = contact.application_points;
     if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) {
@@ -33,7 +33,7 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     }
 }
 
-/// The box to show: the whole block, and the nearby parts of its neighbours.
+/// Returns the box in metres that is shown: the whole block, and the nearby parts of its neighbours.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
@@ -49,7 +49,7 @@ pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -
     view
 }
 
-/// What an interface gives to the block at one of its ends.
+/// The forces of an interface on the block at one of its ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// The application point, metres.
@@ -60,10 +60,11 @@ pub(super) struct Corner {
     pub friction: f64,
 }
 
-/// The forces at both ends of an interface. The end to the left of ŝ comes first, as in figures 1 and 2 of the source.
+/// Returns the forces at both ends of an interface. The end to the left of the unit normal ŝ comes first, as in figures
+/// 1 and 2 of the thesis.
 ///
-/// Of friction only the sum is known, and both ends' acts along one line: each gets a share like that of the pressure,
-/// so that the two together act where the interface's resultant does. An end that is alone bears all.
+/// Only the sum of the friction forces is known, because both act along one line. It is divided in proportion to the
+/// normal forces, so that the sum of both ends acts at the resultant of the interface. A single end gets everything.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
     // Friction is positive along (−n_y, n_x) on the first body. On the second body both the direction and the force change
@@ -101,7 +102,7 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     }
 }
 
-/// The unit normal into a block at one of its contacts.
+/// Returns the unit normal into a block at one of its contacts.
 pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     if contact.interface.bodies[0] == BodyId::Block(block) {
         contact.interface.normal
@@ -110,7 +111,7 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// The other body of a contact of the block.
+/// Returns the other body of a contact of the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
     if first == BodyId::Block(block) {
@@ -120,8 +121,9 @@ pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     }
 }
 
-/// The point at which ŝ is drawn: the middle of its interface. For the only interface of a block it is `clear` metres next
-/// to the block, on the edge of the neighbour, if nothing else is there.
+/// Returns the point at which the unit normal ŝ is drawn: the middle of its interface. If the block has only one
+/// interface (`single`), it is a point on the edge of the neighbour, `clear` metres beyond an end of the interface, if
+/// nothing else is there.
 pub(super) fn aside(
     scene: &Scene,
     contact: &Contact,
@@ -155,7 +157,7 @@ pub(super) fn aside(
         .unwrap_or(interface.middle())
 }
 
-/// The space in pixels that arrows and their names need outside the shown part: left, top, right, bottom.
+/// Returns the space in pixels that arrows and their names need outside the shown part: left, top, right, bottom.
 pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
     let mut pads: [f64; 4] = [12.0; 4];
     for arrow in arrows {
@@ -183,7 +185,7 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     pads
 }
 
-/// Whether a point lies outside the view on a side where the body continues.
+/// True if a point lies outside the view on a side on which the body continues.
 pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
     at.x < view.min.x && body.min.x <= view.min.x
         || at.x > view.max.x && body.max.x >= view.max.x
@@ -191,8 +193,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// Whether coordinates are shown: only for a block with one interface that no robot holds, because the picture stays
-/// readable then.
+/// True if coordinates are shown: only for a block with one interface that no robot holds. Otherwise the picture would
+/// not be readable.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

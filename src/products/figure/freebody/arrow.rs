@@ -12,15 +12,15 @@ pub(super) const WIDTH: f64 = 2.4;
 /// An arrow on the page.
 #[derive(Clone, Debug)]
 pub(super) struct Arrow {
-    /// Its name; `None` where another arrow bears it.
+    /// Its name; `None` if another arrow of the same unknown has it.
     pub symbol: Option<Symbol>,
-    /// What it is, in words.
+    /// Its description.
     pub title: String,
-    /// Where it begins, metres.
+    /// The point where it begins, metres.
     pub at: Point,
-    /// Where it goes from there, pixels; of a turning arrow the radius.
+    /// The vector to its tip, pixels. For a torque arrow its length is the radius.
     pub along: (f64, f64),
-    /// The angle of a turning arrow, radians.
+    /// The angle of a torque arrow, radians; `None` for a straight arrow.
     pub turn: Option<f64>,
     /// Width of its shaft, pixels.
     pub width: f64,
@@ -31,8 +31,8 @@ pub(super) struct Arrow {
 }
 
 impl Arrow {
-    /// Possible centres for the name of the arrow, next to its tail and its shaft. `from` is the beginning of the arrow on
-    /// the page.
+    /// Returns possible centres for the name of the arrow, which is `wide` and `high` pixels large: on both sides of
+    /// its shaft and beyond its tip, or around a torque arrow. `from` is the beginning of the arrow on the page.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);
@@ -47,7 +47,7 @@ impl Arrow {
         }
         let mut middles = Vec::new();
         for share in [0.8, 1.0, 0.55, 0.3] {
-            // Try the position above the shaft first: readers look there first.
+            // Try the position above the shaft first, because readers look there first.
             let up = if -ux > 0.0 { 1.0 } else { -1.0 };
             for side in [up, -up] {
                 let (nx, ny) = (-uy * side, ux * side);

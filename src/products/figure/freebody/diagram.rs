@@ -1,4 +1,4 @@
-//! [`arrows`]: the arrows of a free-body diagram, in three groups: the forces on the block, the forces that may act at each
+//! [`arrows`]: creates the arrows of a free-body diagram: the forces on the block, the forces that may act at each
 //! corner, and the unit normals.
 
 use super::super::option::{Corners, Options};
@@ -13,35 +13,36 @@ use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Vector, quarter_turn};
 use crate::scene::BlockId;
 
-/// Length of an arrow that names a force whatever its amount, pixels.
+/// Length of an arrow that only names a force, pixels.
 const NAMING_LENGTH: f64 = 52.0;
-/// Longest friction arrow of those, pixels.
+/// Largest length of a friction arrow that only names a force, pixels.
 const FRICTION_LENGTH: f64 = 42.0;
 /// Length and width of the arrow of a unit normal ŝ, pixels.
 const UNIT_NORMAL_LENGTH: f64 = 30.0;
 const UNIT_NORMAL_WIDTH: f64 = 1.2;
 /// Friction arrows of one interface reach at most this far towards each other, as a share of its length.
 const FRICTION_REACH: f64 = 0.30;
-/// Radius of a turning arrow, pixels.
+/// Radius of a torque arrow, pixels.
 const TURN_RADIUS: f64 = 24.0;
-/// Angle of a turning arrow that names a torque whatever its amount, radians.
+/// Angle of an arrow that only names a torque, radians.
 const NAMING_SWEEP: f64 = 3.4;
 /// A block whose diagonal is at least this long on the page, pixels, has arrows of full length.
 const FULL_LENGTH_DIAGONAL: f64 = 300.0;
 
-/// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
+/// Returns the length of the longest arrow, pixels. It is shorter on a small block, where long arrows would cross each
+/// other.
 pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     length_factor(analysis, block, camera) * MAX_LENGTH
 }
 
-/// The factor by which arrows on a small block are shorter.
+/// Returns the factor (0.5 to 1) by which arrows on a small block are shorter.
 fn length_factor(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
     (camera.length(bounds.diagonal()) / FULL_LENGTH_DIAGONAL).clamp(0.5, 1.0)
 }
 
-/// The arrows of the forces, as long as their amounts. With [`Corners::All`] every force that may act, all arrows of one
-/// kind of one length, because they only name forces.
+/// Returns the arrows of the diagram, with lengths proportional to the forces. With [`Corners::All`] there is an arrow
+/// for every force that may act. These arrows only name forces, so all arrows of one kind have the same length.
 pub(super) fn arrows(
     analysis: &Analysis,
     block: BlockId,
@@ -92,20 +93,20 @@ impl Diagram<'_> {
         &self.analysis.scene.blocks[self.block.0].id
     }
 
-    /// A direction of the scene as a vector of this length on the page, pixels.
+    /// Converts a direction of the scene to a vector on the page of this length in pixels.
     fn on_page(&self, direction: Vector, length: f64) -> (f64, f64) {
         let (x, y) = self.camera.turn(direction);
         let scale = length / libm::hypot(x, y).max(1e-300);
         (x * scale, y * scale)
     }
 
-    /// The forces as straight arrows, the torques as turning ones.
+    /// Returns a straight arrow for each force and a torque arrow for each torque.
     fn force_arrows(&self, forces: &[Force]) -> Vec<Arrow> {
         let edge = unit(&self.analysis.scene, None);
         let largest = largest(forces, edge, self.options);
         let mut arrows = Vec::new();
         for force in forces {
-            // Where arrows name forces, `corner_arrows` draws those of interfaces.
+            // If arrows only name forces, `corner_arrows` draws the forces of interfaces.
             let of_interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
                 && force.colour == self.options.theme.ink;
             if self.naming && of_interface {
@@ -148,7 +149,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// At each corner of an interface the normal force and the friction forces to both sides, by name.
+    /// Returns the arrows that name the normal force and the friction forces to both sides at each corner of an
+    /// interface. `number` is the index of the interface.
     fn corner_arrows(&self, number: usize, contact: &Contact) -> Vec<Arrow> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -172,7 +174,7 @@ impl Diagram<'_> {
                 };
                 arrows.push(Arrow {
                     title: format!("{what} {} on block {}", symbol.stated(), self.block_name()),
-                    // The parts of one unknown share its name, which one of them has.
+                    // Several arrows of one unknown have one common name, at the first of them.
                     symbol: (self.detail == Detail::Parts || part == 0).then_some(symbol),
                     at: corner.at,
                     along: self.on_page(direction, length),
@@ -186,7 +188,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// The unit normal of an interface, into the block, next to the arrows of its forces.
+    /// Returns the arrow of the unit normal of an interface into the block, next to the arrows of its forces. `number`
+    /// is the index of the interface.
     fn unit_normal(&self, number: usize, contact: &Contact) -> Arrow {
         let single = self.contacts.len() == 1;
         let below = if single {

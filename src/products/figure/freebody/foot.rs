@@ -15,14 +15,15 @@ use crate::figure::verdict;
 use crate::figure::words::{quantity, round_below};
 
 impl Sheet<'_> {
-    /// The list of forces, moments about the block's centroid.
+    /// Returns the list of forces, with moments about the centroid of the block.
     pub(super) fn table(&self) -> Table {
         let body = &self.analysis.scene.blocks[self.block.0];
         let size = body.body.polygon.bounds().diagonal();
         Table::new(&self.forces, body.centroid, size)
     }
 
-    /// Draws the verdict, the scale, the notes and the resultant below `top`. Returns the lower end.
+    /// Draws the verdict, the scale, the notes and the list of forces below `top` (pixels). `nameless` is the number of
+    /// names without space. Also returns the lower end in pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let (scene, found) = (&self.analysis.scene, &self.analysis.frames[self.frame]);
@@ -88,7 +89,7 @@ impl Sheet<'_> {
         (group, y)
     }
 
-    /// An arrow with a round amount as scale; `None` if the lengths of the arrows show no amounts.
+    /// Returns an arrow for a round force as scale; `None` if the lengths of the arrows do not show magnitudes.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below(largest);
@@ -99,8 +100,8 @@ impl Sheet<'_> {
         })
     }
 
-    /// Notes for the reader: arrows whose length shows no amount, forces and names that are left out, and forces that do not
-    /// balance.
+    /// Returns notes for the reader, on arrows whose length does not show the magnitude, on forces and names that are
+    /// left out, and on forces that do not balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {
@@ -129,7 +130,7 @@ impl Sheet<'_> {
         notes
     }
 
-    /// The diagram in words: its arrows, the list of forces, and the points where forces act.
+    /// Describes the diagram: its arrows, the list of forces, and the points where forces act.
     pub(super) fn described(&self) -> String {
         let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
         let mut stated = self.table().stated();

@@ -1,4 +1,4 @@
-//! [`Force`]: a force on the block as it is listed, with its name, and [`Arrow`]: how it is drawn.
+//! [`Force`]: a force on the block with its name, as it is listed. [`forces`] collects all of them.
 
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
@@ -11,7 +11,7 @@ use crate::scene::{BlockId, BodyId};
 
 /// With at most this many interfaces the forces at both ends of each are drawn, unless the options say otherwise.
 const MAX_INTERFACES_BY_CORNER: usize = 3;
-/// Forces below this share of the largest are rounding of the solver.
+/// Forces below this share of the largest are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 
 /// A force on the block.
@@ -19,27 +19,27 @@ const FORCE_TOL: f64 = 1e-9;
 pub(super) struct Force {
     /// Its name.
     pub symbol: Symbol,
-    /// What it is, in words.
+    /// Its kind, in words.
     pub what: &'static str,
-    /// Who gives it.
+    /// Its origin, in words.
     pub from: String,
-    /// Where it acts, metres.
+    /// The point where it acts, metres.
     pub at: Point,
-    /// What acts, N.
+    /// The force, N.
     pub force: Vector,
-    /// The torque that acts beside it, N·m.
+    /// The torque, N·m.
     pub torque: f64,
     /// Its colour.
     pub colour: Colour,
 }
 
 impl Force {
-    /// Its moment about a point, N·m.
+    /// Returns its moment about a point, N·m.
     pub(super) fn moment(&self, about: Point) -> f64 {
         cross(self.at - about, self.force) + self.torque
     }
 
-    /// It and its amount in words.
+    /// Describes the force and its magnitude; `on` is the name of the block.
     pub(super) fn title(&self, on: &str) -> String {
         let amount = if self.force.norm() > 0.0 || self.torque == 0.0 {
             amount(self.force)
@@ -54,18 +54,18 @@ impl Force {
     }
 }
 
-/// How much is reported of the forces of interfaces.
+/// The level of detail of the forces of interfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// Normal and friction force at each corner, each by its own name: of a block on one interface.
+    /// Normal and friction force at each corner, each with its own name: for a block with one interface.
     Parts,
-    /// At each corner one force: of a block on few interfaces.
+    /// One force at each corner: for a block with few interfaces.
     Corners,
     /// One force for each interface.
     Resultants,
 }
 
-/// How much is reported of the forces of so many interfaces.
+/// Returns the level of detail for a block with `count` interfaces.
 pub(super) fn detail(count: usize, options: &Options) -> Detail {
     match (options.corners, count) {
         (_, 0..=1) => Detail::Parts,
@@ -75,7 +75,7 @@ pub(super) fn detail(count: usize, options: &Options) -> Detail {
     }
 }
 
-/// Every force on a block: weight, loads, interfaces, robots, and what is missing.
+/// Returns all forces on a block: weight, loads, forces of interfaces and robots, and missing forces.
 pub(super) fn forces(
     analysis: &Analysis,
     frame: usize,
@@ -242,7 +242,8 @@ pub(super) fn forces(
     forces
 }
 
-/// What a failure would have to give to a block: who, what, where, and force and torque.
+/// Returns the missing force of a failure on a block: its origin, its kind, the point where it acts, and force (N) and
+/// torque (N·m). Returns `None` if it does not act on this block.
 fn missing(
     analysis: &Analysis,
     failure: &Failure,
@@ -267,7 +268,7 @@ fn missing(
     Some((format!("missing, {whose}"), what, failure.at(), action))
 }
 
-/// A body as the list has it.
+/// Returns the name of a body for the list.
 fn named(analysis: &Analysis, body: BodyId) -> String {
     match body {
         BodyId::Ground(_) => "ground".to_owned(),
@@ -275,7 +276,8 @@ fn named(analysis: &Analysis, body: BodyId) -> String {
     }
 }
 
-/// The amount of the longest arrow, N, a torque counting as torque per unit edge; 0 where lengths tell nothing.
+/// Returns the force of the longest arrow, N; a torque counts as torque divided by `edge`, the unit edge in metres.
+/// Returns 0 if lengths do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
     match options.corners {
@@ -284,7 +286,7 @@ pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     }
 }
 
-/// The name of a weight.
+/// Returns the symbol of a weight.
 pub(super) fn weight() -> Symbol {
     Symbol::new("m", Accent::None, "").then(Symbol::new("g", Accent::Arrow, ""))
 }

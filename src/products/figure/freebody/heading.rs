@@ -7,7 +7,8 @@ use crate::figure::option::Options;
 use crate::figure::words::letter;
 use crate::scene::BlockId;
 
-/// The lines of the heading, each with its face and size.
+/// Returns the lines of the heading, each with its face and its font size in pixels. `width` is the width of the page
+/// in pixels.
 pub(super) fn heading(
     analysis: &Analysis,
     frame: usize,

@@ -1,12 +1,14 @@
-//! [`freebody`]: one block cut free, with every force on it by name, and a list of them that balances.
+//! [`freebody`]: draws the free-body diagram of a block: all forces on it with their names, and a list of the forces
+//! with their sum.
 //!
-//! Weight, loads, what other bodies and robots give, and what is missing: each is an arrow as long as its amount and a row
-//! of the list. Of a block on one interface the normal and friction forces stand apart at each end, with the names of
-//! the source's figure 1 ([Vallat23](crate::doc::references) §2.0.3); on two or three interfaces each end has one force,
-//! numbered as in its figure 2; on more each interface has one. With [`Corners::All`](super::option::Corners) the arrows
-//! name every unknown of the program instead, also those that are zero, all of a kind equally long.
+//! Each force has an arrow, whose length shows its magnitude, and a row in the list: weight, loads, forces of other
+//! bodies and robots, and missing forces. A block with one interface has separate normal and friction forces at each
+//! end, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). With two or three interfaces
+//! each end has one force, numbered as in its figure 2. With more, each interface has one force. With
+//! [`Corners::All`](super::option::Corners) the arrows name every unknown of the program instead, even if it is zero.
+//! All arrows of a kind then have the same length.
 //!
-//! Bodies that touch the block are outlined, ground is hatched.
+//! Bodies that touch the block are outlined, and ground is hatched.
 
 mod apart;
 mod around;
@@ -38,30 +40,31 @@ use crate::figure::arrow::LEAST_SEEN;
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::scene::{BlockId, BodyId};
 
-/// Size of names in the drawing, pixels.
+/// Font size of names in the drawing, pixels.
 const NAME: f64 = 19.0;
-/// Size of amounts below it, pixels.
+/// Font size of the list below it, pixels.
 const AMOUNT: f64 = 15.0;
-/// Size of the heading, pixels.
+/// Font size of the heading, pixels.
 const HEADING: f64 = 20.0;
-/// Size of the line below the heading, pixels.
+/// Font size of the line below the heading, pixels.
 const SUBHEADING: f64 = 15.0;
-/// Widest and highest a picture becomes, pixels.
+/// Largest width and height of a picture, pixels.
 const LARGEST: f64 = 440.0;
-/// Room to the left of the picture for axes and the names of coordinates, pixels.
+/// Space to the left of the picture for axes and names of coordinates, pixels.
 const ASIDE: f64 = 74.0;
-/// Room below the picture for the same, pixels.
+/// Space below the picture for axes and names of coordinates, pixels.
 const BELOW: f64 = 58.0;
-/// Most names of forces, and of bodies, in a picture.
+/// Largest number of names of forces, and of bodies, in a picture.
 const MOST_NAMES: usize = 150;
-/// Room around everything, pixels.
+/// Margin of the page, pixels.
 const MARGIN: f64 = 24.0;
-/// Width of the page where none is asked for, pixels.
+/// Width of the page if the options give none, pixels.
 const PAGE: f64 = 2.0 * MARGIN + ASIDE + LARGEST;
 /// Distance of hatching lines, pixels.
 const HATCH: f64 = 7.0;
 
-/// One block of a frame cut free; `None` where the frame, from 0, has no such block.
+/// Draws the free-body diagram of a block of a frame. Frames are counted from 0. Returns `None` if the frame does not
+/// exist or does not contain the block.
 ///
 /// Units: the page is in pixels at natural size.
 ///
@@ -96,15 +99,15 @@ struct Sheet<'a> {
     options: &'a Options,
     frame: usize,
     block: BlockId,
-    /// What touches the block.
+    /// The contacts of the block.
     contacts: Vec<&'a Contact>,
     view: Bounds,
     camera: Camera,
     /// Width of the page, pixels.
     width: f64,
-    /// The part of the page in which arrows and their names stand.
+    /// The part of the page for arrows and their names.
     picture: PageRect,
-    /// The lines above the drawing, with face and size.
+    /// The lines above the drawing, with face and font size.
     heading: Vec<(String, Face, f64)>,
     forces: Vec<Force>,
     arrows: Vec<Arrow>,
@@ -129,7 +132,7 @@ impl<'a> Sheet<'a> {
         let guided = guided(analysis, frame, block, &contacts);
         let left = if guided { MARGIN + ASIDE } else { MARGIN };
         let room = (width - MARGIN - left).max(60.0);
-        // Room for every arrow and its name around what is shown, at the scale that this room leaves.
+        // Arrows and their names need space (`pads`) around the shown part; compute the scale that remains.
         let fitted = |pads: [f64; 4]| {
             let across = (room - pads[0] - pads[2]).max(40.0) / view.width();
             let scale = across.min(LARGEST / view.height());
@@ -166,7 +169,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Where the picture's lower edge lies on the page.
+    /// Returns the position of the lower edge of the picture on the page.
     fn floor(&self) -> f64 {
         self.picture.at.y + self.picture.height
     }
@@ -217,7 +220,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The bodies the block touches, ground hatched.
+    /// Draws the bodies that touch the block; ground is hatched.
     fn neighbours(&self, ink: &mut Ink) -> Group {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut group = Group::with_class("neighbours");
@@ -258,7 +261,7 @@ impl<'a> Sheet<'a> {
             .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
     }
 
-    /// Keeps names off what is seen of an outline.
+    /// Adds the visible edges of a polygon to the ink, so that no name covers them.
     fn bar(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
         for edge in polygon.edges() {
             let line = [edge.from, edge.to].map(|p| self.camera.place(p));
@@ -268,7 +271,8 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Dashed lines from the application points and the centroid to the edges of the picture, and names for their ends.
+    /// Draws dashed lines from the application points and the centroid to the edges of the picture. Adds the names of
+    /// their coordinates to `requests`.
     fn guide_lines(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("guides");
@@ -296,7 +300,7 @@ impl<'a> Sheet<'a> {
                 ink.line(end, p, 1.2);
                 let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
                 let (wide, high) = symbol.size(NAME);
-                // Names that would meet stand in rows one behind the other.
+                // Names that would overlap are placed in rows.
                 let place = |row: f64| match axis {
                     "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
                     _ => end.moved(0.0, 1.0 + high / 2.0 + row * (0.7 * high)),
@@ -317,7 +321,7 @@ impl<'a> Sheet<'a> {
         group
     }
 
-    /// Whether an arrow is long enough to be seen.
+    /// True if an arrow is long enough to be visible.
     fn seen(arrow: &Arrow) -> bool {
         let (x, y) = arrow.along;
         let length = libm::hypot(x, y);
@@ -400,7 +404,7 @@ impl<'a> Sheet<'a> {
         group
     }
 
-    /// The names of forces and coordinates, and of the bodies; and how many of them have no room.
+    /// Draws the names of forces, coordinates and bodies. Also returns the number of names without space.
     fn names(&self, ink: &mut Ink, requests: &[(Symbol, LabelRequest)]) -> (Group, usize) {
         let theme = &self.options.theme;
         let page = PageRect {
@@ -408,7 +412,7 @@ impl<'a> Sheet<'a> {
             width: self.width - 8.0,
             height: self.picture.height + BELOW + 2.0,
         };
-        // A picture has no room for more; they would only be tried in vain.
+        // A picture has no space for more names, so do not try to place them.
         let (requests, beyond) = requests.split_at(requests.len().min(MOST_NAMES));
         let mut nameless = beyond.len();
         ink.index();
@@ -440,7 +444,8 @@ impl<'a> Sheet<'a> {
         for body in blocks.into_iter().chain([BodyId::Block(self.block)]) {
             let name = scene.name(body);
             let size = (text::width(name, Face::SerifItalic, NAME), 0.96 * NAME);
-            // The block's own name may stand beside it, with a line to it; the others' only where they are.
+            // The name of the block itself may be placed outside it, with a leader. The other names are only placed
+            // inside their blocks.
             let own = body == BodyId::Block(self.block);
             let middle = scene.body(body).polygon.centroid();
             let request = LabelRequest {
@@ -456,7 +461,8 @@ impl<'a> Sheet<'a> {
             } else {
                 self.camera.rect(self.view)
             };
-            // In another body it would seem to name that one; the heading names the block in any case.
+            // Inside another body the name would seem to be the name of that body. The heading names the block in any
+            // case.
             let covers_other_block = |_: usize, rect: PageRect| {
                 let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
                 let at = self.camera.back(at);
@@ -487,7 +493,7 @@ impl<'a> Sheet<'a> {
         (group, nameless)
     }
 
-    /// Places inside what the picture shows of a body, those nearest to their middle first.
+    /// Returns positions on the page inside the visible part of a body, those nearest to its middle first.
     fn inside(&self, polygon: &Polygon) -> Vec<PagePoint> {
         let (bounds, view) = (polygon.bounds(), self.view);
         let (min, max) = (bounds.min.sup(&view.min), bounds.max.inf(&view.max));

@@ -1,7 +1,7 @@
-//! [`Table`]: the list of the forces on a block, with amounts, components and moments, and their sum.
+//! [`Table`]: the list of the forces on a block, with magnitudes, components and moments, and their sum.
 //!
-//! All forces have one unit and as many decimals, all moments too, so that the columns can be added up: the last row is
-//! their sum, and in a balance it is zero but for what rounding leaves.
+//! All forces have the same unit and the same number of decimals, and so have all moments. So the columns can be added
+//! up. The last row is their sum, which is zero in equilibrium, except for rounding.
 
 use super::force::Force;
 use crate::drawing::symbol::{Accent, Symbol};
@@ -10,34 +10,34 @@ use crate::drawing::{
 };
 use crate::geometry::{Point, Vector};
 
-/// Room between columns, pixels.
+/// Space between columns, pixels.
 const BETWEEN: f64 = 14.0;
-/// Height of a row in sizes of its letters.
+/// Height of a row, as a multiple of the font size.
 const ROW: f64 = 1.6;
-/// A name too long for its column has at most so many lines …
+/// Largest number of lines of a name that is too long for its column …
 const MOST_LINES: usize = 4;
-/// … so far apart, in sizes.
+/// … and the distance of its lines, as a multiple of the font size.
 const PITCH: f64 = 1.15;
 /// Significant digits of the largest amount of a column.
 const DIGITS: i32 = 4;
-/// A moment below this share of the largest force times the block's size is nothing.
+/// Moments below this share of the largest force times the block's size count as zero.
 const NOISE: f64 = 1e-9;
 
 /// The forces on a block, row by row.
 pub(super) struct Table {
     rows: Vec<Row>,
-    /// What stands above the columns of numbers.
+    /// The headings of the columns of numbers: symbol and unit.
     heads: Vec<(Symbol, &'static str)>,
 }
 
 struct Row {
     symbol: Option<Symbol>,
-    /// Amount, components, moment about the centroid; an empty amount for a sum.
+    /// Magnitude, components, moment about the centroid; the magnitude is empty for a sum.
     numbers: [String; 4],
     from: String,
 }
 
-/// A unit with the power of ten by which its numbers are less than in the base unit, and their decimals.
+/// A unit: its name, its value in the base unit as a power of ten, and the number of decimals.
 #[derive(Clone, Copy)]
 struct Unit {
     power: i32,
@@ -46,7 +46,8 @@ struct Unit {
 }
 
 impl Unit {
-    /// The unit in which the largest number of a column has one to three digits before the decimal point.
+    /// Returns the unit in which the largest number of a column has one to three digits before the decimal point, as
+    /// far as `names` allow it. `names` are the units from 10⁻⁶ to 10⁶ in steps of 1000.
     fn new(largest: f64, names: [&'static str; 5]) -> Unit {
         let digits = if largest > 0.0 && largest.is_finite() {
             libm::floor(libm::log10(largest)) as i32
@@ -77,7 +78,7 @@ impl Unit {
 }
 
 impl Table {
-    /// The list of these forces. Moments are about `centroid`; `size` is the size of the block in metres.
+    /// Creates the list of these forces. Moments are about `centroid`; `size` is the size of the block in metres.
     pub(super) fn new(forces: &[Force], centroid: Point, size: f64) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
@@ -128,7 +129,7 @@ impl Table {
         }
     }
 
-    /// Each row as a sentence.
+    /// Returns a sentence for each row.
     pub(super) fn stated(&self) -> Vec<String> {
         let (force, moment) = (self.heads[0].1, self.heads[3].1);
         let row = |row: &Row| {
@@ -146,8 +147,8 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// Draws the table with its upper edge at `top`, centred at `middle`, at most `room` pixels wide. Also returns its
-    /// height in pixels.
+    /// Draws the table with its upper edge at `top`, centred at `middle`, at most `room` pixels wide, with the font
+    /// size `size`. Also returns its height. All numbers are in pixels.
     pub(super) fn draw(
         &self,
         middle: f64,
@@ -237,7 +238,8 @@ impl Table {
     }
 }
 
-/// Breaks a name into lines for its column: between words, between code points, and otherwise by shortening it.
+/// Breaks a name into lines for its column, between words or between code points. A name with too many lines is
+/// shortened.
 fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
     if text::width(name, Face::Serif, size) <= room {
         return vec![name.to_owned()];

@@ -1,4 +1,4 @@
-//! [`places`]: the coordinates of the points at which forces act, and the unit normals.
+//! [`places`]: lists the coordinates of the points at which forces act, and of the unit normals.
 
 use super::around::{corners, distinct, inward};
 use crate::analysis::{Analysis, Contact};
@@ -7,10 +7,10 @@ use crate::drawing::text::NO_BREAK;
 use crate::drawing::{Face, Item, PagePoint, PageRect, Text, Theme, text};
 use crate::scene::BlockId;
 
-/// Room between values in a row, pixels.
+/// Space between values in a row, pixels.
 const BETWEEN: f64 = 26.0;
 
-/// A part of a line: a symbol, or words.
+/// A part of a line: a symbol, text or a gap.
 #[derive(Clone)]
 pub(super) enum Piece {
     Symbol(Symbol),
@@ -27,7 +27,8 @@ impl Piece {
         }
     }
 
-    /// Draws the piece with the left end of its baseline at `at`. Also returns its width.
+    /// Draws the piece with the left end of its baseline at `at`. Also returns its width. The font size and the width
+    /// are in pixels.
     pub(super) fn draw(&self, at: PagePoint, size: f64, theme: &Theme) -> (Vec<Item>, f64) {
         let items = match self {
             Piece::Symbol(symbol) => {
@@ -56,12 +57,12 @@ impl Piece {
     }
 }
 
-/// The width of a row in pixels.
+/// Returns the width of a row in pixels at a font size in pixels.
 pub(super) fn width(row: &[Piece], size: f64) -> f64 {
     row.iter().map(|p| p.width(size)).sum()
 }
 
-/// Breaks values into rows of at most `room` pixels.
+/// Breaks values into rows of at most `room` pixels, at a font size in pixels.
 pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece>> {
     let mut rows: Vec<Vec<Piece>> = Vec::new();
     for value in values {
@@ -76,7 +77,8 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
     rows
 }
 
-/// The centroid, the application points and the inward normals.
+/// Returns the coordinates of the centroid, of the application points and of the unit normals into the block, as pieces
+/// of text.
 pub(super) fn places(
     analysis: &Analysis,
     block: BlockId,
@@ -104,7 +106,7 @@ pub(super) fn places(
     places
 }
 
-/// A coordinate with at most three decimals.
+/// Formats a coordinate with at most three decimals.
 fn coordinate(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -1,4 +1,4 @@
-//! [`ink`]: the parts of a frame's picture on which no label may lie.
+//! [`ink`]: collects the parts of a frame's picture that labels must not cover.
 
 use crate::drawing::PagePoint;
 use crate::drawing::placement::Ink;
@@ -6,7 +6,7 @@ use crate::figure::arrow::{ArrowKind, TurnArrow};
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 use crate::geometry::Polygon;
 
-/// The ink of ground, blocks, plans, discs and arrows.
+/// Returns the ink of ground, blocks, planned blocks, discs and arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
     let scene = &pen.context.analysis.scene;
@@ -40,13 +40,13 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     ink
 }
 
-/// Adds the outline of a torque arrow, cut across into convex pieces.
+/// Adds the outline of a torque arrow, as wide lines between its points.
 fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
     let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
     let centre = pen.camera.place(turn.at);
     for pair in points.windows(2) {
         let width = 3.0 * pen.camera.length(turn.width);
-        // Points of the head and of both edges, joined without gaps.
+        // Skip lines that begin at the centre of the circle.
         if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
             ink.line(pair[0], pair[1], width);
         }

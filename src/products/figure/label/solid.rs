@@ -1,4 +1,4 @@
-//! [`Solids`]: blocks and ground. A name inside one of them would seem to be its name.
+//! [`Solids`]: blocks and ground. A name inside one of them seems to be its name.
 
 use super::middle;
 use crate::drawing::PageRect;
@@ -6,7 +6,7 @@ use crate::figure::pen::Pen;
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
-/// What a name may seem to belong to: the blocks of a frame where they are drawn, and ground, as boxes on the page.
+/// The bounding boxes on the page of the blocks of a frame, as they are drawn, and of the ground.
 pub(super) struct Solids {
     blocks: Vec<(BlockId, PageRect)>,
     ground: Vec<(usize, PageRect)>,
@@ -34,7 +34,7 @@ impl Solids {
         }
     }
 
-    /// Whether a label lies partly in the ground or in a block other than its own.
+    /// True if a label lies in the ground or in a block other than its own.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
         let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {
@@ -43,7 +43,7 @@ impl Solids {
                 && rect.at.y < other.at.y + other.height
                 && other.at.y < rect.at.y + rect.height
         };
-        // Labels lie on no outline, so a label that overlaps a body has its centre and its corners in it.
+        // Labels do not cross outlines, so the centre of a label that overlaps a body lies in this body.
         let at = pen.camera.back(middle(rect));
         let inside = |id: BlockId| {
             let at = pen.displacement(id).map_or(at, |d| d.back(at));

@@ -1,9 +1,9 @@
-//! [`names`]: whether a sentence contains the name of a block, even if the name is a number.
+//! [`names`]: tests if a sentence contains the name of a block, even if the name is a number.
 
 use crate::drawing::text::NO_BREAK;
 
-/// Whether a text contains a name as a separate word. A number before a unit or a noun is an amount or a count, not a name.
-/// The same holds for a number with decimals.
+/// True if a text contains a name as a separate word. A number before a unit or a noun is a quantity or a count, not a
+/// name. The same holds for a number with decimals.
 pub(super) fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
@@ -28,7 +28,7 @@ pub(super) fn names(text: &str, name: &str) -> bool {
         })
 }
 
-/// What follows a number in the words below a frame where it is no name.
+/// The words after a number in the text below a frame if the number is not a name.
 const COUNTED: [&str; 28] = [
     "N",
     "nN",
