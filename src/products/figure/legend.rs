@@ -1,4 +1,4 @@
-//! The key: what the colours and signs of a figure mean. It lists only what occurs.
+//! The legend: explains the colours and signs of a figure. It only lists those that occur.
 
 mod sign;
 
@@ -16,44 +16,45 @@ use crate::drawing::{
     Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 
-/// Height of a line of the key, in sizes of its letters.
+/// Height of a line of the legend, as a multiple of its font size.
 pub(crate) const LINE: f64 = 2.08;
 const ENTRY_GAP: f64 = 28.0;
 const SIGN_GAP: f64 = 9.0;
-/// Length of a line in the key, pixels.
+/// Length of a line in the legend, pixels.
 const LINE_LENGTH: f64 = 26.0;
 
-/// One thing the key explains.
+/// An entry of the legend.
 pub(crate) enum Entry {
-    /// Arrow colours and the blocks they belong to.
+    /// Arrow colours, each with the name of its block.
     Blocks(Vec<(Colour, String)>),
-    /// The arrow colours, of more blocks than can be listed.
+    /// The arrow colours alone, if there are too many blocks to list.
     Colours(Vec<Colour>),
-    /// A robot's disc.
+    /// The disc of a robot: its colour and its name.
     Robot(Colour, String),
     /// The outline of a planned block.
     Planned(Colour),
-    /// What is missing.
+    /// Missing forces.
     Missing,
-    /// A bar of amplitude colours: what its ends say, and what it tells.
+    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, and the colour of a share.
     Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour),
-    /// An arrow so many pixels long from tail to tip, its shaft so wide, of an amount.
+    /// The scale of arrows: the length of an arrow from tail to tip and the width of its shaft in pixels, and its
+    /// force.
     Scale(f64, f64, String),
-    /// A line of a colour, so many pixels wide, and what it means.
+    /// A line: its colour, its width in pixels, and its meaning.
     Line(Colour, f64, String),
-    /// A bar so many pixels long, of a length.
+    /// A scale bar: its length in pixels, and the length that it shows.
     Metres(f64, String),
-    /// What is left out.
+    /// A note, such as on labels that are left out.
     Note(String),
-    /// A part of words that go on over several lines: nothing stands beside it.
+    /// A line of a text of several lines; no other entry is on the same line.
     Part(String),
-    /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
+    /// A sign: the function that draws it from the middle of its left end, its width in pixels, and its meaning.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
 
 impl Entry {
-    /// The entry where it has `room` pixels: the colours alone where they and all names do not fit, and what a bar or a
-    /// sign means below it.
+    /// Splits an entry so that it fits into `room` pixels. Colours lose the names of their blocks. The meaning of a bar
+    /// or a sign is written below it.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Vec<Entry> {
         if self.width(theme) <= room {
             return vec![self];
@@ -77,7 +78,7 @@ impl Entry {
         }
     }
 
-    /// Whether another entry says the same.
+    /// True if another entry has the same meaning.
     fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
@@ -98,7 +99,7 @@ impl Entry {
         }
     }
 
-    /// Whether it has a line of its own: words that go on, and a bar or a sign whose meaning stands below it.
+    /// True if the entry has a line of its own: a line of a longer text, or a bar or a sign with its meaning below it.
     fn alone(&self) -> bool {
         match self {
             Entry::Part(_) => true,
@@ -132,7 +133,7 @@ impl Entry {
         }
     }
 
-    /// The entry with the middle of its left end at `at`.
+    /// Draws the entry with the middle of its left end at `at`.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let size = theme.sizes.key;
         let words = |x: f64, words: &str| -> Item {
@@ -211,7 +212,7 @@ impl Entry {
                 let mut items = vec![words(0.0, low)];
                 let parts = 64;
                 for part in 0..parts {
-                    // Each part reaches to the end and the next lies over it, so that no gap shows between them.
+                    // Each part reaches to the end of the bar, and the next part covers it, so that there are no gaps.
                     let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
                     let rect = PageRect {
                         at: at.moved(start + x, -5.0),
@@ -253,7 +254,8 @@ impl Entry {
     }
 }
 
-/// The entries of several keys as one, each once; where they name different blocks, the colours alone.
+/// Joins the entries of several legends, each entry once. If their arrow colours name different blocks, only the
+/// colours remain.
 pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for entry in keys.into_iter().flatten() {
@@ -269,16 +271,16 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     all
 }
 
-/// The key lists this many robots at most and counts the rest.
+/// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
 const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing force, without which it falls";
-/// A turning arrow has a least length, so that its sense can be read.
+/// The arrow of a torque has a least length, so that its direction is visible.
 const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
 const BAR_LENGTH: f64 = 120.0;
 
-/// How the key names a robot: one that is called `robot` or `Robot 2` says already what it is.
+/// Returns the name of a robot in the legend: `robot` and its name, or only its name if that begins with `robot`.
 fn robot(id: &str) -> String {
     match id
         .get(..5)
@@ -289,13 +291,13 @@ fn robot(id: &str) -> String {
     }
 }
 
-/// An arrow that shows the scale of a panel in which one unit edge, `unit` pixels, is `newtons` N, and whose largest force
-/// is `largest` N; `None` if there is no force.
+/// Returns an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit` pixels) long, and
+/// the largest force is `largest` N. Returns `None` if there is no force.
 pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) -> Option<Entry> {
     let largest = if options.printed() { newtons } else { largest };
     let amount = round_below(largest);
     let width = options.theme.widths.force * unit;
-    // The scale is drawn as the arrows are.
+    // The arrow of the scale has the same form as the other arrows.
     let beyond = if options.printed() {
         HEAD_LENGTH * width
     } else {
@@ -307,14 +309,15 @@ pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) ->
     })
 }
 
-/// The scale that the arrows of all panels share.
+/// Returns the common scale of the arrows of all panels; `None` if there are no forces. `unit` is the unit edge in
+/// pixels.
 pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
     let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
     let newtons = most(|m| m.newtons_per_unit);
     scale(newtons, most(Marks::largest), unit, context.options)
 }
 
-/// Everything that occurs in the figure, `unit` pixels being one unit edge.
+/// Returns the entries for everything that occurs in a figure of forces. `unit` is the unit edge in pixels.
 pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
@@ -323,7 +326,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     }
     let scale_of_page = unit / context.unit;
     let is_seen = |a: &ForceArrow| a.reach().norm() * scale_of_page >= LEAST_SEEN;
-    // Where colours tell the forces, or arrows are too small to be seen, there are none to explain.
+    // If colours show the forces, or arrows are too small to be visible, no arrows have to be explained.
     let is_drawn = |kind: fn(ArrowKind) -> bool| {
         let mut arrows = context.marks.iter().flat_map(|m| &m.arrows);
         !context.arrows_too_small(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
@@ -347,7 +350,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     } else if seen.len() > 1 && is_drawn(|kind| !kind.is_failure()) {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
-    // In small figures weights have no ring at their tails, by which they would be told from other forces.
+    // In small figures weights have no ring at their tails, so there is nothing to explain.
     if !context.options.printed()
         && unit >= MIN_READABLE_UNIT_EDGE
         && is_drawn(|kind| kind == ArrowKind::Weight)
@@ -389,13 +392,14 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// A bar of a round number of metres, at most a quarter of a picture `content` pixels wide, a metre being `scale` pixels.
+/// Returns a scale bar of a round number of metres. It is at most a quarter of `content` pixels long; `scale` is in
+/// pixels per metre.
 pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
     let metres = round_below(0.25 * content / scale);
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, "m")))
 }
 
-/// The sign of joints at their limit; none where no frame has one.
+/// Returns the sign of joints at their limit; `None` if no frame has such a joint.
 pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
@@ -403,7 +407,7 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
 }
 
-/// What a load looks like and how large loads are; none where no frame shows one.
+/// Returns the sign of loads with their magnitudes; `None` if no frame shows a load.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
@@ -432,7 +436,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     Some(Entry::Sign(load_sign, SAMPLE, words))
 }
 
-/// Whether the arrows of loads have a scale of their own in any frame.
+/// True if the arrows of loads have a larger scale than other forces in any frame.
 fn own_scale(context: &FigureContext<'_>) -> bool {
     let longer = |marks: &Marks, arrow: &ForceArrow| {
         let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
@@ -442,7 +446,7 @@ fn own_scale(context: &FigureContext<'_>) -> bool {
     frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
 }
 
-/// The robots that hold or plan in any frame, and what a plan looks like.
+/// Returns the robots that hold or plan a block in any frame, and the sign of a planned block.
 pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
@@ -474,7 +478,8 @@ pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     entries
 }
 
-/// The key in lines of at most `room` pixels, centred about `middle`, from `top` down; and its height.
+/// Draws the legend in lines of at most `room` pixels, centred about `middle`, downwards from `top`. Also returns its
+/// height in pixels.
 pub(crate) fn draw(
     entries: &[Entry],
     middle: f64,
@@ -512,12 +517,12 @@ pub(crate) fn draw(
     (group, lines.len() as f64 * line_height)
 }
 
-/// Several entries in one line with the middle of its left end at `at`; and how wide it is.
+/// Draws one entry with the middle of its left end at `at`. Also returns its width in pixels.
 pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> (Vec<Item>, f64) {
     (entry.draw(at, theme), entry.width(theme))
 }
 
-/// How wide the widest entry is, pixels.
+/// Returns the width of the widest entry, pixels.
 pub(crate) fn widest(entries: &[Entry], theme: &Theme) -> f64 {
     let widths = entries.iter().map(|entry| entry.width(theme));
     widths.fold(0.0, f64::max)

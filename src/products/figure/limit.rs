@@ -1,4 +1,4 @@
-//! Joints at their limit in the forces shown: all friction is used, or the resultant acts at an edge.
+//! Finds joints at their limit in the forces shown: all friction is used, or the resultant acts at an edge.
 
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
@@ -9,15 +9,15 @@ use crate::drawing::{Item, Outline, PagePoint, Path, Theme};
 use crate::interface::ContactKind;
 use crate::scene::Scene;
 
-/// A resultant nearer to an end of its joint than this share of the length of the joint acts at its edge.
+/// A resultant acts at the edge if its distance from an end of the joint is below this share of the joint's length.
 const AT_EDGE: f64 = 0.01;
 
 /// How near a joint is to its limit.
 struct Nearness<'a> {
     contact: &'a Contact,
-    /// The friction that is used, as a share of what is available; 0 where none is available.
+    /// The used share of the available friction; 0 if no friction is available.
     friction: f64,
-    /// How far the resultant acts from the middle, as a share of the way to the edge; 0 for a corner.
+    /// The distance of the resultant from the middle, as a share of the distance to the edge; 0 for a corner.
     edge: f64,
 }
 
@@ -55,20 +55,20 @@ fn nearness<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
     pressed.filter_map(near).collect()
 }
 
-/// The joints of a frame that are at their limit.
+/// Returns the joints of a frame that are at their limit. There are none if the frame does not stand.
 pub(crate) fn reached<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<&'a Contact> {
     let all = nearness(scene, found).into_iter();
     all.filter(Nearness::reached).map(|n| n.contact).collect()
 }
 
-/// Shares that differ by less than this, relative to themselves, are equal.
+/// Shares whose relative difference is below this count as equal.
 const SAME_SHARE: f64 = 1e-6;
 
-/// A joint that is less near to its limit than this is not named: its share would read as 0 %, or be noise.
+/// A joint with a smaller share than this is not named, because it would be shown as 0 % or be noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// What is at its limit in the frame of a figure of one frame, or else what is nearest to it. Empty for more frames, whose
-/// panels have no room for it.
+/// Describes the joints at their limit, or else the joint nearest to its limit. Empty for a figure with several frames,
+/// whose panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let options = context.options;
@@ -77,7 +77,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     }
     let all = nearness(scene, found);
     let at_limit = all.iter().filter(|n| n.reached()).count();
-    // Of shares that are equal but for rounding the first counts, so that noise changes no name.
+    // If several shares are equal except for rounding, take the first, so that noise does not change the name.
     let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
     let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
     let Some(nearest) = nearest.filter(|n| n.share() >= MIN_NAMED_SHARE) else {
@@ -99,7 +99,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     }
 }
 
-/// The sign of a joint at its limit: a diamond.
+/// Returns the sign of a joint at its limit: a diamond. `radius` is in pixels.
 pub(crate) fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     let r = 1.5 * radius;
     let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
@@ -107,10 +107,10 @@ pub(crate) fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(outline, theme.ink).cased(theme.page, 0.35 * radius)
 }
 
-/// The sign in the key.
+/// Draws the sign for the legend.
 pub(crate) fn key_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![sign(at.moved(5.5, 0.0), 3.2, theme).into()]
 }
 
-/// What the key says of the sign.
+/// The meaning of the sign in the legend.
 pub(crate) const MEANING: &str = "joint at its limit: friction used up, or force at the edge";

@@ -1,8 +1,9 @@
-//! How far from the edge: the structure as it stands, and as a ghost how it would fall just beyond.
+//! Draws a collapse margin: the structure in its place, and dashed how it would fall just beyond the margin.
 //!
-//! In the [direction](Toward) asked for, to the side on which less is needed. Where gravity turns or something pushes
-//! across it, a dashed line shows where it points now, an arrow where it would point, or the push beside it; where loads
-//! grow, they are shown as they are. Nothing falls here; the blocks stand in their places.
+//! The options choose the [parameter](Toward). Of its two ends the figure shows the one nearer to the present state. If
+//! gravity is turned, a dashed line shows its present direction and an arrow its direction at the margin. If a
+//! horizontal load is added, the arrow shows this load. If loads grow, they are drawn with their present magnitudes.
+//! The blocks themselves are drawn in their places.
 
 mod reason;
 
@@ -25,9 +26,9 @@ use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
-/// Length of the arrow of gravity, as a share of the structure's diagonal.
+/// Length of the arrow of gravity, as a share of the diagonal of the structure.
 const GRAVITY_LENGTH: f64 = 0.16;
-/// Its distance from the structure, as a share of the same.
+/// Its distance from the structure, as a share of this diagonal.
 const GRAVITY_DISTANCE: f64 = 0.12;
 
 /// The figure of a margin.
@@ -39,7 +40,7 @@ impl PanelContent for CollapseMargin {
     }
 
     fn help(&self) -> &'static str {
-        "As it stands, and as a ghost how it falls just beyond its margin; --margin says which"
+        "The structure, and how it falls just beyond its margin; --margin selects the margin"
     }
 
     fn title(&self) -> &'static str {
@@ -61,7 +62,7 @@ impl PanelContent for CollapseMargin {
         options: &Options,
         newtons_per_unit: f64,
     ) -> Marks {
-        // Where the loads grow they are drawn, as in a line of thrust.
+        // If the loads grow, they are drawn as in a figure of the line of thrust.
         thrust::marks(analysis, frame, options, newtons_per_unit)
     }
 
@@ -173,13 +174,15 @@ impl PanelContent for CollapseMargin {
     }
 }
 
-/// How far the edge of a frame that stands is, and how it would fall beyond.
+/// Returns the parameter at the margin and the mechanism just beyond it. Returns `None` if the frame does not stand or
+/// no margin was found.
 fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
     let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
     analysis.edge(frame, toward).filter(|_| stands)
 }
 
-/// The frame's analysis with the mechanism at the edge in place of its own, and how far the edge is.
+/// Returns the analysis with the frame changed to one that falls with the mechanism at the margin, and the parameter
+/// there. Returns `None` if there is no margin.
 fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
@@ -189,7 +192,8 @@ fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis,
     Some((ghost, edge))
 }
 
-/// Where the blocks of a frame would go, by their numbers, and how far the edge is.
+/// Returns the displacements of the blocks at the margin, by their indices, and the parameter there. Returns `None` if
+/// there is no margin. `unit` is the unit edge in metres.
 fn gone(
     analysis: &Analysis,
     frame: usize,
@@ -200,7 +204,7 @@ fn gone(
     Some((Course::new(&ghost, frame, unit).at(1.0), edge))
 }
 
-/// Where gravity's arrow begins and ends, metres: as it is, and at the edge.
+/// The ends of the arrow of gravity in metres: its tail, and its tip at present and at the margin.
 struct Gravity {
     from: Point,
     now: Point,
@@ -220,11 +224,11 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
             let (sin, cos) = sin_cos_degrees(edge);
             Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
         }
-        // As long beside gravity's arrow as the push is beside the weight.
+        // The ratio of both arrows is the ratio of horizontal load and weight.
         Toward::HorizontalLoad => quarter_turn(down) * edge,
         Toward::LoadFactor => return None,
     };
-    // An arrow to the right stays clear of the structure.
+    // If the arrow points to the right, move it to the left, so that it does not touch the structure.
     let beyond = (down.x.max(there.x)).max(0.0);
     let left = structure.min.x
         - GRAVITY_DISTANCE * diagonal

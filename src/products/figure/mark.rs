@@ -1,9 +1,9 @@
-//! [`marks`]: every arrow of a frame as numbers, before anything is drawn.
+//! [`marks`]: computes the data of all arrows of a frame, before they are drawn.
 //!
-//! An arrow tells a force *on* a block and wears that block's colour; the ground wears none. Between two blocks each
-//! has its own arrow, opposite to the other's, both from the moment-equivalent point Σ N_k p_k / Σ N_k of their
-//! interface ([Vallat23](crate::doc::references) §2.0.9). Robots' arrows are wider, what fails is widest, red, and
-//! apart from what is carried.
+//! An arrow shows a force *on* a block and has the colour of this block; no arrows are drawn on the ground. Two blocks
+//! in contact have opposite arrows. Both begin at the moment-equivalent point Σ N_k p_k / Σ N_k of their interface
+//! ([Vallat23](crate::doc::references) §2.0.9). Arrows of robots are wider. Arrows of missing forces are widest and
+//! red.
 
 use super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
@@ -14,20 +14,22 @@ use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
-/// Forces below this share of the largest are rounding of the solver, whose forces are accurate to about 1e-9, and are not
-/// drawn.
+/// Forces below this share of the largest are not drawn, because they may be solver errors. Forces are accurate to
+/// about 1e-9.
 const FORCE_TOL: f64 = 1e-6;
 /// In [`Normalisation::Drawn`] arrows shorter than this, unit edges, have a thinner shaft and head.
 const FULL_WIDTH_LENGTH: f64 = 0.35;
-/// The thinnest shaft, as a share of the full width. With the full width small forces would consist of heads only.
+/// Least width of a shaft, as a share of the full width. With the full width, arrows of small forces would only be
+/// heads.
 const MIN_WIDTH_SHARE: f64 = 0.65;
-/// The largest missing force is drawn at least this long, unit edges: if it is shorter on the scale of the other forces, the
-/// missing forces have a scale of their own. None is drawn shorter than the second number.
+/// Least length of the arrow of the largest missing force, unit edges. If it is shorter at the scale of the other
+/// forces, missing forces have a scale of their own. The second number is the least length of any of them.
 const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
-/// The source draws missing forces at this share of the scale of the block they act on.
+/// The thesis draws the missing forces on a block at this share of the scale of that block.
 const SOURCE_FAILURE_SCALE: f64 = 0.4;
 
-/// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
+/// Returns the straight arrows of frame `frame` (from 0) at the frame's own scale, as in [`marks`]. Returns no arrows
+/// if the frame does not exist.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
     if frame >= analysis.frames.len() {
         return Vec::new();
@@ -36,10 +38,10 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
     marks(analysis, frame, options, reference).arrows
 }
 
-/// The amount that a frame's own scale takes as one unit edge, N.
+/// Returns the force, in N, whose arrow is one unit edge long at the frame's own scale.
 ///
-/// [`Normalisation::Drawn`]: the largest force drawn, a torque counting as torque per unit edge.
-/// [`Normalisation::Source`]: the largest single unknown, weight or load.
+/// With [`Normalisation::Drawn`] it is the largest drawn force; a torque counts as torque divided by the unit edge.
+/// With [`Normalisation::Source`] it is the largest single unknown, weight or load.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let (frame, found) = (&scene.frames[frame], &analysis.frames[frame]);
@@ -90,10 +92,10 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     most
 }
 
-/// Every arrow of frame `frame` (from 0), `newtons_per_unit` N being one unit edge long.
+/// Returns all arrows of frame `frame` (from 0). An arrow of `newtons_per_unit` N is one unit edge long.
 ///
-/// The unit edge is the lattice's side, or a typical size of a block (see [`Options`]). No arrows for a frame there is
-/// not.
+/// The unit edge is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
+/// exist or `newtons_per_unit` is not above 0.
 pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let mut marks = Marks {
         newtons_per_unit,
@@ -123,13 +125,13 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
 
 /// A force of an interface on its first body.
 struct Part {
-    /// What its arrow tells, given the other body.
+    /// The kind of its arrow, given the other body.
     kind: fn(BodyId) -> ArrowKind,
     force: Vector,
     at: Point,
 }
 
-/// The forces of an interface on its first body, by style.
+/// Returns the forces of an interface on its first body: one or two, by style.
 fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
     let at = contact.resultant.at;
     let part = |kind, force| Part { kind, force, at };
@@ -173,7 +175,7 @@ impl ArrowMaker<'_> {
         force: Vector,
         look: (Colour, f64),
     ) {
-        // A load is given and no noise, however small it is.
+        // Loads are input, so even a very small load is not noise.
         let least = match kind {
             ArrowKind::Load => 0.0,
             _ => FORCE_TOL * marks.newtons_per_unit,
@@ -201,7 +203,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Width of an arrow's shaft in metres, `full` unit edges where the arrow is long enough.
+    /// Returns the width of an arrow's shaft in metres: `full` unit edges, or less for a short arrow.
     fn width(&self, full: f64, vector: Vector) -> f64 {
         let share = match self.options.normalisation {
             Normalisation::Source => 1.0,
@@ -213,7 +215,7 @@ impl ArrowMaker<'_> {
         full * share * self.edge
     }
 
-    /// A torque: a turning arrow, or the source's vertical pair at half an edge to either side.
+    /// Adds the arrow of a torque, or the two vertical arrows of the thesis at half a unit edge to both sides.
     fn torque(
         &self,
         marks: &mut Marks,
@@ -331,7 +333,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// The arrow of a missing force in a frame whose largest one is `largest` N.
+    /// Returns the vector in metres of the arrow of a missing force, if the largest missing force of the frame is
+    /// `largest` N.
     fn missing(&self, force: Vector, largest: f64) -> Vector {
         let (longest, least) = MISSING_LENGTHS;
         let own = longest * self.edge / largest.max(f64::MIN_POSITIVE);
@@ -342,7 +345,8 @@ impl ArrowMaker<'_> {
 
     fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
         let theme = &self.options.theme;
-        // The source's figures keep the source's red; our own is darker, so that a grey print tells it from green.
+        // Figures in the style of the thesis have its red. The red of other figures is darker, so that a grey print
+        // shows the difference from green.
         let failure = if self.options.printed() && *theme == Theme::thesis() {
             Colour::hex(0xff0000)
         } else {
@@ -434,7 +438,8 @@ impl ArrowMaker<'_> {
     }
 }
 
-/// The largest single unknown or weight that acts on each block, by block number: the source's scale of what fails.
+/// Returns the largest single unknown or weight on each block, by its index, in N. The thesis scales missing forces
+/// with it.
 fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);

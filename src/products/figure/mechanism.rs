@@ -1,12 +1,11 @@
-//! The mechanism: where a structure falls, every block where its motion leads, above its own outline; hinges and slips.
+//! Draws the mechanism of a structure that falls: displaced blocks, their outlines in their places, hinges and slips.
 //!
-//! Blocks go along their velocities as finite rigid motions, so they keep their shapes; how far is for the eye, and never
-//! so far that they lie in each other. Of each part that falls one elementary mechanism is drawn
-//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). Where one slides, the motion that proves the fall
-//! also lifts it, by μ per metre of way: only so can nothing object to it. It is drawn along its joint where that is
-//! possible; where it is not, the key says that it lifts.
-//! With a kernel a block turns about the end of the safe stretch, and what lies beyond dips into its neighbour: the figure
-//! shows the mechanism of the structure that was examined.
+//! Blocks move along their velocities in finite rigid motions, so they keep their shapes. The amplitude is chosen for
+//! visibility, but blocks never overlap. For each part that falls one elementary mechanism is drawn
+//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). In the motion that proves a fall a sliding block
+//! also lifts, by μ per metre of sliding. If possible, it is drawn sliding along its joint; otherwise the legend says
+//! that it lifts. With a kernel a block turns about the end of the safe part, and its corner moves into its neighbour.
+//! This is the mechanism of the structure that was analysed.
 
 use super::arrow::Marks;
 use super::collapse;
@@ -37,7 +36,7 @@ const SLIP_ARROW: (f64, f64) = (0.5, 0.11);
 /// Length of the barb of a half-arrow, as a share of the arrow.
 const BARB_LENGTH: f64 = 0.34;
 
-/// A box around all blocks that move, where they are drawn.
+/// Returns a box around all displaced blocks, metres; `None` if no block is displaced.
 pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {
     let blocks = displaced.iter().zip(&analysis.scene.blocks);
     let moved = blocks.filter_map(|(displacement, block)| Some((displacement.as_ref()?, block)));
@@ -56,7 +55,7 @@ impl PanelContent for Mechanism {
     }
 
     fn help(&self) -> &'static str {
-        "Where it falls, how: blocks displaced along the collapse, hinges and slips"
+        "How it falls: blocks displaced along the mechanism, hinges and slips"
     }
 
     fn title(&self) -> &'static str {
@@ -173,7 +172,8 @@ impl PanelContent for Mechanism {
     }
 }
 
-/// All marks of a kind as few paths, for scenes of very many blocks: the n-th paths of all marks are one.
+/// Joins all marks of a kind into few paths, for frames with very many blocks: the n-th paths of all marks become one
+/// path.
 fn joined(marks: Group) -> Group {
     let mut paths: Vec<Path> = Vec::new();
     for mark in marks.items {
@@ -196,7 +196,7 @@ fn joined(marks: Group) -> Group {
     }
 }
 
-/// The motions of the blocks that are drawn displaced.
+/// Returns the blocks that are drawn displaced, with their motions.
 fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
     let motions = pen.context.analysis.frames[pen.number].mechanism.iter();
     motions
@@ -204,7 +204,7 @@ fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
         .filter(|m| pen.displacement(m.0).is_some())
 }
 
-/// Outlines of the blocks that move, where they stand: dashed.
+/// Draws dashed outlines of the moving blocks in their places; `None` if there are no such blocks.
 fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut outline = Outline::default();
@@ -213,7 +213,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     }
     let width = pen.line.clamp(0.6, 1.1);
     let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
-    // Many small outlines are a texture that must not drown what moves.
+    // Many small outlines must not hide the displaced blocks.
     let opacity = if pen.unit() < MIN_READABLE_UNIT_EDGE {
         0.6
     } else {
@@ -224,7 +224,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
 }
 
-/// The blocks that move, where their motion leads.
+/// Draws the displaced blocks.
 fn displaced(pen: &Pen<'_>) -> Vec<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let edge = theme.motion.mixed(theme.ink, 0.25);
@@ -260,13 +260,14 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         .collect()
 }
 
-/// Where a point of an interface is drawn: half-way between where its two bodies take it.
+/// Returns the position at which a point of an interface is drawn, metres: the middle between its displaced positions
+/// on the two bodies.
 fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
     let [a, b] = contact.interface.bodies.map(|body| taken(pen, body, at));
     a + (b - a) * 0.5
 }
 
-/// Where a body takes a point.
+/// Returns the displaced position of a point of a body.
 fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
     match body {
         BodyId::Ground(_) => at,
@@ -278,7 +279,7 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
     (HINGE_RADIUS * pen.unit()).clamp(2.6, 6.0)
 }
 
-/// A ring at the end that keeps contact.
+/// Draws a ring at the end of an interface that keeps contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let (centre, radius) = (
@@ -298,7 +299,8 @@ fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(centre, radius), theme.page).with_stroke(stroke)
 }
 
-/// A half-arrow on each side of the interface, each the way its body slides past the other.
+/// Draws a half-arrow on each side of an interface, in the direction in which the body on this side slides relative to
+/// the other.
 fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let interface = &contact.interface;
@@ -332,7 +334,8 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
     group.into()
 }
 
-/// An arrow with one barb, on the side to which `aside` points, with a seam of the page's colour around it.
+/// Returns an arrow with one barb, on the side to which `aside` points, and its border in the colour of the page. All
+/// lengths are in pixels.
 fn half_arrow(
     from: PagePoint,
     along: (f64, f64),

@@ -1,8 +1,8 @@
 //! Draws the results of an analysis. Only this folder uses both mechanics and pictures.
 //!
-//! Mechanics knows nothing of pictures and pictures know nothing of forces; here the numbers of an
-//! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
-//! here that a verdict rests on. What a figure shows is its [`Kind`]; one file per kind.
+//! The numbers of an [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing).
+//! No verdict depends on computations in this folder. The [`Kind`] of a figure determines its content; each kind is in
+//! a file of its own.
 
 mod apart;
 mod arrow;

@@ -4,114 +4,115 @@ use crate::analysis::Toward;
 use crate::drawing::Theme;
 use crate::scene::BlockId;
 
-/// How the force of an interface is drawn.
+/// Whether the force of an interface is drawn as one arrow or as components.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ForceStyle {
-    /// Normal and friction force as one arrow on each of the two bodies.
+    /// The sum of normal and friction force as one arrow on each of the two bodies.
     #[default]
     Resultant,
-    /// Normal and friction force as two arrows, as the source's printed figures have it.
+    /// Normal and friction force as two arrows, as in the figures of the thesis.
     Components,
 }
 
-/// Which amplitude is one unit long.
+/// The force whose arrow is one unit edge long.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Normalisation {
-    /// The largest amplitude that is drawn.
+    /// The largest force that is drawn.
     #[default]
     Drawn,
-    /// The largest single unknown of the program: a corner's normal force, an interface's friction, a robot's component,
-    /// or a weight. Sums of them are then longer than one unit; what fails has its own scale, block by block. The
-    /// source's figures are drawn so.
+    /// The largest single unknown of the program (normal force of a corner, friction force of an interface, force
+    /// component of a robot) or weight. Arrows of sums can then be longer than one unit edge. Missing forces have a
+    /// scale of their own on each block. The figures of the thesis use this scale.
     Source,
 }
 
-/// Over what the scale of arrows is shared.
+/// Which panels have a common scale of arrows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ArrowScale {
-    /// Each panel has its own.
+    /// Each panel has its own scale.
     #[default]
     Panel,
-    /// All panels share one, so that lengths compare between them.
+    /// All panels have the same scale, so that lengths can be compared.
     Strip,
 }
 
-/// What the colours of blocks tell.
+/// The quantity that the colours of blocks show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fill {
-    /// The larger of a block's weight and the largest normal force of one of its interfaces, on a scale from 0 to the
-    /// largest in the figure.
+    /// The amplitude: the larger of a block's weight and the largest normal force on its interfaces, from 0 to the
+    /// largest value in the figure.
     #[default]
     Amplitude,
-    /// The largest mean pressure, normal force over area, on one of its interfaces, N/m². A corner has no area and is
+    /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and are
     /// left out.
     Stress,
-    /// The largest share of the friction available that one of its interfaces uses.
+    /// The largest used share of the available friction on one of its interfaces.
     Friction,
-    /// Nothing: blocks are plain.
+    /// None: blocks have one plain colour.
     None,
-    /// The rule of the source, in its colours: a held block tells how far its robot is used, every other its amplitude as
-    /// a share of the smallest limit of all robots; where no robot has a limit, of the largest in the figure.
+    /// The rule of the thesis, in its colours. A held block shows the used share of its robot's limits. Any other block
+    /// shows its amplitude as a share of the smallest limit of all robots, or of the largest amplitude if no robot has
+    /// a limit.
     Source,
 }
 
-/// Which forces of its interfaces a free-body diagram shows.
+/// Which forces of interfaces a free-body diagram shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Corners {
-    /// Those at both ends of every interface where there are at most three, one for each interface where there are more;
-    /// what is zero is left out.
+    /// With at most three interfaces the forces at both ends of each, with more one force for each. Forces that are
+    /// zero are left out.
     #[default]
     Few,
-    /// Every unknown of the program at every end, by name, also those that are zero; arrows then only name forces.
+    /// Every unknown of the program at every end with its name, even if it is zero. Arrows then only name forces.
     All,
 }
 
-/// The choices about a figure of forces.
+/// The options of a figure.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// How the force of an interface is drawn.
+    /// Whether the force of an interface is drawn as one arrow or as components.
     pub style: ForceStyle,
-    /// Which amplitude is one unit long.
+    /// The force whose arrow is one unit edge long.
     pub normalisation: Normalisation,
-    /// Over what the scale of arrows is shared.
+    /// Which panels have a common scale of arrows.
     pub scale: ArrowScale,
-    /// What the colours of blocks tell.
+    /// The quantity that the colours of blocks show.
     pub fill: Fill,
-    /// Which forces of its interfaces a free-body diagram shows.
+    /// Which forces of interfaces a free-body diagram shows.
     pub corners: Corners,
-    /// In which direction [`Kind::Margin`](super::Kind::Margin) follows a frame until it falls.
+    /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
     pub toward: Toward,
-    /// How much of the way a mechanism is drawn along, 0 … 1.
+    /// The share of the path at which a mechanism is drawn, 0 to 1.
     pub way: f64,
-    /// Panels beside each other; chosen by their shape where `None`.
+    /// The number of panels in a row; `None` to choose it by the shape of the panels.
     pub columns: Option<usize>,
-    /// Colours.
+    /// Colours, widths and font sizes.
     pub theme: Theme,
-    /// Whether the figure's title is written.
+    /// Whether the title of the figure is drawn.
     pub titles: bool,
-    /// Whether the frames' captions are written.
+    /// Whether the captions of frames are drawn.
     pub captions: bool,
-    /// Whether verdicts and what is written below them are shown.
+    /// Whether verdicts and the lines below them are drawn.
     pub verdicts: bool,
-    /// Whether the scale of arrows and the key are shown.
+    /// Whether the scale of arrows and the legend are drawn.
     pub keys: bool,
-    /// Whether a bar of a round number of metres is shown.
+    /// Whether a scale bar in metres is drawn.
     pub scale_bar: bool,
-    /// Whether the width and the height of all blocks of a frame are measured at its edges.
+    /// Whether dimension lines show the width and height of all blocks of a frame.
     pub dimensions: bool,
-    /// The block whose neighbourhood alone is shown; everything where `None`.
+    /// The block to whose surroundings the picture is limited; `None` for the whole structure.
     pub zoom: Option<BlockId>,
-    /// Whether blocks and robots bear their names, in frames of at most 60 blocks.
+    /// Whether blocks and robots have labels with their names, in frames with at most 60 blocks.
     pub labels: bool,
-    /// Whether arrows bear their amounts, in frames of at most 60 blocks.
+    /// Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.
     pub amounts: bool,
-    /// Width of the page, pixels; chosen by what is on it where `None`. Words keep their size whatever the width.
+    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on it.
     pub width: Option<f64>,
 }
 
@@ -143,32 +144,31 @@ impl Default for Options {
 
 impl Options {
     setters! {
-        style: ForceStyle, "How the force of an interface is drawn.";
-        normalisation: Normalisation, "Which amplitude is one unit long.";
-        scale: ArrowScale, "Over what the scale of arrows is shared.";
-        fill: Fill, "What the colours of blocks tell.";
-        corners: Corners, "Which forces of its interfaces a free-body diagram shows.";
-        toward: Toward, "In which direction [`Kind::Margin`](super::Kind::Margin) follows a frame until it falls.";
-        way: f64, "How much of the way a mechanism is drawn along, 0 … 1.";
-        theme: Theme, "Colours.";
-        titles: bool, "Whether the figure's title is written.";
-        captions: bool, "Whether the frames' captions are written.";
-        verdicts: bool, "Whether verdicts and what is written below them are shown.";
-        keys: bool, "Whether the scale of arrows and the key are shown.";
-        scale_bar: bool, "Whether a bar of a round number of metres is shown.";
-        dimensions: bool, "Whether the width and the height of all blocks of a frame are measured at its edges.";
-        labels: bool, "Whether blocks and robots bear their names, in frames of at most 60 blocks.";
-        amounts: bool, "Whether arrows bear their amounts, in frames of at most 60 blocks.";
+        style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
+        normalisation: Normalisation, "The force whose arrow is one unit edge long.";
+        scale: ArrowScale, "Which panels have a common scale of arrows.";
+        fill: Fill, "The quantity that the colours of blocks show.";
+        corners: Corners, "Which forces of interfaces a free-body diagram shows.";
+        toward: Toward, "The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.";
+        way: f64, "The share of the path at which a mechanism is drawn, 0 to 1.";
+        theme: Theme, "Colours, widths and font sizes.";
+        titles: bool, "Whether the title of the figure is drawn.";
+        captions: bool, "Whether the captions of frames are drawn.";
+        verdicts: bool, "Whether verdicts and the lines below them are drawn.";
+        keys: bool, "Whether the scale of arrows and the legend are drawn.";
+        scale_bar: bool, "Whether a scale bar in metres is drawn.";
+        dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
+        labels: bool, "Whether blocks and robots have labels with their names, in frames with at most 60 blocks.";
+        amounts: bool, "Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.";
     }
 
     optional_setters! {
-        columns: usize, "Panels beside each other.";
-        zoom: BlockId, "The block whose neighbourhood alone is shown.";
-        width: f64, "Width of the page, pixels. Words keep their size whatever the width.";
+        columns: usize, "The number of panels in a row.";
+        zoom: BlockId, "The block to whose surroundings the picture is limited.";
+        width: f64, "Width of the page, pixels. Font sizes do not depend on it.";
     }
 
-    /// Whether arrows look like those in the printed figures of the source: separate components, in the scale of the
-    /// source.
+    /// True if arrows look as in the figures of the thesis: separate components at the scale of the thesis.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
     }

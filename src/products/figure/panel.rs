@@ -9,7 +9,7 @@ use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
 
-/// The picture of the forces of frame `number`. Ground is cut at the edge of `view`.
+/// Draws the forces of the frame with index `number`. Ground is cut at the edge of `view` (metres).
 pub(crate) fn picture(
     context: &FigureContext<'_>,
     number: usize,
@@ -53,7 +53,7 @@ pub(crate) fn picture(
     group
 }
 
-/// The signs of joints at their limit.
+/// Draws the signs of joints at their limit.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
@@ -70,7 +70,8 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// The picture of a frame without arrows: ground, the given blocks, plans, robots and marks. Labels avoid `ink`.
+/// Composes the picture of a frame: ground, the given blocks, plans, robots, the given marks, and labels that do not
+/// cover `ink`. Ground is cut at the edge of `view` (metres).
 pub(crate) fn composed(
     pen: &Pen<'_>,
     view: Bounds,
@@ -81,7 +82,7 @@ pub(crate) fn composed(
     composed_with(pen, view, blocks, marks, Vec::new(), ink)
 }
 
-/// As [`composed`], with callouts.
+/// Like [`composed`], with callouts.
 pub(crate) fn composed_with(
     pen: &Pen<'_>,
     view: Bounds,

@@ -1,4 +1,4 @@
-//! [`Pen`]: what draws the parts of a frame's picture: ground, blocks, plans and robots here, arrows in `pen/stroke`.
+//! [`Pen`]: draws the parts of a frame's picture: ground, blocks, plans and robots here, arrows in `pen/stroke`.
 
 mod stroke;
 
@@ -11,31 +11,32 @@ use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
 
-/// Radius of the ring at the tail of a weight, in widths of its shaft.
+/// Radius of the ring at the tail of a weight, as a multiple of its shaft's width.
 pub(crate) const CENTROID_RADIUS: f64 = 1.25;
-/// Radius of the sign of a load or a missing force that is too small for an arrow, pixels.
+/// Radius of the dot of a load that is too small for an arrow, and of dots in the legend, pixels.
 pub(crate) const DOT_RADIUS: f64 = 2.8;
 
-/// Radius of the sign of a missing force: smaller than any arrow of a larger one.
+/// Radius of the dot of a missing force that is too small for an arrow, pixels.
 pub(crate) const MISSING_RADIUS: f64 = 1.6;
 
-/// If a unit edge is shorter than this, pixels, arrows are a texture and not read one by one: their small signs are left out.
+/// If a unit edge is shorter than this, pixels, single arrows cannot be read, and small signs on them are left out.
 pub(crate) const MIN_READABLE_UNIT_EDGE: f64 = 20.0;
 /// Opacity of the fill of a displaced block.
 pub(crate) const DISPLACED_OPACITY: f64 = 0.38;
 /// If a unit edge is at least this long, pixels, outlines have their full width.
 const FULL_OUTLINE_UNIT_EDGE: f64 = 1.5 / 0.028;
-/// If a unit edge is at least this long, pixels, seams around arrows have their full width.
+/// If a unit edge is at least this long, pixels, borders of arrows have their full width.
 const FULL_CASING_UNIT_EDGE: f64 = 0.9 / 0.012;
-/// Least width of a shaft, pixels, where blocks are large enough to bear it.
+/// Least width of a shaft, pixels, if blocks are large enough for it.
 const LEAST_SHAFT: f64 = 2.5;
 
-/// A scene's colour on the page.
+/// Converts a colour of the scene.
 pub(crate) fn colour(rgb: Rgb) -> Colour {
     Colour(rgb.0)
 }
 
-/// The seams between a body's lattice cells: every edge of a cell that two of its cells share, once.
+/// Returns the lines between the lattice cells of a body: each edge that two of its cells have in common, once. The
+/// outline is empty for a body without cells.
 pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
@@ -56,21 +57,22 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
     outline
 }
 
-/// What draws the parts of a frame's picture.
+/// Draws the parts of a frame's picture.
 pub(crate) struct Pen<'a> {
     pub context: &'a FigureContext<'a>,
     /// The frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
-    /// Place in the placing order of each block, by its number; `None` for a block that is not placed.
+    /// The position of each block in the placing order, by its index; `None` for a block that is not placed.
     places: Vec<Option<usize>>,
-    /// Where each block is drawn, by its number, where that is not its place in the scene.
+    /// The displacement of each block, by its index; `None` for a block in its place. May be shorter than the list of
+    /// blocks.
     displaced: &'a [Option<Displacement>],
     /// Width of an outline, pixels.
     pub line: f64,
-    /// Width of the seam around arrows, pixels.
+    /// Width of the border of arrows, pixels.
     casing: f64,
-    /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
+    /// Factor on the width of arrows. It is above 1 at small scales, so that colours can be distinguished.
     wider: f64,
 }
 
@@ -94,7 +96,7 @@ impl<'a> Pen<'a> {
             camera,
             line: (unit / FULL_OUTLINE_UNIT_EDGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
             casing: (unit / FULL_CASING_UNIT_EDGE).clamp(1.0 / 9.0, 1.0) * widths.casing,
-            // Texture would turn to soup.
+            // With very small blocks, wider arrows would cover everything.
             wider: if unit < MIN_READABLE_UNIT_EDGE {
                 1.0
             } else {
@@ -126,17 +128,17 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// How a block is displaced, `None` where it is drawn in its place.
+    /// Returns the displacement of a block; `None` if it is drawn in its place.
     pub(crate) fn displacement(&self, id: BlockId) -> Option<&Displacement> {
         self.displaced.get(id.0)?.as_ref()
     }
 
-    /// Where a point of a block is drawn, metres.
+    /// Returns the displaced position of a point of a block, metres.
     pub(crate) fn moved(&self, id: BlockId, point: Point) -> Point {
         self.displacement(id).map_or(point, |d| d.moved(point))
     }
 
-    /// Whether the frame has so many blocks that its parts are joined by colour, without names.
+    /// True if the frame has so many blocks that shapes of one colour are joined and have no names.
     pub(crate) fn many(&self) -> bool {
         self.context.analysis.scene.frames[self.number].placed.len() > MANY_BLOCKS
     }
@@ -159,7 +161,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// The colour that a block, ground or the page has at a place.
+    /// Returns the colour of the block, the ground or the page at a position.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let at = self.camera.back(at);
@@ -175,12 +177,12 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Radius of a robot's disc, pixels.
+    /// Returns the radius of a robot's disc, pixels.
     pub(crate) fn disc(&self) -> f64 {
         self.context.options.theme.widths.disc * self.unit()
     }
 
-    /// Width of an arrow's shaft as it is drawn, pixels.
+    /// Returns the width of an arrow's shaft as it is drawn, pixels.
     pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
         let wider = if arrow.kind.is_failure() {
             1.0
@@ -197,7 +199,7 @@ impl<'a> Pen<'a> {
         )
     }
 
-    /// The blocks that are drawn in their places.
+    /// Draws the blocks that are not displaced.
     pub(crate) fn blocks(&self) -> Group {
         if self.many() {
             return self.blocks_by_colour();
@@ -228,7 +230,7 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
+    /// Like [`Pen::blocks`], for frames with very many blocks: draws one path for all blocks of a colour.
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];

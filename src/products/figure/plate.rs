@@ -1,4 +1,4 @@
-//! [`plate`]: frames of several scenes on one page, to one scale, with one key below them all.
+//! [`plate`]: draws frames of several scenes on one page at one scale, with one legend below.
 
 use super::context::FigureContext;
 use super::forces::FORCES;
@@ -11,15 +11,15 @@ use crate::drawing::Drawing;
 /// A panel of a plate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Panel {
-    /// Which analysis it is of.
+    /// The index of its analysis.
     pub of: usize,
-    /// Which frame of it.
+    /// The index of the frame in this analysis.
     pub frame: usize,
-    /// What stands below it.
+    /// The caption below it.
     pub caption: &'static str,
 }
 
-/// These panels in rows of `columns`, in their order, the structures of a row on one level.
+/// Draws these panels in their order, in rows of `columns`. The structures of a row are on one level.
 pub(crate) fn plate(
     analyses: &[Analysis],
     panels: &[Panel],

@@ -1,10 +1,9 @@
-//! The force polygon: the external forces on a structure, drawn tip to tail next to it.
+//! Draws the force polygon: the external forces on a structure, placed tip to tail next to it.
 //!
-//! Weights and loads follow each other block by block, then what the ground and the robots give, and at last what is
-//! missing, hollow and dashed: where the structure is in balance the polygon is closed. Where it falls, the polygon closes
-//! only because missing forces are counted among the others, outside or inside the structure, and the words below say so.
-//! Each arrow has the colour and the number of newtons that it has on the structure beside it; only the scale is larger,
-//! by a whole number that the key tells.
+//! The sides are weights and loads, block by block, then the forces of the ground and the robots, and finally missing
+//! forces, hollow and dashed. The polygon is closed if the structure is in equilibrium. If it falls, the polygon only
+//! closes with the missing forces, outside or inside the structure; the text below says so. Each arrow has the same
+//! colour and force as on the structure; only its scale differs, by a round factor in the legend.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::content::PanelContent;
@@ -30,16 +29,16 @@ use crate::scene::BodyId;
 const POLYGON_SIZE: f64 = 0.75;
 /// Gap between structure and polygon: a share of the structure's diagonal, and the least number of unit edges.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
-/// A polygon is closed if its last tip misses its first tail by at most this share of the sum of all forces. Rounding is far
-/// smaller; the forces that fail are far larger.
+/// A polygon is closed if the gap between its last tip and its first tail is at most this share of the sum of all
+/// forces. Rounding errors are far smaller, and missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
-/// Whether a force acts on the structure from outside, so that it is a side of the polygon.
+/// True if a force acts on the structure from outside, so that it is a side of the polygon.
 fn outside(arrow: &ForceArrow) -> bool {
     !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
 }
 
-/// The sides of a frame's polygon in their order.
+/// Returns the forces that are sides of a frame's polygon, in their order.
 fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
     marks.arrows.iter().filter(|arrow| outside(arrow))
 }
@@ -53,7 +52,7 @@ impl PanelContent for ForcePolygon {
     }
 
     fn help(&self) -> &'static str {
-        "The forces on the structure from outside, and their polygon beside it"
+        "The external forces on the structure, and their force polygon next to it"
     }
 
     fn title(&self) -> &'static str {
@@ -131,8 +130,8 @@ impl PanelContent for ForcePolygon {
                 chain.sides.last().map(|s| s[1]),
                 chain.sides.first().map(|s| s[0]),
             ];
-            // If the polygon is drawn in two parts, the two ends are joined as if they were one point. The last join shows
-            // a gap as a line.
+            // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open
+            // polygon the second join would look like the gap.
             let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
             for join in joins {
                 let line = Outline::line(join.map(|p| camera.place(p)));
@@ -152,7 +151,7 @@ impl PanelContent for ForcePolygon {
             }
         }
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // The ground ends next to the polygon, so that the polygon does not seem to stand on it.
+        // Cut the ground before the polygon, so that the polygon does not seem to stand on it.
         let shown =
             view::ground_shown(&context.analysis.scene, unit(&context.analysis.scene, None));
         if let Some(shown) = shown {
@@ -178,7 +177,7 @@ impl PanelContent for ForcePolygon {
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let mut entries = legend::entries(context, unit);
-        // Blocks are plain here: their colour shows no amplitude.
+        // Blocks are plain here, so their colours need no explanation.
         entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
@@ -226,23 +225,25 @@ const OVERLAP_SHARE: f64 = 0.03;
 /// The distance at which they are then drawn, as a share of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
 
-/// A frame's polygon in the scene: where each arrow begins and ends, and how many times as large as on the structure
-/// forces are.
+/// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale relative to the arrows on the
+/// structure.
 struct Chain {
     sides: Vec<[Point; 2]>,
-    /// Between what acts and what gives back, where they are drawn apart: places that are one.
+    /// Pairs of positions that are the same point, if actions and reactions are drawn apart.
     joins: Vec<[Point; 2]>,
     times: f64,
 }
 
-/// Whether the reactions would cover the loads, because both run along the same line.
+/// True if reactions would cover actions, because they are on the same lines. Both are given by the corners of their
+/// parts of the polygon. `size` is the size of the polygon.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Two sides overlap if the middle of the shorter one lies on the longer one, and both ends nearly do.
+    // Returns the distance of a point from a side. Two sides overlap if the middle and the first quarter point of one
+    // lie on the other.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
@@ -266,7 +267,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     })
 }
 
-/// The forces of `marks` tip to tail, to the right of the blocks of a frame.
+/// Computes the polygon of the forces of `marks`, to the right of the blocks of a frame. Returns `None` if there are
+/// fewer than two sides or the polygon has no size.
 fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
@@ -298,7 +300,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     };
     let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // The left edge is next to the structure and its ground; the middle is at the height of the structure's middle.
+    // The left edge of the polygon is next to the structure and its ground. The middle of both is at the same height.
     let right = view::ground_shown(scene, unit(scene, None))
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
@@ -326,7 +328,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     })
 }
 
-/// A scale factor in words.
+/// Formats a scale factor: `3` or `1/3`.
 fn larger(times: f64) -> String {
     if times >= 1.0 {
         format!("{times:.0}")
@@ -335,14 +337,14 @@ fn larger(times: f64) -> String {
     }
 }
 
-/// Whether the sum of the forces is zero.
+/// True if the sum of the external forces is zero.
 fn closed(marks: &Marks) -> bool {
     let sum: Vector = outer(marks).map(|a| a.force).sum();
     let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
     sum.norm() <= CLOSURE_TOL * all
 }
 
-/// A missing force as a side of the polygon, marked as missing.
+/// Returns the dashed path of a missing force as a side of the polygon.
 fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
     let edge = Stroke::new(colour, 1.2).dashed([3.0, 2.0]);
     Path::filled(outline, theme.page).with_stroke(edge)
@@ -353,7 +355,8 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// The scale factors between the forces in the polygon and those on the structure, in words; `None` without a polygon.
+/// Describes the scale factors between the forces in the polygon and those on the structure, for the given frames;
+/// `None` if there is no polygon.
 fn scales(times: &[(usize, f64)]) -> Option<String> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, times) in times {

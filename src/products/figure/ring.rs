@@ -1,4 +1,4 @@
-//! [`ring`]: a colour wheel of the arrow colours, with the colours of robots and failures below it.
+//! [`ring`]: draws a colour wheel of the arrow colours, with the colours of robots and failures below it.
 
 use core::f64::consts::TAU;
 
@@ -11,11 +11,11 @@ use crate::drawing::{
 const PAGE: f64 = 360.0;
 /// Inner and outer radius of the ring, pixels.
 const RING: (f64, f64) = (58.0, 112.0);
-/// Size of letters, pixels.
+/// Font size, pixels.
 const WORDS: f64 = 14.0;
 
-/// The colour wheel of the forces on blocks: sectors anticlockwise from the right, entry 0 first. Each sector lists the
-/// numbers of its blocks, from 1 in the order of placing.
+/// Draws the colour wheel of the forces on blocks. Its sectors are anticlockwise from the right, entry 0 first. Each
+/// sector lists the numbers of its blocks, from 1 in the order of placing.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {
@@ -25,7 +25,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     let mut items: Vec<Item> = Vec::new();
     for (entry, colour) in theme.arrows.iter().enumerate() {
         let from = sweep * entry as f64;
-        // Block i has entry i mod n, so the first block has the second colour.
+        // With n colours, block i has entry i mod n, so the first block has the second colour.
         let first = if entry == 0 { count } else { entry };
         let blocks = format!("{first}, {}, …", first + count);
         let sector = Path::filled(sector(centre, from, sweep), *colour)
@@ -96,7 +96,8 @@ fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {
     centre.moved(radius * libm::cos(angle), -radius * libm::sin(angle))
 }
 
-/// A sector of the ring. Its arcs consist of lines of one to two pixels.
+/// Returns a sector of the ring from the angle `from` over the angle `sweep`, in radians anticlockwise. Its arcs
+/// consist of short straight lines.
 fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
     let steps = 72;
     let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);

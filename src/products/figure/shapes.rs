@@ -1,4 +1,5 @@
-//! [`shapes`]: a sheet of shapes made of lattice cells, with their names, seams and origins.
+//! [`shapes`]: draws a sheet of shapes made of lattice cells, with their names, the lines between their cells, and
+//! their origins.
 
 use super::layout::MAX_MARGIN;
 use super::pen::seams;
@@ -11,7 +12,7 @@ use crate::scene::{Body, shape};
 const UNIT: f64 = 46.0;
 const ACROSS: f64 = 900.0;
 
-/// A sheet of the built-in shapes of the triangular lattice.
+/// Draws a sheet of the built-in shapes of the triangular lattice.
 pub fn shapes(theme: &Theme) -> Drawing {
     let lattice = Lattice {
         kind: LatticeKind::Triangular,
@@ -21,8 +22,8 @@ pub fn shapes(theme: &Theme) -> Drawing {
     sheet(lattice, &named, theme)
 }
 
-/// Each named set of cells with its outline, the lines between its cells, and a small cross at its lattice origin. `at` in
-/// a scene places this origin.
+/// Draws each named set of cells: its outline, the lines between its cells, and a small cross at its lattice origin.
+/// The key `at` of a scene is the position of this origin.
 fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
     let mut sheet = Vec::new();
     for (name, cells) in named {
@@ -56,7 +57,8 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         if x > MAX_MARGIN && x + width > ACROSS {
             (x, y, height) = (MAX_MARGIN, y + height + 64.0, 0.0);
         }
-        // The shapes of a row stand on the same base line. The tallest shape gives the height of the row.
+        // The shapes of a row are on the same baseline. The tallest shape of the sheet determines the height of all
+        // rows.
         let tallest = sheet
             .iter()
             .map(|s| s.2.height() * scale)

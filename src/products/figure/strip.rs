@@ -1,5 +1,5 @@
-//! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below all panels. What a
-//! panel shows comes from its [`PanelContent`].
+//! [`Strip`]: draws a page of panels, one per frame, each with its caption and verdict, and one legend below all
+//! panels. [`PanelContent`] draws the content of a panel.
 
 use super::arrow::{ArrowKind, ForceArrow};
 use super::content::PanelContent;
@@ -18,19 +18,19 @@ use crate::drawing::{
 };
 use crate::geometry::{Bounds, Point};
 
-/// Height of a line of a caption, in sizes of its letters.
+/// Height of a line of a caption, as a multiple of its font size.
 const CAPTION_LINE: f64 = 22.0 / 17.0;
-/// Height of a line of the text below a verdict, in sizes of its letters.
+/// Height of a line of the text below a verdict, as a multiple of its font size.
 const REASON_LINE: f64 = 1.36;
-/// Space for names around a panel if names need it, to either side and above, pixels.
+/// Space for names around a panel if names need it: on both sides, and above and below, pixels.
 const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
 /// Longer captions and texts are cut with an ellipsis.
 const MAX_CAPTION_LINES: usize = 8;
 const MAX_REASON_LINES: usize = 12;
-/// The description of a figure lists this many frames at most.
+/// Largest number of frames in the description of a figure.
 const MAX_DESCRIBED_FRAMES: usize = 30;
 
-/// The figure of an analysis: a panel of this kind for each frame.
+/// Draws a figure with a panel of this content for each frame.
 pub(crate) fn strip(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -53,8 +53,8 @@ pub(crate) fn strip(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
-    // Blocks too small for their names: the figure is drawn again with space around the structure, and kept if that helps at
-    // least half of the names.
+    // Some names do not fit into their blocks. Draw the figure again with space around the structure, and keep it if
+    // this helps at least half of these names.
     let (across, up) = SPACE_FOR_NAMES;
     let roomy = context.with_room(across / scale, up / scale);
     let (roomier, still, _) = drawn(&roomy);
@@ -65,7 +65,8 @@ pub(crate) fn strip(
     }
 }
 
-/// Panels of [`strip`] for these frames, one page each, all of one size and scale, so that they can follow one another.
+/// Draws the panels of [`strip`] for these frames, each on a page of its own. All pages have the same size and scale,
+/// as an animation needs.
 pub(crate) fn pages(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -76,7 +77,7 @@ pub(crate) fn pages(
     steps_of(analysis, content, options, steps)
 }
 
-/// As [`pages`], each frame with its blocks displaced along a share of their way, 0 … 1.
+/// Like [`pages`], for pairs of a frame and the share of their paths (0 to 1) by which its blocks are displaced.
 pub(crate) fn steps_of(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -103,8 +104,8 @@ pub(crate) fn steps_of(
     pages
 }
 
-/// The panels of [`strip`] on pages at most `max_ratio` times as high as wide, in as many rows as fit and at least one; all
-/// to one scale.
+/// Draws the panels of [`strip`] on several pages at one scale. A page has as many rows as fit if it is at most `high`
+/// times as high as wide, but at least one.
 pub(crate) fn split(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -147,14 +148,14 @@ pub(crate) struct Strip<'a> {
     pub content: &'static dyn PanelContent,
     pub context: &'a FigureContext<'a>,
     pub layout: Layout,
-    /// What stands below each frame in place of its letter and title.
+    /// Captions of the frames, instead of their letters and titles.
     pub captions: Option<&'a [String]>,
-    /// Whether every panel shows as much of the scene as all need together, so that they can follow each other in place.
+    /// Whether every panel shows the part of the scene that all panels need together, as in an animation.
     pub alike: bool,
 }
 
-/// Some panels of strips of one layout on a page, each given by its strip and its frame, and one key below them all. The
-/// structures of a row stand on one level.
+/// Draws a page of panels with one legend below them. `order` gives the index of the strip and the frame of each panel.
+/// All strips have one layout. The structures of a row are on one level.
 pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &str) -> Drawing {
     let Some(first) = strips.first() else {
         return Drawing::default();
@@ -163,7 +164,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     let theme = &options.theme;
     let entries = legend::joined(strips.iter().map(|strip| strip.entries()).collect(), theme);
     let margin = layout.margin;
-    // A narrow picture gets a page wide enough for its words.
+    // The page of a narrow picture is wide enough for the text.
     let inner = match options.width {
         Some(width) => (width - 2.0 * margin).max(1.0),
         None => layout
@@ -207,7 +208,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
             .map(|v| v.max.y)
             .fold(f64::NEG_INFINITY, f64::max);
         let mut bottom = y;
-        // Verdicts of a row stand side by side, below its longest caption.
+        // The verdicts of a row are on one level, below its longest caption.
         let captions = row
             .iter()
             .map(|(strip, frame)| strips[*strip].caption_lines(*frame).len())
@@ -264,7 +265,7 @@ impl Strip<'_> {
         page(&[self], &order, &self.context.analysis.scene.title)
     }
 
-    /// What the key explains.
+    /// Returns the entries of the legend.
     fn entries(&self) -> Vec<legend::Entry> {
         let options = self.context.options;
         let unit = self.layout.scale * self.context.unit;
@@ -288,8 +289,8 @@ impl Strip<'_> {
         entries
     }
 
-    /// The part of the scene that a frame's panel shows: as wide as all frames need, so that structures stand one below the
-    /// other.
+    /// Returns the part of the scene that the panel of a frame shows, metres. It is as wide as all frames need, so that
+    /// structures are aligned in columns.
     fn shows(&self, frame: usize) -> Bounds {
         if self.alike {
             self.context.view
@@ -298,8 +299,8 @@ impl Strip<'_> {
         }
     }
 
-    /// A frame's picture of what lies in `view`, its caption in the room of so many lines, and its verdict, with the
-    /// upper left corner at `at`; and where it ends below.
+    /// Draws the panel of a frame with its upper left corner at `at`: the picture of `view`, the caption with space for
+    /// `captions` lines, and the verdict. Also returns the position of its lower end, pixels.
     fn panel(
         &self,
         frame: usize,
@@ -364,7 +365,7 @@ impl Strip<'_> {
         (group, y)
     }
 
-    /// Something said of a frame, after its caption where it has one.
+    /// Returns a text about a frame, after its caption if it has one.
     fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
         let caption = self.caption(frame, between);
         if caption.is_empty() {
@@ -374,7 +375,7 @@ impl Strip<'_> {
         }
     }
 
-    /// The caption as it is broken into lines; none where captions are not wanted.
+    /// Returns the lines of the caption; none if the options exclude captions.
     fn caption_lines(&self, frame: usize) -> Vec<String> {
         if !self.context.options.captions {
             return Vec::new();
@@ -388,8 +389,8 @@ impl Strip<'_> {
         )
     }
 
-    /// The mark, the word and the scale of arrows in one line about `centre`, the scale below where the panel is too narrow;
-    /// and the height of what stands below.
+    /// Draws the mark and the text of a verdict and the scale of arrows in one line about `centre`. If the panel is too
+    /// narrow, the scale is below. Also returns the additional height in pixels.
     fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let theme = &self.context.options.theme;
         let found = &self.context.analysis.frames[frame];
@@ -457,8 +458,8 @@ impl Strip<'_> {
         (items, below)
     }
 
-    /// The words beside the mark of a verdict, and their width in pixels; the verdict alone where the words are wider than
-    /// the panel.
+    /// Returns the text next to the mark of a verdict, and its width in pixels. If the text is wider than the panel, it
+    /// is only the verdict.
     fn headline(&self, frame: usize) -> (String, f64) {
         let size = self.context.options.theme.sizes.verdict;
         let width = |words: &str| text::width(words, Face::SansBold, size);
@@ -474,8 +475,8 @@ impl Strip<'_> {
         (words, wide)
     }
 
-    /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
-    /// and around which block where that is all that is shown.
+    /// Returns the caption of a frame, such as `(a) Initial situation`. It has no letter if there is only one frame,
+    /// and no title if the heading already has this title. A zoomed figure names its block.
     fn caption(&self, frame: usize, between: &str) -> String {
         let scene = &self.context.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
@@ -495,7 +496,7 @@ impl Strip<'_> {
         parts.join(between)
     }
 
-    /// A frame in a sentence.
+    /// Describes a frame in a sentence.
     fn described(&self, frame: usize) -> String {
         let (scene, found) = (
             &self.context.analysis.scene,
@@ -517,7 +518,7 @@ impl Strip<'_> {
     }
 }
 
-/// What a picture says of the labels that have no room in it.
+/// Returns the note of a picture on labels without space; `None` if there is no such label.
 fn without_room(picture: &Group) -> Option<String> {
     let groups = picture.items.iter().filter_map(|item| match item {
         Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),

@@ -1,8 +1,8 @@
-//! The line of thrust: how pressure runs through the blocks, from interface to interface.
+//! Draws the line of thrust: the path of the compressive forces through the blocks, from interface to interface.
 //!
-//! What the line is in each block, [`segments`] says: it runs along true lines of action. Where no single one runs through a
-//! block, a lighter line joins the joints; the key says that it is schematic. So the line runs from support to support
-//! without gaps. Loads are arrows that end where they act; between them lengths compare.
+//! [`segments`] computes the line in each block, along true lines of action. If there is no single line of action in a
+//! block, a lighter line joins the joints; the legend calls it schematic. So the line runs from support to support
+//! without gaps. The tips of load arrows are at the points where loads act, and their lengths have one scale.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
@@ -27,11 +27,11 @@ use crate::scene::{BodyId, Frame, Scene};
 
 /// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
 const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
-/// Width of the line of the smallest force, as a share of the widest.
+/// Width of the line of a force of zero, as a share of the largest width.
 const MIN_WIDTH_SHARE: f64 = 0.22;
-/// Where lines of many blocks are joined into one path, their widths are rounded to this many steps.
+/// Number of widths if lines of many blocks are joined into few paths.
 const WIDTH_STEPS: f64 = 8.0;
-/// Opacity of a line that is not one of equilibrium.
+/// Opacity of a line without equilibrium.
 const FAINT_OPACITY: f64 = 0.35;
 
 /// Width of the lines of least and of greatest thrust, pixels, and their dashes.
@@ -88,7 +88,7 @@ impl PanelContent for ThrustLine {
         let scene = &context.analysis.scene;
         let found = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
-        // The most central state, where it is known.
+        // Show the most central state if it is known.
         let found = family.central.as_ref().map_or(found, |state| &state.frame);
         let segments = segments(scene, &scene.frames[frame], found);
         let mut ink = label::ink(&pen);
@@ -158,7 +158,8 @@ impl PanelContent for ThrustLine {
     }
 }
 
-/// The loads of a frame as arrows that end where they act; `newtons_per_unit` N are one unit edge long.
+/// Returns the loads of a frame as arrows whose tips are at the points where they act. An arrow of `newtons_per_unit` N
+/// is one unit edge long.
 pub(crate) fn marks(
     analysis: &Analysis,
     frame: usize,
@@ -179,7 +180,7 @@ pub(crate) fn marks(
         turns: turns.collect(),
         newtons_per_unit,
     };
-    // Without loads there are no arrows, and nothing to give a scale for.
+    // Without arrows the legend needs no scale.
     if loads.arrows.is_empty() && loads.turns.is_empty() {
         Marks::default()
     } else {
@@ -187,7 +188,7 @@ pub(crate) fn marks(
     }
 }
 
-/// The largest load on the blocks of a frame, N.
+/// Returns the largest load on the blocks of a frame, N.
 pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     let loads = scene
         .loads
@@ -196,7 +197,7 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
-/// The largest force of all panels, N.
+/// Returns the largest force of all panels, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
     let frames = given.map(|(number, found)| {
@@ -216,7 +217,7 @@ fn colour(theme: &Theme) -> Colour {
     theme.motion
 }
 
-/// The colour of a line that is not a line of action.
+/// Returns the colour of schematic lines.
 fn schematic_colour(theme: &Theme) -> Colour {
     theme.page.mixed(theme.motion, 0.45)
 }
@@ -226,14 +227,15 @@ fn widest(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Width of a segment, pixels.
+/// Returns the width of a segment, pixels.
 fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
     let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
     widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
 }
 
-/// The horizontal thrust of a state in words: ` (28.3 kN)`; nothing where the states of several frames differ.
+/// Formats the horizontal thrust of a state (N): `, horizontal thrust 28.3 kN`. Empty for several frames, whose thrusts
+/// differ.
 fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     if context.analysis.frames.len() == 1 {
         format!(", horizontal thrust {}", quantity(thrust, "N"))
@@ -242,18 +244,18 @@ fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     }
 }
 
-/// All families of the figure.
+/// Returns the thrust states of all frames.
 fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
-/// What the key says of the thrust of the most central line; `None` where no frame shows it.
+/// Returns the text of the legend on the thrust of the most central line; `None` if no frame shows this line.
 fn central(context: &FigureContext<'_>) -> Option<String> {
     let state = families(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))
 }
 
-/// The entries of the lines of least and greatest thrust.
+/// Returns the legend entries for the lines of least and greatest thrust.
 fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     let least = families(context).find_map(|family| family.least.as_ref());
     let greatest = families(context).find_map(|family| family.greatest.as_ref());
@@ -271,7 +273,7 @@ fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     .collect()
 }
 
-/// Which of the states all other figures show.
+/// Returns a note that other figures show another state of the frame; `None` if no states of least thrust are known.
 fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let family = context.thrust_states(frame);
     family.least.as_ref()?;
@@ -281,7 +283,7 @@ fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     ))
 }
 
-/// The lines of least and of greatest thrust: thin.
+/// Draws thin lines of least and of greatest thrust.
 fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Group; 2] {
     let scene = &pen.context.analysis.scene;
     let states = [
@@ -325,7 +327,7 @@ fn greatest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![thin(line, GREATEST_DASHES, theme).into()]
 }
 
-/// Every interface as a line.
+/// Draws every interface as a line.
 fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let theme = &pen.context.options.theme;
     let mut outline = Outline::default();
@@ -342,7 +344,7 @@ fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     seams.with(Path::stroked(outline, stroke))
 }
 
-/// The line: what is schematic below, what is true above.
+/// Draws the line of thrust: first its schematic parts, above them its true lines of action.
 fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[ThrustSegment]) -> Group {
     let mut group = Group::with_class("thrust");
     for through in [false, true] {
@@ -366,7 +368,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[Thrust
     group
 }
 
-/// A line of this width, pixels.
+/// Returns a line of this width in pixels, faint if the frame does not stand. `through` is false for schematic lines.
 fn stroked(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -387,7 +389,7 @@ fn stroked(
     Path::stroked(outline, Stroke::new(colour, width)).with_opacity(opacity)
 }
 
-/// The lines of very many blocks: one path for all of about one width.
+/// Draws the segments of very many blocks as few paths: one for all segments of about the same width.
 fn joined_lines<'s>(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -411,7 +413,7 @@ fn joined_lines<'s>(
         .collect()
 }
 
-/// What a piece of the line tells: the force along it, or between which joints it runs.
+/// Describes a segment of the line: the block, the origin of the force and its magnitude.
 fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.origin {
@@ -432,7 +434,8 @@ fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> Strin
     }
 }
 
-/// A dot where each interface's resultant sits, and where a robot grips.
+/// Draws a dot at the point of action of each interface's resultant. Calls `ink` with the position and the radius in
+/// pixels of each dot.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);

@@ -1,10 +1,10 @@
-//! [`lines`]: a figure's title in lines that fit its page.
+//! [`lines`]: breaks the title of a figure into lines that fit its page.
 
 use crate::drawing::{Face, Theme, text};
 
-/// A title of more lines than this is set in the next smaller size.
+/// If a title has more lines than this, a smaller font size is used.
 const MAX_FULL_SIZE_LINES: usize = 3;
-/// The sizes tried, as shares of the full size; none is smaller than a caption.
+/// The font sizes that are tried, as shares of the full size; none is smaller than that of a caption.
 const SIZE_STEPS: [f64; 3] = [1.0, 0.85, 0.7];
 /// Longer titles are cut.
 const MAX_LINES: usize = 5;
@@ -12,7 +12,7 @@ const MAX_LINES: usize = 5;
 /// The face of titles.
 pub(crate) const FACE: Face = Face::SerifBold;
 
-/// A title in lines of at most `room` pixels, and the size of its letters.
+/// Breaks a title into lines of at most `room` pixels. Also returns the font size in pixels.
 pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64) {
     let least = theme.sizes.caption.min(theme.sizes.title);
     let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));

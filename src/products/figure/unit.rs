@@ -1,14 +1,15 @@
-//! [`unit`]: the length in which a figure measures its arrows and letters, from the sizes of its blocks.
+//! [`unit`]: computes the unit edge, by which arrows and labels are scaled, from the sizes of the blocks.
 
 use super::view;
 use crate::scene::{Block, BlockId, Scene};
 
-/// Blocks are uneven in size if their mean area is more than this many times the median area.
+/// Blocks differ much in size if the root mean square of √area is more than this multiple of the median.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// The unit edge in metres. On a lattice it is the side of a cell, unless the blocks are far larger. Otherwise it is a
-/// typical size, 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If the mean area
-/// is far larger, the mean is used. With `zoom` only the neighbourhood of that block counts.
+/// Returns the unit edge in metres. On a lattice it is the side of a cell, unless the blocks are far larger. Otherwise
+/// it is a typical size: 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If
+/// the root mean square of √area is far larger, it is used instead. With `zoom` it is the size of the smallest block in
+/// the surroundings of that block.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::around(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
@@ -21,10 +22,10 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     sizes.sort_by(f64::total_cmp);
     let squares: f64 = sizes.iter().map(|s| s * s).sum();
     let mean = libm::sqrt(squares / sizes.len().max(1) as f64);
-    // In a zoomed picture the block itself must be visible, however large its neighbours are.
+    // In a zoomed picture use the smallest block, because small blocks must be visible next to large neighbours.
     let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
     let middle = sizes.get(middle).copied().unwrap_or(1.0);
-    // Small stones next to a very large block: arrows as long as a small stone would be nearly invisible.
+    // There are small blocks next to a very large one. Arrows as long as a small block would be nearly invisible.
     let uneven = zoom.is_none() && mean > UNEVEN_RATIO * middle;
     let typical = 0.6 * if uneven { mean } else { middle };
     match scene.lattice {

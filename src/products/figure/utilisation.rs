@@ -1,7 +1,7 @@
-//! Utilisation: the share of the available friction that each interface uses, and the share of its limits that each robot
-//! uses.
+//! Draws the utilisation: the used share of the available friction at each interface, and the used share of each
+//! robot's limits.
 //!
-//! The forces are those of one balance of many: another may use less here and more there.
+//! The forces are one of many equilibrium states. Another state may use less friction here and more there.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -21,7 +21,7 @@ use crate::scene::Scene;
 
 /// Width of the line of an interface, unit edges; its least and its largest width, pixels.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
-/// Length of the bar across an interface that uses all its friction, in widths of its line.
+/// Length of the bar across an interface that uses all its friction, as a multiple of the width of its line.
 const BAR_LENGTH: f64 = 3.2;
 
 /// The figure of friction used.
@@ -33,7 +33,7 @@ impl PanelContent for Utilisation {
     }
 
     fn help(&self) -> &'static str {
-        "Friction used of friction available, interface by interface"
+        "The used share of the available friction at each interface"
     }
 
     fn title(&self) -> &'static str {
@@ -131,7 +131,7 @@ fn limited(scene: &Scene, robot: usize) -> bool {
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
-/// The interface and the robot with the largest utilisation, in words.
+/// Describes the interface and the robot with the largest utilisation.
 fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
     let bearings = bearings(scene, found);
@@ -161,7 +161,7 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     let robots = || found.robots.iter().filter(|r| limited(scene, r.robot.0));
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
-    // Robots with equal utilisation are named together: rounding must not select one of them.
+    // Robots with equal utilisation are mentioned together, so that rounding errors do not select one of them.
     let giving = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
     let giving: Vec<_> = giving.into_iter().flatten().collect();
     match giving.as_slice() {
@@ -188,7 +188,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// The colour of an interface's line.
+/// Returns the colour of the line of an interface.
 fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
     match bearing.friction {
         Some(share) => theme.amplitude(share),
@@ -205,7 +205,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
     Stroke::new(theme.faint, width).dashed([3.0 * width, 2.4 * width])
 }
 
-/// The lines of interfaces without force, and of those with force.
+/// Draws the lines of interfaces without force, and of interfaces with force.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -275,16 +275,17 @@ fn bar_width(bold: f64) -> f64 {
     (0.3 * bold).clamp(0.8, 1.6)
 }
 
-/// A line with a border that makes it visible on blocks of any colour.
+/// Returns the border of a line of width `bold`, which makes it visible on blocks of any colour. It is `rim` pixels
+/// wide on both sides.
 fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
     Path::stroked(line, Stroke::new(edge(theme), bold + 2.0 * rim))
 }
 
-/// The ends of the bar across an interface.
+/// Returns the ends of the bar across an interface.
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
-    // A unit normal has the same length in all directions on the page.
+    // The scale of the page is the same in all directions, so a unit normal remains one.
     let (x, y) = (
         contact.interface.normal.x * half,
         -contact.interface.normal.y * half,
@@ -292,7 +293,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
-/// The discs of robots with limits, filled in proportion to their utilisation.
+/// Draws the discs of robots with limits; their colours show the utilisation.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");

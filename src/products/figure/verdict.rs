@@ -1,10 +1,11 @@
-//! Draws the mark of a verdict. Its words come from [`wording`](crate::wording). Colour is never the only sign.
+//! Draws the mark of a verdict. Its text comes from [`wording`](crate::wording). The mark and the text show the verdict
+//! without colours too.
 
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 pub(crate) use crate::wording::verdict::{plain as word, reason};
 
-/// The colour of the mark.
+/// Returns the colour of the mark of a verdict.
 pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     match verdict {
         Verdict::Stable => theme.stands,
@@ -13,7 +14,7 @@ pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     }
 }
 
-/// The word of a frame's badge.
+/// Returns the text next to the mark of a frame's verdict.
 pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
     match found.only_by_wedging {
         Some(true) if found.verdict == Verdict::Stable => "stands only by wedging",
@@ -21,7 +22,8 @@ pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
     }
 }
 
-/// The colour of a frame's badge: what stands only by wedging is no plain "stands".
+/// Returns the colour of the mark of a frame's verdict. A frame that stands only by wedging has the colour of an
+/// undecided frame.
 pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
     match found.only_by_wedging {
         Some(true) if found.verdict == Verdict::Stable => theme.undecided,
@@ -29,12 +31,12 @@ pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
     }
 }
 
-/// The mark of a verdict in its own colour.
+/// Draws the mark of a verdict in its own colour. `r` is its radius in pixels.
 pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
     mark_in(colour(verdict, theme), verdict, centre, r, theme)
 }
 
-/// A disc of radius `r` with a tick, a cross or a question mark.
+/// Draws a disc of radius `r` pixels with a tick, a cross or a question mark.
 pub(crate) fn mark_in(
     colour: Colour,
     verdict: Verdict,

@@ -1,21 +1,23 @@
-//! [`shown`]: the part of the scene that each frame shows. Ground far from the blocks is cut.
+//! [`shown`]: computes the part of the scene that each frame shows. Ground far from the blocks is cut.
 
 use super::arrow::Marks;
 use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// Ground is shown this far beyond the blocks, as a share of the structure's diagonal, and at least one unit edge.
+/// The width of ground shown beyond the blocks, as a share of the structure's diagonal; at least one unit edge is
+/// shown.
 const GROUND_BEYOND: f64 = 0.12;
-/// A piece of ground near the structure is shown whole if neither side is longer than this, unit edges.
+/// A piece of ground near the structure is not cut if neither side is longer than this, unit edges.
 const WHOLE_GROUND: f64 = 3.0;
 /// A zoomed view reaches this far beyond its block, as a share of the block's larger side.
 const ZOOM_REACH: f64 = 0.5;
-/// Space around everything that is shown, unit edges.
+/// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
 
-/// For each frame with `marks`: a box around its blocks, plans, arrows and robots, the additional marks of its kind, and
-/// the ground near the blocks of any frame.
+/// Returns a box in metres for each frame. It contains the blocks, plans, arrows (`marks`) and robots of the frame, the
+/// box `reach` of other marks, and the ground near the blocks of any frame. `disc` is the radius of a robot's disc in
+/// unit edges; `unit` is the unit edge in metres.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
@@ -51,7 +53,7 @@ pub(crate) fn shown(
         .collect()
 }
 
-/// The blocks that a frame shows: placed and planned blocks.
+/// Returns the blocks that a frame shows: placed and planned blocks.
 fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockId> + 'a {
     let planned = frame.plans.iter().map(|plan| plan.block);
     frame
@@ -62,7 +64,8 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
         .filter(|id| id.0 < scene.blocks.len())
 }
 
-/// A box around the ground that figures of a scene show; `None` if no ground is near. `unit` is the unit edge in metres.
+/// Returns a box around the ground that figures of a scene show, metres; `None` if no ground is near. `unit` is the
+/// unit edge in metres.
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
@@ -86,13 +89,13 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
-/// A block's neighbourhood: a box of which the block fills half.
+/// Returns the surroundings of a block: its box, enlarged on all sides by half of its longer side.
 pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
     bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))
 }
 
-/// Whether a point lies in a box.
+/// True if a point lies in a box or on its edge.
 pub(crate) fn holds(bounds: Bounds, p: Point) -> bool {
     (bounds.min.x..=bounds.max.x).contains(&p.x) && (bounds.min.y..=bounds.max.y).contains(&p.y)
 }
@@ -101,7 +104,7 @@ fn near(p: Point, radius: f64) -> Bounds {
     Bounds { min: p, max: p }.grown(radius)
 }
 
-/// The intersection of two boxes; `None` if they do not meet.
+/// Returns the intersection of two boxes; `None` if they do not touch.
 pub(crate) fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
     let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
     let size: Vector = max - min;

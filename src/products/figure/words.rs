@@ -1,4 +1,4 @@
-//! The number formats of figures, which come from [`wording`](crate::wording).
+//! The number formats of figures. They are defined in [`wording`](crate::wording).
 
 pub use crate::wording::number::quantity;
 pub(crate) use crate::wording::number::{

@@ -1,5 +1,5 @@
-//! Signs of the key for weights, loads and forces that are too small for an arrow. Each is drawn from the middle of its
-//! left end.
+//! Signs of the legend for weights, loads and forces that are too small for an arrow. Each is drawn from the middle of
+//! its left end.
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};

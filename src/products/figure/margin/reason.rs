@@ -1,4 +1,4 @@
-//! The sentence below the verdict: at which values of the parameter the frame stands.
+//! Writes the sentence below the verdict: for which values of the parameter the frame stands.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
 use crate::wording::margin::{Parameter, stands};
@@ -6,7 +6,7 @@ use crate::wording::number::digits;
 
 use super::super::words::{degrees, percent};
 
-/// At which turns of gravity, pushes across it, or factors on its loads a frame stands.
+/// Describes for which rotations of gravity, horizontal loads or load factors a frame stands.
 pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> String {
     let found = &analysis.frames[frame];
     let Some(margins) = &found.margins else {
@@ -62,7 +62,7 @@ fn parameter(toward: Toward) -> &'static str {
     }
 }
 
-/// What is said of a frame that stands: the nearest end, and the other one where the parameter has two.
+/// Describes the margin of a frame that stands: the nearest end of the interval, and for loads also the lower end.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     if let Some((edge, _)) = analysis.edge(frame, toward) {
@@ -112,13 +112,13 @@ fn is_open(end: &End) -> bool {
     matches!(end, End::Unconfirmed { .. })
 }
 
-/// The least factor on the loads, where it is above 0.
+/// Returns the least load factor at which the frame stands, if it is above 0.
 fn least_factor(interval: &Interval) -> Option<f64> {
     let low = interval.low().and_then(End::value);
     low.filter(|low| *low > 0.0)
 }
 
-/// A share of gravity in percent, also beyond all of it.
+/// Formats the magnitude of a share of gravity in percent; it may exceed 100 %.
 pub(super) fn percent_of(share: f64) -> String {
     if share.abs() < 1.0 {
         percent(share.abs())

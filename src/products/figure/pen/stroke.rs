@@ -1,4 +1,4 @@
-//! The arrows of a frame as a [`Pen`] draws them, and the signs of those that are too small.
+//! Draws the arrows of a frame, and dots for forces that are too small for an arrow.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -11,23 +11,24 @@ use crate::figure::description;
 use crate::geometry::Vector;
 use crate::scene::BodyId;
 
-/// Radius of a turning arrow in unit edges: around a robot's disc.
+/// Radius of the arrow of a torque in unit edges, larger than a robot's disc.
 const TURN: f64 = 0.46;
-/// The turning arrow of a load is at least so long, radians.
+/// Least angle of the arrow of a load's torque, radians.
 const LEAST_SWEEP: f64 = 1.2;
 
 impl Pen<'_> {
-    /// Whether an arrow is long enough to be seen.
+    /// True if an arrow is long enough to be visible.
     pub(crate) fn seen(&self, arrow: &ForceArrow) -> bool {
         self.camera.length(arrow.reach().norm()) >= LEAST_SEEN
     }
 
-    /// Whether a turning arrow is long enough to be seen.
+    /// True if the arrow of a torque is long enough to be visible. Always true for loads.
     pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
         self.camera.length(turn.arc.abs()) >= LEAST_SEEN || turn.kind == TurnKind::Load
     }
 
-    /// The loads and missing forces that are too small for an arrow, each once: where they act is shown in any case.
+    /// Returns the loads and missing forces that are too small for an arrow, each once. A dot shows the point where
+    /// they act.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
         let marks = &self.context.marks[self.number];
         marks
@@ -61,7 +62,7 @@ impl Pen<'_> {
             self.width(arrow),
         );
         if arrow.kind == ArrowKind::Load {
-            // Hollow: what acts from outside is told from what the structure answers, in a grey print too.
+            // Loads are hollow, so that a grey print also shows the difference from other forces.
             let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
             return Path::filled(outline, self.context.options.theme.page)
                 .with_stroke(edge.mitred());
@@ -69,7 +70,8 @@ impl Pen<'_> {
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
 
-    /// The ring at the tail of a weight, by which it is told from other forces.
+    /// Returns the ring at the tail of a weight, which distinguishes it from other forces. Returns `None` for other
+    /// forces and in small or printed figures.
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
             && !self.context.options.printed()
@@ -80,7 +82,7 @@ impl Pen<'_> {
         marked.then(|| Path::filled(ring, self.context.options.theme.page).with_stroke(edge))
     }
 
-    /// The seam that sets an arrow off from the block it acts on.
+    /// Returns the colour of the border that separates an arrow from the block on which it acts.
     fn seam_around(&self, arrow: &ForceArrow) -> Colour {
         let theme = &self.context.options.theme;
         let frame = &self.context.analysis.scene.frames[self.number];
@@ -93,8 +95,8 @@ impl Pen<'_> {
         }
     }
 
-    /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
-    /// must not hide which way another points.
+    /// Draws the heads of all arrows again, above all shafts. Arrows on one line overlap, and a shaft must not hide the
+    /// head of another arrow. Loads and missing forces are left out.
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
@@ -130,8 +132,8 @@ impl Pen<'_> {
         Path::filled(outline, turn.colour).cased(self.context.options.theme.casing, self.casing)
     }
 
-    /// How far round its centre a turning arrow runs, radians. That of a load, which is part of the question, has a least
-    /// length at which its sense can be read; its amount stands beside it.
+    /// Returns the angle through which the arrow of a torque turns, radians. `radius` is in metres. The arrow of a load
+    /// has a least angle, so that its direction is visible; its magnitude is written next to it.
     fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
         let sweep = turn.arc / radius;
         if turn.kind != TurnKind::Load || turn.torque == 0.0 {
@@ -140,8 +142,8 @@ impl Pen<'_> {
         sweep.abs().max(LEAST_SWEEP).copysign(turn.torque)
     }
 
-    /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
-    /// top where that is as good as any.
+    /// Returns the direction in radians from the centre of a torque's arrow to its middle at which it is farthest from
+    /// straight arrows. If several are equally good, it is upwards.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let ends = [-0.5 * sweep, 0.5 * sweep];
@@ -169,7 +171,7 @@ impl Pen<'_> {
         best.1
     }
 
-    /// The arrows of what is there, or of what is missing, each with its numbers.
+    /// Draws the arrows of missing forces and torques, or of all others, each with a title that states its magnitude.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
@@ -203,7 +205,7 @@ impl Pen<'_> {
         group
     }
 
-    /// The arrows of loads alone.
+    /// Draws only the arrows of loads.
     pub(crate) fn loads(&self) -> Group {
         let mut group = Group::with_class("forces");
         let loads = self.context.marks[self.number].arrows.iter();
@@ -217,7 +219,8 @@ impl Pen<'_> {
         group
     }
 
-    /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
+    /// Like [`Pen::arrows`], for frames with very many blocks: draws one path for all arrows of a colour, without
+    /// missing forces.
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();
