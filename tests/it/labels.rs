@@ -185,7 +185,7 @@ pub(crate) const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
 const TWO_COLUMNS: f64 = 174.0 / 25.4 * 96.0 / 0.8;
 
 #[test]
-fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind() {
+fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_kind() {
     let mut count = 0;
     let mut complaints = Vec::new();
     for (name, scene) in gallery().into_iter().chain(brought()) {
@@ -213,11 +213,18 @@ fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind
                     .into_iter()
                     .filter(|text| !labels.contains(text))
                     .collect();
+                for text in labels.iter().chain(&others) {
+                    let [left, top, right, bottom] = ink(text);
+                    if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
+                        complaints.push(format!("{what}: {} is cut", text.words));
+                    }
+                    let least = if labels.contains(text) { 9.0 } else { 12.5 };
+                    if text.size < least {
+                        complaints.push(format!("{what}: {} of {}", text.words, text.size));
+                    }
+                }
                 for label in &labels {
                     let [left, top, right, bottom] = ink(label);
-                    if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
-                        complaints.push(format!("{what}: {} is cut", label.words));
-                    }
                     let meets =
                         |b: Box4| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom;
                     for other in others.iter().filter(|other| meets(ink(other))) {

@@ -18,9 +18,10 @@ const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
 const MAX_COLUMNS: usize = 8;
 /// Largest ratio of height to width of all panels of a page together, so that title and legend fit on the page.
 const MAX_PAGE_RATIO: f64 = 1.2;
-/// A row of panels narrower than the first number, pixels (110 mm), is a column of print; the second number is its
-/// largest ratio.
-const PRINT_COLUMN: (f64, f64) = (520.0, 2.2);
+/// A page narrower than this, pixels (110 mm), is a column of print.
+pub(crate) const PRINT_COLUMN: f64 = 520.0;
+/// The largest ratio of a column of print.
+const MAX_COLUMN_RATIO: f64 = 2.2;
 /// Height of the verdict and its text below a panel, pixels.
 const VERDICT_HEIGHT: f64 = 64.0;
 /// Longest unit edge in a strip, pixels.
@@ -117,8 +118,8 @@ impl Layout {
                     let panel = context.view.height() * scale(columns) + words;
                     count.div_ceil(columns) as f64 * panel
                 };
-                let page = if across < PRINT_COLUMN.0 {
-                    PRINT_COLUMN.1
+                let page = if across < PRINT_COLUMN {
+                    MAX_COLUMN_RATIO
                 } else {
                     MAX_PAGE_RATIO
                 };

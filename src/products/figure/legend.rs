@@ -18,6 +18,12 @@ use crate::drawing::{
 
 /// Height of a line of the legend, as a multiple of its font size.
 pub(crate) const LINE: f64 = 2.08;
+/// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
+pub(crate) const NARROW_LINE: f64 = 1.7;
+/// Distance of the lines of an entry that needs several lines, as a multiple of the font size.
+const WRAPPED_LINE: f64 = 1.25;
+/// Smallest width of the text of an entry, pixels.
+const MIN_WORDS_WIDTH: f64 = 60.0;
 const ENTRY_GAP: f64 = 28.0;
 const SIGN_GAP: f64 = 9.0;
 /// Length of a line in the legend, pixels.
@@ -46,35 +52,16 @@ pub(crate) enum Entry {
     Metres(f64, String),
     /// A note, such as on labels that are left out.
     Note(String),
-    /// A line of a text of several lines; no other entry is on the same line.
-    Part(String),
     /// A sign: the function that draws it from the middle of its left end, its width in pixels, and its meaning.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
 
 impl Entry {
-    /// Splits an entry so that it fits into `room` pixels. Colours lose the names of their blocks. The meaning of a bar
-    /// or a sign is written below it.
-    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Vec<Entry> {
-        if self.width(theme) <= room {
-            return vec![self];
-        }
-        let below = |sign: Option<Entry>, words: &str| {
-            let lines = text::balanced(words, Face::Sans, theme.sizes.key, room, usize::MAX);
-            sign.into_iter()
-                .chain(lines.into_iter().map(Entry::Part))
-                .collect()
-        };
+    /// The entry in `room` pixels: arrow colours lose the names of their blocks if these do not fit.
+    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         match self {
-            Entry::Blocks(_) => vec![Entry::Colours(theme.arrows.clone())],
-            Entry::Amplitudes(ends, what, ramp) => {
-                below(Some(Entry::Amplitudes(ends, String::new(), ramp)), &what)
-            }
-            Entry::Sign(sign, width, meaning) => {
-                below(Some(Entry::Sign(sign, width, String::new())), &meaning)
-            }
-            Entry::Note(words) => below(None, &words),
-            entry => vec![entry],
+            Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
+            entry => entry,
         }
     }
 
@@ -99,57 +86,72 @@ impl Entry {
         }
     }
 
-    /// True if the entry has a line of its own: a line of a longer text, or a bar or a sign with its meaning below it.
-    fn alone(&self) -> bool {
-        match self {
-            Entry::Part(_) => true,
-            Entry::Amplitudes(_, what, _) | Entry::Sign(_, _, what) => what.is_empty(),
-            _ => false,
-        }
-    }
-
-    fn width(&self, theme: &Theme) -> f64 {
+    /// Width of the sign to the left of the text, with the gap between them, pixels.
+    fn sign_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
-            Entry::Blocks(blocks) => {
-                wide("force on block")
-                    + blocks
-                        .iter()
-                        .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
-                        .sum::<f64>()
+            Entry::Blocks(blocks) => blocks
+                .iter()
+                .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
+                .fold(wide(ON_BLOCK), |sum, block| sum + block),
+            Entry::Colours(colours) => 30.0 * colours.len() as f64,
+            Entry::Robot(..) | Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0,
+            Entry::Missing => 34.0 + 7.0,
+            Entry::Amplitudes([low, high], ..) => {
+                wide(low) + 7.0 + BAR_LENGTH + 7.0 + wide(high) + 8.0
             }
-            Entry::Colours(colours) => 30.0 * colours.len() as f64 + wide(COLOURS),
-            Entry::Robot(_, id) => 2.0 * SIGN_GAP + 7.0 + wide(&robot(id)),
-            Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0 + wide(PLANNED),
-            Entry::Missing => 34.0 + 7.0 + wide(MISSING),
-            Entry::Amplitudes([low, high], what, _) => {
-                wide(low) + 7.0 + BAR_LENGTH + 7.0 + wide(high) + 8.0 + wide(what)
-            }
-            Entry::Scale(length, _, amount) => length + 7.0 + wide(amount),
-            Entry::Line(_, _, meaning) => LINE_LENGTH + 7.0 + wide(meaning),
-            Entry::Metres(length, amount) => length + 7.0 + wide(amount),
-            Entry::Note(words) | Entry::Part(words) => wide(words),
-            Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
+            Entry::Scale(length, ..) | Entry::Metres(length, _) => length + 7.0,
+            Entry::Line(..) => LINE_LENGTH + 7.0,
+            Entry::Note(_) => 0.0,
+            Entry::Sign(_, width, _) => width + 7.0,
         }
     }
 
-    /// Draws the entry with the middle of its left end at `at`.
+    /// The text to the right of the sign.
+    fn words(&self) -> String {
+        match self {
+            Entry::Blocks(_) => String::new(),
+            Entry::Colours(_) => COLOURS.to_owned(),
+            Entry::Robot(_, id) => robot(id),
+            Entry::Planned(_) => PLANNED.to_owned(),
+            Entry::Missing => MISSING.to_owned(),
+            Entry::Amplitudes(_, words, _)
+            | Entry::Scale(_, _, words)
+            | Entry::Line(_, _, words)
+            | Entry::Metres(_, words)
+            | Entry::Note(words)
+            | Entry::Sign(_, _, words) => words.clone(),
+        }
+    }
+
+    /// Width of the entry in one line, pixels.
+    fn width(&self, theme: &Theme) -> f64 {
+        let words = text::width(&self.words(), Face::Sans, theme.sizes.key);
+        self.sign_width(theme) + words
+    }
+
+    /// Draws the entry in one line with the middle of its left end at `at`.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let mut items = self.sign(at, theme);
+        let words = self.words();
+        if !words.is_empty() {
+            items.push(written(
+                &words,
+                at.moved(self.sign_width(theme), 0.0),
+                theme,
+            ));
+        }
+        items
+    }
+
+    /// Draws the sign of the entry with the middle of its left end at `at`.
+    fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let size = theme.sizes.key;
-        let words = |x: f64, words: &str| -> Item {
-            Text::new(
-                at.moved(x, 0.36 * size),
-                words,
-                Face::Sans,
-                size,
-                theme.faint,
-            )
-            .into()
-        };
+        let words = |x: f64, words: &str| written(words, at.moved(x, 0.0), theme);
         match self {
             Entry::Blocks(blocks) => {
-                let mut items = vec![words(0.0, "force on block")];
-                let mut x = text::width("force on block", Face::Sans, size);
+                let mut items = vec![words(0.0, ON_BLOCK)];
+                let mut x = text::width(ON_BLOCK, Face::Sans, size);
                 for (colour, id) in blocks {
                     x += 8.0;
                     items.push(
@@ -166,20 +168,15 @@ impl Entry {
                     let shaft = straight(at.moved(30.0 * i as f64, 0.0), (22.0, 0.0), 2.6);
                     Path::filled(shaft, *colour).into()
                 };
-                let mut items: Vec<Item> = colours.iter().enumerate().map(arrow).collect();
-                items.push(words(30.0 * colours.len() as f64, COLOURS));
-                items
+                colours.iter().enumerate().map(arrow).collect()
             }
-            Entry::Robot(colour, id) => {
+            Entry::Robot(colour, _) => {
                 let edge = colour.mixed(theme.ink, 0.35);
                 let disc = Path::filled(
                     Outline::circle(at.moved(SIGN_GAP, 0.0), 0.8 * SIGN_GAP),
                     *colour,
                 );
-                vec![
-                    disc.with_stroke(Stroke::new(edge, 0.8)).into(),
-                    words(2.0 * SIGN_GAP + 7.0, &robot(id)),
-                ]
+                vec![disc.with_stroke(Stroke::new(edge, 0.8)).into()]
             }
             Entry::Planned(colour) => {
                 let hexagon = [
@@ -193,21 +190,13 @@ impl Entry {
                 let corner = |(x, y): (f64, f64)| {
                     at.moved(SIGN_GAP + 0.85 * SIGN_GAP * x, 0.85 * SIGN_GAP * y)
                 };
-                let outline = Path::stroked(
-                    Outline::ring(hexagon.map(corner)),
-                    Stroke::new(*colour, 1.8),
-                );
-                vec![outline.into(), words(2.0 * SIGN_GAP + 7.0, PLANNED)]
+                let outline = Outline::ring(hexagon.map(corner));
+                vec![Path::stroked(outline, Stroke::new(*colour, 1.8)).into()]
             }
             Entry::Missing => {
-                let width = 4.0;
-                let arrow = straight(at, (34.0, 0.0), width);
-                vec![
-                    Path::filled(arrow, theme.failure).into(),
-                    words(34.0 + 7.0, MISSING),
-                ]
+                vec![Path::filled(straight(at, (34.0, 0.0), 4.0), theme.failure).into()]
             }
-            Entry::Amplitudes([low, high], what, ramp) => {
+            Entry::Amplitudes([low, high], _, ramp) => {
                 let start = text::width(low, Face::Sans, size) + 7.0;
                 let mut items = vec![words(0.0, low)];
                 let parts = 64;
@@ -223,34 +212,92 @@ impl Entry {
                     items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
                 }
                 items.push(words(start + BAR_LENGTH + 7.0, high));
-                let beyond = start + BAR_LENGTH + 7.0 + text::width(high, Face::Sans, size) + 8.0;
-                items.push(words(beyond, what));
                 items
             }
-            Entry::Line(colour, width, meaning) => {
+            Entry::Line(colour, width, _) => {
                 let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
                 let path = Path::stroked(line, Stroke::new(*colour, *width).mitred());
-                vec![path.into(), words(LINE_LENGTH + 7.0, meaning)]
+                vec![path.into()]
             }
-            Entry::Metres(length, amount) => {
+            Entry::Metres(length, _) => {
                 let mut bar = Outline::line([at, at.moved(*length, 0.0)]);
                 for x in [0.0, *length] {
                     bar.extend(Outline::line([at.moved(x, -4.0), at.moved(x, 4.0)]));
                 }
-                let path = Path::stroked(bar, Stroke::new(theme.faint, 1.4));
-                vec![path.into(), words(length + 7.0, amount)]
+                vec![Path::stroked(bar, Stroke::new(theme.faint, 1.4)).into()]
             }
-            Entry::Note(note) | Entry::Part(note) => vec![words(0.0, note)],
-            Entry::Sign(sign, width, meaning) => {
-                let mut items = sign(at, theme);
-                items.push(words(width + 7.0, meaning));
-                items
-            }
-            Entry::Scale(length, width, amount) => {
-                let arrow = Path::filled(straight(at, (*length, 0.0), *width), theme.faint);
-                vec![arrow.into(), words(length + 7.0, amount)]
+            Entry::Note(_) => Vec::new(),
+            Entry::Sign(sign, ..) => sign(at, theme),
+            Entry::Scale(length, width, _) => {
+                vec![Path::filled(straight(at, (*length, 0.0), *width), theme.faint).into()]
             }
         }
+    }
+}
+
+/// A text of the legend that begins at `at`, the middle of the line's height.
+fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
+    let size = theme.sizes.key;
+    let at = at.moved(0.0, 0.36 * size);
+    Text::new(at, words, Face::Sans, size, theme.faint).into()
+}
+
+/// The text with each number tied to the next word, so that both stay on one line.
+fn glued(words: &str) -> String {
+    let mut glued = String::with_capacity(words.len());
+    let mut after_digit = false;
+    for character in words.chars() {
+        let joins = after_digit && character == ' ';
+        glued.push(if joins { text::NO_BREAK } else { character });
+        after_digit = character.is_ascii_digit();
+    }
+    glued
+}
+
+/// An entry with its text broken into lines.
+struct Laid<'e> {
+    entry: &'e Entry,
+    lines: Vec<String>,
+    width: f64,
+}
+
+impl<'e> Laid<'e> {
+    /// Breaks the text of an entry so that the entry fits into `room` pixels.
+    fn new(entry: &'e Entry, room: f64, theme: &Theme) -> Laid<'e> {
+        let (words, size) = (entry.words(), theme.sizes.key);
+        let sign = entry.sign_width(theme);
+        let left = (room - sign).max(MIN_WORDS_WIDTH);
+        let lines = text::balanced(&glued(&words), Face::Sans, size, left, usize::MAX);
+        let lines: Vec<String> = lines
+            .iter()
+            .map(|l| l.replace(text::NO_BREAK, " "))
+            .collect();
+        let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
+        let width = sign + widths.fold(0.0, f64::max);
+        Laid {
+            entry,
+            lines,
+            width,
+        }
+    }
+
+    /// The height above that of an entry of one line, pixels.
+    fn extra_height(&self, theme: &Theme) -> f64 {
+        self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
+    }
+
+    /// Draws the entry with the middle of its left end at `at`.
+    fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let mut items = self.entry.sign(at, theme);
+        let first = at.moved(
+            self.entry.sign_width(theme),
+            -0.5 * self.extra_height(theme),
+        );
+        for (number, line) in self.lines.iter().enumerate() {
+            let down = number as f64 * WRAPPED_LINE * theme.sizes.key;
+            items.push(written(line, first.moved(0.0, down), theme));
+        }
+        items
     }
 }
 
@@ -273,6 +320,7 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
 
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
+const ON_BLOCK: &str = "force on block";
 const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing force, without which it falls";
@@ -478,43 +526,55 @@ pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     entries
 }
 
+/// A line of the legend: entries next to each other.
+#[derive(Default)]
+struct KeyLine<'e> {
+    entries: Vec<Laid<'e>>,
+    width: f64,
+}
+
+/// Puts each entry into the first line of at most `room` pixels that has space for it.
+fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
+    let mut lines: Vec<KeyLine<'e>> = Vec::new();
+    for entry in entries {
+        let laid = Laid::new(entry, room, theme);
+        let fits = |line: &&mut KeyLine<'e>| line.width + ENTRY_GAP + laid.width <= room;
+        match lines.iter_mut().find(fits) {
+            Some(line) => {
+                line.width += ENTRY_GAP + laid.width;
+                line.entries.push(laid);
+            }
+            None => lines.push(KeyLine {
+                width: laid.width,
+                entries: vec![laid],
+            }),
+        }
+    }
+    lines
+}
+
 /// Draws the legend in lines of at most `room` pixels, centred about `middle`, downwards from `top`. Also returns its
-/// height in pixels.
+/// height in pixels. `line` is the height of a line as a multiple of the font size.
 pub(crate) fn draw(
     entries: &[Entry],
-    middle: f64,
-    top: f64,
+    (middle, top): (f64, f64),
     room: f64,
+    line: f64,
     theme: &Theme,
 ) -> (Group, f64) {
-    let line_height = LINE * theme.sizes.key;
-    let mut lines: Vec<(f64, Vec<&Entry>)> = Vec::new();
-    for entry in entries {
-        let width = entry.width(theme);
-        match lines.last_mut() {
-            Some(line)
-                if line.0 + ENTRY_GAP + width <= room
-                    && !entry.alone()
-                    && !line.1.iter().any(|other| other.alone()) =>
-            {
-                line.0 += ENTRY_GAP + width;
-                line.1.push(entry);
-            }
-            _ => lines.push((width, vec![entry])),
-        }
-    }
     let mut group = Group::with_class("key");
-    for (number, (width, line)) in lines.iter().enumerate() {
-        let mut at = PagePoint::new(
-            middle - width / 2.0,
-            top + (number as f64 + 0.5) * line_height,
-        );
-        for entry in line {
+    let mut height = 0.0;
+    for key_line in lines(entries, room, theme) {
+        let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
+        let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
+        let mut at = PagePoint::new(middle - key_line.width / 2.0, top + height + high / 2.0);
+        for entry in &key_line.entries {
             group.items.extend(entry.draw(at, theme));
-            at = at.moved(entry.width(theme) + ENTRY_GAP, 0.0);
+            at = at.moved(entry.width + ENTRY_GAP, 0.0);
         }
+        height += high;
     }
-    (group, lines.len() as f64 * line_height)
+    (group, height)
 }
 
 /// Draws one entry with the middle of its left end at `at`. Also returns its width in pixels.

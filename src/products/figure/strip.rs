@@ -6,7 +6,7 @@ use super::content::PanelContent;
 use super::context::FigureContext;
 use super::dimension;
 use super::label;
-use super::layout::Layout;
+use super::layout::{Layout, PRINT_COLUMN};
 use super::legend;
 use super::option::{ArrowScale, Options};
 use super::title;
@@ -143,6 +143,35 @@ pub(crate) fn split(
     pages
 }
 
+/// Gaps between the parts of a page, pixels.
+struct Gaps {
+    below_title: f64,
+    above_rule: f64,
+    below_rule: f64,
+    /// Height of a line of the legend, as a multiple of its font size.
+    key_line: f64,
+}
+
+impl Gaps {
+    /// On a page as wide as a column of print texts are closer together, so that they do not fill half of it.
+    fn new(width: Option<f64>) -> Gaps {
+        match width.is_some_and(|width| width < PRINT_COLUMN) {
+            true => Gaps {
+                below_title: 10.0,
+                above_rule: 11.0,
+                below_rule: 4.0,
+                key_line: legend::NARROW_LINE,
+            },
+            false => Gaps {
+                below_title: 18.0,
+                above_rule: 20.0,
+                below_rule: 8.0,
+                key_line: legend::LINE,
+            },
+        }
+    }
+}
+
 /// A strip of panels of one kind.
 pub(crate) struct Strip<'a> {
     pub content: &'static dyn PanelContent,
@@ -164,7 +193,8 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     let theme = &options.theme;
     let entries = legend::joined(strips.iter().map(|strip| strip.entries()).collect(), theme);
     let margin = layout.margin;
-    // The page of a narrow picture is wide enough for the text.
+    let gaps = Gaps::new(options.width);
+    // A narrow picture gets a page wide enough for its words.
     let inner = match options.width {
         Some(width) => (width - 2.0 * margin).max(1.0),
         None => layout
@@ -173,7 +203,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
             .max(300.0),
     };
     let fitted = |entry: legend::Entry| entry.fitted(inner, theme);
-    let entries: Vec<legend::Entry> = entries.into_iter().flat_map(fitted).collect();
+    let entries: Vec<legend::Entry> = entries.into_iter().map(fitted).collect();
     let width = inner + 2.0 * margin;
     let middle = width / 2.0;
     let left = middle - layout.content / 2.0;
@@ -192,7 +222,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
             );
             y += below;
         }
-        y += 18.0;
+        y += gaps.below_title;
     }
     for (number, row) in order.chunks(layout.columns).enumerate() {
         if number > 0 {
@@ -232,14 +262,14 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
         y = bottom;
     }
     if !entries.is_empty() {
-        y += 20.0;
+        y += gaps.above_rule;
         let rule = Outline::line([
             PagePoint::new(middle - inner / 2.0, y),
             PagePoint::new(middle + inner / 2.0, y),
         ]);
         items.push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
-        y += 8.0;
-        let (key, height) = legend::draw(&entries, middle, y, inner, theme);
+        y += gaps.below_rule;
+        let (key, height) = legend::draw(&entries, (middle, y), inner, gaps.key_line, theme);
         items.push(key.into());
         y += height - 10.0;
     }
@@ -343,7 +373,12 @@ impl Strip<'_> {
             group.items.extend(signs);
             y += 2.2 * half + below;
             let reason = if options.verdicts {
-                context.statements[frame].clone()
+                let said = [
+                    self.headline(frame).1,
+                    Some(context.statements[frame].clone()),
+                ];
+                let said = said.into_iter().flatten().filter(|words| !words.is_empty());
+                said.collect::<Vec<String>>().join("; ")
             } else {
                 String::new()
             };
@@ -396,7 +431,8 @@ impl Strip<'_> {
         let found = &self.context.analysis.frames[frame];
         let size = theme.sizes.verdict;
         let radius = size * 7.5 / 13.5;
-        let (word, wide) = self.headline(frame);
+        let (word, _) = self.headline(frame);
+        let wide = text::width(&word, Face::SansBold, size);
         let options = self.context.options;
         let lead = if options.verdicts {
             2.0 * radius + 6.0 + wide + 22.0
@@ -458,21 +494,24 @@ impl Strip<'_> {
         (items, below)
     }
 
-    /// Returns the text next to the mark of a verdict, and its width in pixels. If the text is wider than the panel, it
-    /// is only the verdict.
-    fn headline(&self, frame: usize) -> (String, f64) {
+    /// The text next to the mark of a verdict. If it is wider than the panel: the verdict alone, and the rest of the text.
+    fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
-        let width = |words: &str| text::width(words, Face::SansBold, size);
         let found = &self.context.analysis.frames[frame];
         let words = self.content.headline(self.context, frame);
         let sign = 1.2 * size + 6.0;
-        let words = if sign + width(&words) <= self.layout.panel.max(300.0) {
-            words
-        } else {
-            verdict::badge(found).to_owned()
+        let room = match (self.layout.columns, self.context.options.width) {
+            (1, None) => self.layout.panel.max(300.0),
+            (1, Some(width)) => width - 2.0 * self.layout.margin,
+            _ => self.layout.panel,
         };
-        let wide = width(&words);
-        (words, wide)
+        if sign + text::width(&words, Face::SansBold, size) <= room {
+            return (words, None);
+        }
+        let badge = verdict::badge(found);
+        let rest = words.strip_prefix(badge).unwrap_or(&words);
+        let rest = rest.trim_start_matches([':', ',', ' ']).to_owned();
+        (badge.to_owned(), Some(rest).filter(|rest| !rest.is_empty()))
     }
 
     /// Returns the caption of a frame, such as `(a) Initial situation`. It has no letter if there is only one frame,
