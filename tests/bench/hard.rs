@@ -28,7 +28,7 @@ const TURNS: Turns = Turns {
 };
 
 fn main() {
-    println!("| case | verdict | proof | ms | easy sibling, ms | ratio |");
+    println!("| case | verdict | proof | ms | easy case, ms | ratio |");
     println!("|---|---|---|---|---|---|");
     let only = std::env::args()
         .nth(1)
