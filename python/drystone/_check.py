@@ -32,7 +32,7 @@ def check(
     ``margins`` is ``True`` for all margins, or some of "friction", "tilt", "horizontal_load", "kernel", "load_factor" and
     "robots". ``wedging`` finds out whether a frame stands only by wedging. ``verdict_only`` leaves out what the verdict
     does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in seconds, ``contact_tolerance`` in metres.
-    ``notes`` are what is allowed and seldom meant.
+    ``notes`` are about input that is allowed but probably not intended.
 
     Raises :class:`SceneError` where the scene is not valid.
 

@@ -1,5 +1,5 @@
-//! Everything ends: the worst files of less than a megabyte are refused, or done, within ten seconds of processor time and
-//! a gigabyte of memory, and in words with the number found.
+//! Everything ends: the worst files of less than a megabyte are refused, or done, within ten seconds of processor time
+//! and a gigabyte of memory, and in words with the number found.
 
 #![cfg(unix)]
 
@@ -236,7 +236,7 @@ fn steps_without_number() {
         "steps.json",
         &text,
         "check steps.json",
-        "250001 steps show their blocks",
+        "the frames of 250001 steps contain",
     );
 }
 
@@ -298,8 +298,8 @@ fn a_limit_of_time_leaves_the_rest_undecided() {
     );
 }
 
-/// A closed form decides two blocks on a floor in no time. Where they overlap a verdict needs a second analysis, for which a time
-/// limit of 0 leaves no time.
+/// A closed form decides two blocks on a floor in no time. Where they overlap a verdict needs a second analysis, for
+/// which a time limit of 0 leaves no time.
 #[test]
 fn a_time_limit_leaves_overlaps_undecided() {
     let beside = |depth: f64| {

@@ -1,4 +1,4 @@
-//! Notes: what is allowed in a scene and seldom meant.
+//! Notes: input that is allowed in a scene but probably not intended.
 
 use drystone::analysis::Verdict;
 use drystone::scene::{Code, Note, NoteCode, Scene};

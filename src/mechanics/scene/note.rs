@@ -16,7 +16,7 @@ use crate::geometry::{Point, Polygon};
 pub(super) const MOST_FRICTION: f64 = 2.0;
 
 codes! {
-    /// What sort of note it is. Words are added in later versions, never renamed.
+    /// The kind of a note. Later versions may add words, but never rename them.
     NoteCode;
     FrictionHigh "friction_high" "a friction coefficient above 2",
     GripOutside "grip_outside" "a grip point that lies outside the block",

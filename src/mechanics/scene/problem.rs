@@ -1,7 +1,7 @@
-//! [`Problem`]: a problem of a scene file with its message.
+//! [`Problem`]: an error in a scene file, with its place, a message and a remedy.
 //!
-//! All sentences of the scene module are in the files of this folder, one function for each: what was found, and what to do
-//! about it.
+//! The files of this folder contain all messages of the scene module, one function for each. A message describes what
+//! was found and what to do about it.
 
 mod code;
 pub(super) mod entry;
@@ -22,50 +22,50 @@ use super::BodyId;
 use super::source::Source;
 use crate::geometry::Point;
 
-/// One thing that is wrong with a scene.
+/// An error in a scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Problem {
-    /// What sort of problem it is.
+    /// The kind of problem.
     pub code: Code,
-    /// Where in the scene, as `blocks[3].polygon[1]`; empty for the whole file.
+    /// Its place in the scene, such as `blocks[3].polygon[1]`; empty for the whole file.
     pub path: String,
-    /// Line in the text, from 1; 0 where there is no text.
+    /// Line in the text, from 1; 0 if there is no text.
     pub line: usize,
-    /// Column in that line in characters, from 1; 0 where there is no text.
+    /// Column in that line in characters, from 1; 0 if there is no text.
     pub column: usize,
-    /// Bytes of the text that are meant, absent where there is no text.
+    /// The range of bytes in the text; `None` if there is no text.
     pub span: Option<Range<usize>>,
-    /// What is wrong, with the numbers found.
+    /// The description of the problem, with the numbers found.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: String,
-    /// Where in the structure it lies, where that is one place.
+    /// The point of the structure at which it lies, if there is one.
     pub place: Option<Place>,
 }
 
-/// Where in a structure a problem lies.
+/// The place of a problem in a structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Place {
-    /// At a point of the body's own outline, before it is turned and moved, metres.
+    /// A point of the body's own outline, in metres, before it is rotated and moved.
     Own(Point),
-    /// At a point, metres, between this body and another one.
+    /// A point, in metres, between the body with the problem and this body.
     Between(Point, BodyId),
 }
 
-/// All that is wrong with a scene, in the order of the text.
+/// All problems of a scene, in the order of the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SceneError {
-    /// The text that was read, from which all spans count; absent for a scene made in code.
+    /// The text that was read, to which all spans refer; `None` for a scene built in code.
     pub text: Option<String>,
     /// The problems, at least one.
     pub list: Vec<Problem>,
 }
 
 impl SceneError {
-    /// An error with a single problem of the text itself.
+    /// Creates an error with one problem, for text that could not be read as a scene. `span` is its range of bytes.
     pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
         let problem = Problem::new(String::new(), Some(span), Some(source), wording);
         SceneError {
@@ -76,7 +76,7 @@ impl SceneError {
 }
 
 impl Problem {
-    /// A problem at a place of the text, or without one.
+    /// Creates a problem with its place in the text. Without `span` and `source`, line and column are 0.
     pub(super) fn new(
         path: String,
         span: Option<Range<usize>>,
@@ -132,7 +132,7 @@ impl fmt::Display for SceneError {
 impl std::error::Error for Problem {}
 impl std::error::Error for SceneError {}
 
-/// What to say of a problem.
+/// The code, message and remedy of a problem, before its place in the file is known.
 #[derive(Clone, Debug)]
 pub(super) struct Wording {
     code: Code,
@@ -142,7 +142,7 @@ pub(super) struct Wording {
 }
 
 impl Wording {
-    /// The same message with a place in the structure, in metres.
+    /// Adds a place in the structure, in metres, to the message.
     pub(super) fn at(self, place: Place) -> Wording {
         Wording {
             place: Some(place),
@@ -150,14 +150,14 @@ impl Wording {
         }
     }
 
-    /// The message and the hint.
+    /// The message, and the remedy or hint.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
     }
 }
 
 fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
-    // Names and parts of the file are quoted in messages. A line break in them must not begin a new line.
+    // Messages quote names and other text of the file. A line break in them must not begin a new line of output.
     Wording {
         code,
         message: crate::text::line(&message.into()),
@@ -166,7 +166,7 @@ fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wordi
     }
 }
 
-/// A number for messages: six digits, with a power of ten if it is very large or small.
+/// Formats a number for messages: six digits, with a power of ten if it is very large or small.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
@@ -195,7 +195,7 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
-/// A text that is shortened to fit into a sentence.
+/// Shortens a text so that it fits into a sentence.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_string()
@@ -204,7 +204,7 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// "a, b or c"
+/// Joins the items to a list with "or": "a, b or c".
 pub(super) fn choice(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();
     match items.split_last() {

@@ -1,7 +1,7 @@
-//! From a text, or a [`SceneFile`] made in code, to a checked [`Scene`], or to all its problems at once.
+//! Converts text, or a [`SceneFile`] built in code, to a checked [`Scene`] or to the list of all its problems.
 //!
-//! A text is read once, into a syntax tree. The scene file is made from that tree, and so is every problem: what does not
-//! fit is noted and left out, and what could be read is still examined for its meaning.
+//! A text is read once, into a syntax tree. The scene file is made from that tree. A value
+//! that does not fit is reported and left out. All other values are still checked.
 
 mod object;
 mod value;
@@ -22,7 +22,7 @@ impl Scene {
     /// Reads and checks a scene file.
     ///
     /// # Errors
-    /// Everything that is wrong with it, each with line, column and path.
+    /// All problems of the scene, each with line, column and path.
     ///
     /// # Example
     /// ```
@@ -43,7 +43,7 @@ impl Scene {
     /// Reads and checks a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of the file.
     ///
     /// # Errors
-    /// As [`Scene::from_json`].
+    /// The same errors as [`Scene::from_json`].
     pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
@@ -64,16 +64,16 @@ impl Scene {
     /// Reads and checks the bytes of a scene file.
     ///
     /// # Errors
-    /// As [`Scene::from_json`], and bytes that are no UTF-8.
+    /// The same errors as [`Scene::from_json`], and an error if the bytes are not UTF-8.
     pub fn from_slice(bytes: &[u8]) -> Result<Scene, SceneError> {
         Scene::from_slice_within(bytes, None)
     }
 
-    /// Reads and checks the bytes of a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of the
-    /// file.
+    /// Reads and checks the bytes of a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of
+    /// the file.
     ///
     /// # Errors
-    /// As [`Scene::from_slice`].
+    /// The same errors as [`Scene::from_slice`].
     pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match std::str::from_utf8(bytes) {
@@ -82,8 +82,8 @@ impl Scene {
         }
     }
 
-    /// Starts a scene in code. The methods have the names of the keys of the scene file, and [`build`](SceneFile::build)
-    /// finishes the scene.
+    /// Starts a scene in code. The methods have the names of the keys of the scene file, and
+    /// [`build`](SceneFile::build) finishes the scene.
     ///
     /// # Example
     /// ```
@@ -113,10 +113,10 @@ impl Scene {
         SceneFile::default()
     }
 
-    /// Checks a scene that was made in code.
+    /// Checks a scene that was built in code.
     ///
     /// # Errors
-    /// Everything that is wrong with it, each with its path.
+    /// All problems of the scene, each with its path.
     ///
     /// # Example
     /// ```

@@ -1,4 +1,4 @@
-//! From a [`SceneFile`] to a [`Scene`]: defaults filled in, names resolved, numbers and outlines checked.
+//! Converts a [`SceneFile`] to a [`Scene`]: fills in defaults, resolves names, and checks numbers and outlines.
 
 mod body;
 mod closeness;
@@ -30,9 +30,10 @@ const DENSITY: f64 = 1.0;
 const THICKNESS: f64 = 1.0;
 const GRAVITY: Pair = [0.0, -9.81];
 
-/// The scene a file describes, or all that is wrong with it.
+/// Returns the scene that a file describes, or all problems that were found.
 ///
-/// With parts of the file in doubt the answer is wrong in any case, perhaps without a finding.
+/// If parts of the file could not be read, the scene is incomplete, and the list of problems may be empty. The caller
+/// must then not use the scene.
 pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec<Finding>> {
     let mut findings = Findings::doubting(doubt);
     let scene = Resolution::new(&mut findings, file).scene(&mut findings);
@@ -42,7 +43,7 @@ pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec
     }
 }
 
-/// What the whole file says, for its bodies to use.
+/// The values of the whole file that its bodies use.
 struct Resolution<'f> {
     file: &'f SceneFile,
     gravity: Vector,
@@ -61,7 +62,7 @@ struct Resolution<'f> {
     robot_ids: Vec<String>,
 }
 
-/// A material's own values, sound ones only.
+/// The values that a material gives. A value that is not valid is absent.
 #[derive(Clone, Copy)]
 struct MaterialValues {
     density: Option<f64>,
@@ -70,7 +71,7 @@ struct MaterialValues {
 }
 
 impl<'f> Resolution<'f> {
-    /// Reads what holds for the whole file. The outlines of shapes need the lattice, so they come last.
+    /// Reads the values for the whole file. The outlines of shapes come last because they need the lattice.
     fn new(findings: &mut Findings, file: &'f SceneFile) -> Resolution<'f> {
         let top = Trail::Top;
         let (gravity, kernel) = general_values(findings, file);
@@ -106,7 +107,7 @@ impl<'f> Resolution<'f> {
         resolution
     }
 
-    /// The scene, if all its bodies are sound. The order of the steps is the order of the findings.
+    /// Returns the scene if all its bodies are valid. The calls are in the order in which problems are listed.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let closeness = self.heal(findings, &mut ground, &mut blocks);
@@ -152,7 +153,7 @@ impl<'f> Resolution<'f> {
         })
     }
 
-    /// The names that robots, loads and steps refer to.
+    /// The names of blocks and robots, for robots, loads and steps that refer to them.
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
         let hidden = |list: &str, ids: &[String]| findings.doubt.hides_names(list, ids.len());
         BodyNames {
@@ -169,7 +170,7 @@ impl<'f> Resolution<'f> {
         }
     }
 
-    /// The steps, played into frames; the one frame of a file without steps.
+    /// Executes the steps and returns their frames. A file without steps gives one frame with all blocks.
     fn frames(
         &self,
         findings: &mut Findings,
@@ -192,7 +193,7 @@ impl<'f> Resolution<'f> {
             let holds = grips.iter().enumerate().filter_map(holds).collect();
             return vec![play::whole(centroids.len(), holds)];
         }
-        // Nobody knows what follows a step that could not be read.
+        // The frames after a step that could not be read are unknown.
         let known = (findings.doubt.first_entry("steps"))
             .unwrap_or(usize::MAX)
             .min(self.file.steps.len());
@@ -205,7 +206,7 @@ impl<'f> Resolution<'f> {
         play::frames(findings, &self.file.steps[..known], &context)
     }
 
-    /// The overlaps that are small enough to be allowed. All others become findings.
+    /// Returns the overlaps that are small enough to be allowed, and reports all others.
     fn penetrations(
         &self,
         findings: &mut Findings,
@@ -214,7 +215,7 @@ impl<'f> Resolution<'f> {
         frames: &[Frame],
         closeness: &Closeness,
     ) -> Vec<Penetration> {
-        // Without the steps nobody knows which blocks are there at the same time.
+        // If the steps could not be read, it is unknown which blocks are present at the same time.
         if findings.doubt.touches_key("steps") && self.file.steps.is_empty() {
             return Vec::new();
         }
@@ -239,7 +240,7 @@ struct BodyNames<'s> {
     robots: Names<'s>,
 }
 
-/// The version, gravity in m/s² and the kernel.
+/// Checks the format version. Returns gravity in m/s² and the kernel.
 fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     let top = Trail::Top;
     if file.drystone.0 != 1 {
@@ -257,7 +258,7 @@ fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     (Vector::new(gravity[0], gravity[1]), kernel)
 }
 
-/// The names of materials and of shapes.
+/// The names of materials, and the names of shapes including the built-in ones.
 fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names<'f>) {
     let (materials, shapes) = (&file.materials.0, &file.shapes.0);
     let materials = Names::new(
@@ -274,7 +275,7 @@ fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names
     (materials, shapes)
 }
 
-/// The sorts of notes that the file silences.
+/// The codes of the notes that the file silences. Reports unknown codes.
 fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
     let top = Trail::Top;
     let list = top.key("silence");

@@ -1,32 +1,33 @@
 //! Estimates the rounding error of coordinates from the digits in the file.
 //!
-//! Only the digits count here: a file whose coordinates mostly end at the same decimal was rounded there, one whose
-//! numbers are all 32-bit floats came through such floats. Where nothing of the kind shows, nothing is claimed.
+//! Only digits are used. If most coordinates end at the same decimal, the file was rounded to this decimal. If all
+//! numbers are 32-bit floats, they were computed or stored as such floats. Otherwise no rounding is assumed.
 
 use std::fmt::{LowerExp, Write};
 
 use super::ToleranceSource;
 use super::format::{Pair, SceneFile};
 
-/// This share of the coordinates has to end at the last decimal, or the file was not rounded there.
+/// A file counts as rounded to a number of digits only if at least this fraction of its numbers have all of them.
 const SHARE: f64 = 0.25;
-/// Nine in ten numbers rounded to a decimal end there; of 32-bit floats far fewer end at the last that occurs.
+/// The fraction that distinguishes rounding to decimals from 32-bit floats: of numbers rounded to a decimal, nine in
+/// ten end there; of 32-bit floats, far fewer end at the last decimal that occurs.
 const MOSTLY: f64 = 0.6;
-/// Numbers with more digits than this behind the point, or in all, were not rounded by anybody.
+/// Numbers with more decimals or significant digits than this count as not rounded.
 const FULL: usize = 12;
-/// Sixteen decimals of the smallest double are more than a table has to hold.
+/// The size of a table of digits. Numbers with more digits are counted in its last entry.
 const MOST: usize = 40;
 
-/// What rounding a file shows.
+/// The rounding of the coordinates in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rounding {
-    /// How it was rounded.
+    /// The kind of rounding.
     pub(super) source: ToleranceSource,
-    /// Each coordinate may be off by so much, metres.
+    /// The largest error of a coordinate, metres.
     pub(super) error: f64,
 }
 
-/// The rounding of the coordinates in a file; `None` if they seem to have all their digits.
+/// The rounding of the coordinates in a file. `None` if the digits do not show any rounding.
 pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     let mut digits = Digits::default();
     let mut reach = 0.0_f64;
@@ -44,7 +45,7 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     for (polygon, holes, at, angle) in entries {
         ring(polygon.as_deref().unwrap_or_default());
         holes.iter().for_each(|hole| ring(hole));
-        // Lattice positions are whole steps and seldom rounded.
+        // Positions on a lattice are whole steps and therefore not used here.
         if file.grid.is_none() {
             ring(at.as_slice());
         }
@@ -59,7 +60,7 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     Some(found)
 }
 
-/// How many numbers end where.
+/// Counts of numbers by their digits.
 #[derive(Default)]
 struct Digits {
     count: usize,
@@ -68,17 +69,19 @@ struct Digits {
     /// Histograms: how many coordinates have k decimals, and how many have k significant digits.
     decimals: Table,
     significant: Table,
-    /// Whether some are no 32-bit floats, neither written out in full nor as shortly as such floats can be.
+    /// Whether some number is neither a 32-bit float nor the shortest notation of one.
     wide: bool,
-    /// The latest number as it is written, and as the 32-bit float next to it is: room that is used again.
+    /// Buffers for the notation of the latest number and of the nearest 32-bit float.
     text: String,
     narrow: String,
 }
 
-/// The number of significant digits in the shortest notation of a number, and the number of digits after the decimal point
-/// (negative for trailing zeros before the point). `None` if the number has to be printed to find out.
+/// Returns the number of significant digits in the shortest notation of a number, and the number of digits after the
+/// decimal point. The latter is negative for zeros before the point. `None` if that takes more than 12 decimals or 15
+/// digits.
 ///
-/// Of all decimals of at most 15 digits no two are next to the same double. So the one that is found is the shortest.
+/// No two decimals of at most 15 digits round to the same double. The first decimal that is found is therefore the
+/// shortest.
 fn few_digits(x: f64) -> Option<(usize, i64)> {
     let mut power = 1.0;
     for behind in 0..=FULL as i64 {
@@ -99,7 +102,7 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
     None
 }
 
-/// Writes a number with the fewest digits that identify it.
+/// Writes a number with the smallest number of digits that identifies it.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
     // Writing to a `String` cannot fail.
@@ -119,7 +122,8 @@ impl Table {
         self.0[digits.min(MOST - 1)] += 1;
     }
 
-    /// The largest number of digits that at least a share of `count` numbers have.
+    /// The largest number of digits that occurs. `None` if fewer than the fraction `share` of `count` numbers have it,
+    /// or if it is above [`FULL`].
     fn last(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;
@@ -132,7 +136,7 @@ impl Table {
 }
 
 impl Digits {
-    /// Skip zeros: they are exact in every notation.
+    /// Counts the digits of a number. Zeros are skipped, because every notation gives them exactly.
     fn take(&mut self, x: f64) {
         if x == 0.0 || !x.is_finite() {
             return;
@@ -171,13 +175,13 @@ impl Digits {
             }
             return Some(found);
         }
-        // Every number with seven digits is the shortest notation of some 32-bit float. Numbers with eight digits are very
-        // unlikely to be so by chance.
+        // A number with seven digits is always the shortest notation of some 32-bit float. A number with eight digits
+        // hardly ever is by chance.
         let long = self.significant.at_least(7) as f64 >= SHARE * self.count as f64;
         if !self.wide && long && self.significant.at_least(8) > 0 {
             return Some(Rounding {
                 source: ToleranceSource::Float32,
-                // Twice the error: the coordinates may have been computed from other 32-bit floats.
+                // Double the error, because the coordinates may have been computed from other 32-bit floats.
                 error: 2.0 * float,
             });
         }

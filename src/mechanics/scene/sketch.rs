@@ -1,4 +1,4 @@
-//! [`Sketch`]: the drawable parts of a valid or refused scene file, and the places of its problems.
+//! [`Sketch`]: the drawable parts of a scene file, valid or not, and the places of its problems.
 //!
 //! Nothing here may be examined: outlines may cross, and bodies may lie in each other.
 
@@ -35,7 +35,7 @@ pub struct Spot {
 }
 
 impl Sketch {
-    /// Sketches the bytes of a scene file. A contact tolerance (metres) replaces the tolerance of the file.
+    /// Reads the bytes of a scene file as a sketch. A contact tolerance in metres replaces the tolerance of the file.
     ///
     /// # Example
     /// ```
@@ -69,7 +69,7 @@ impl Sketch {
         sketch
     }
 
-    /// The body with an id, if it can be drawn.
+    /// The body with this id; `None` if it cannot be drawn.
     pub fn body(&self, id: BodyId) -> Option<&SketchedBody> {
         self.bodies.iter().find(|body| body.id == id)
     }
@@ -96,7 +96,7 @@ impl Sketch {
     }
 }
 
-/// The body that contains the value at a path such as `blocks[3].polygon[1]`.
+/// The body that contains the value at a path such as `blocks[3].polygon[1]`. `None` if the path is not in a body.
 fn body_of(path: &str) -> Option<BodyId> {
     let (list, rest) = path.split_once('[')?;
     let number = rest.split_once(']')?.0.parse().ok()?;

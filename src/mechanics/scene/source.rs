@@ -1,4 +1,4 @@
-//! [`Source`]: the text of a scene file with the place of every value.
+//! [`Source`]: the text of a scene file, with the position of every value.
 
 use std::ops::Range;
 
@@ -7,15 +7,15 @@ use super::tree::{Entry, NodeKind, SyntaxError, Tree, parse};
 
 /// A text and its JSON values.
 pub(super) struct Source<'t> {
-    /// The text, from which all byte ranges count.
+    /// The text, to which all ranges of bytes refer.
     pub(super) text: &'t str,
-    /// The values; absent where the text is no JSON.
+    /// The values; `None` if the text is not JSON.
     pub(super) tree: Option<Tree<'t>>,
     /// First byte of every line.
     lines: Vec<usize>,
 }
 
-/// Which part of an entry a problem points at.
+/// The part of an entry to which a problem refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
     /// Its value.
@@ -25,7 +25,7 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// Parses a text. The error gives the place at which the text is not JSON.
+    /// Parses a text. The error contains the byte at which the text is not JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {
@@ -34,7 +34,7 @@ impl<'t> Source<'t> {
         })
     }
 
-    /// A text without values, for messages about text that is not JSON.
+    /// Stores a text without parsing it, for messages about text that is not JSON.
     pub(super) fn plain(text: &'t str) -> Source<'t> {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1)).collect();
@@ -58,7 +58,7 @@ impl<'t> Source<'t> {
         self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
-    /// The first byte of each entry of a top-level list.
+    /// The position of the first byte of each entry of a top-level list.
     pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
         let items = self.tree.as_ref().and_then(|tree| {
             let NodeKind::Object(top) = &tree.root.kind else {
@@ -73,8 +73,8 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// The place of the value with this path: its first line. If the text does not contain the whole path, the place of the
-    /// deepest part that it contains.
+    /// The range of bytes of the value or key with this path, only the part on its first line. If the text does not
+    /// contain the whole path, it is the range of the deepest value that it contains.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
@@ -83,7 +83,7 @@ impl<'t> Source<'t> {
                 (Segment::Index(number), NodeKind::List(list)) => tree.items(list).get(*number),
                 (Segment::Key(key), NodeKind::Object(object)) => {
                     let entries = tree.entries(object);
-                    // Of two equal keys mark the second.
+                    // If a key occurs twice, mark the second one.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
                     let entry = if last {
@@ -106,7 +106,8 @@ impl<'t> Source<'t> {
         Some(self.first_line(node.range.clone()))
     }
 
-    /// The part of a range on its first line. Marking a block of twenty lines would hide the message.
+    /// The part of a range on its first line. If a block of twenty lines were marked, the message would be hard to
+    /// find.
     fn first_line(&self, range: Range<usize>) -> Range<usize> {
         let text = self.text.get(range.clone()).unwrap_or("");
         let line = text.split('\n').next().unwrap_or("").trim_end();

@@ -1,6 +1,6 @@
-//! The first example of a scene.
+//! The example scenes that `drystone new` writes.
 
-/// A small scene to build on that stands in every step, as the text of a scene file.
+/// Returns a small example as the text of a scene file. It stands in every step and can be extended.
 ///
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
@@ -11,7 +11,7 @@ pub fn starter() -> &'static str {
     include_str!("../../../assets/starter.json")
 }
 
-/// The same scene with one more step, in which a block tips over because the robot lets go too early.
+/// Returns the same example with one more step, in which a block tips over because a robot releases it too early.
 ///
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::falling_starter())?;

@@ -6,14 +6,14 @@ use super::problem::{self, SceneError, Wording};
 use super::source::Source;
 use super::tree::{SyntaxError, Why};
 
-/// The error for text that is not JSON.
+/// Makes the error for text that is not JSON.
 pub(super) fn problem(text: &str, fault: SyntaxError) -> SceneError {
     let source = Source::plain(text);
     let (span, wording) = explain(&source, fault);
     SceneError::of_text(&source, span, wording)
 }
 
-/// The error for bytes that are not UTF-8.
+/// Makes the error for bytes that are not UTF-8. `valid` is the number of valid bytes at the start.
 pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let text = String::from_utf8_lossy(bytes);
     let source = Source::plain(&text);
@@ -27,7 +27,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     )
 }
 
-/// The range of the character at a byte.
+/// The range of bytes of the character that begins at a byte.
 fn one(text: &str, byte: usize) -> Range<usize> {
     let length = text[byte..].chars().next().map_or(0, char::len_utf8);
     byte..byte + length
@@ -68,7 +68,7 @@ fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
     }
 }
 
-/// The place and the message for an unexpected character.
+/// Chooses the place and the message for an unexpected character.
 fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usize>, Wording) {
     let token = token(text, fault.at);
     if let Some(wording) = known_token(&text[token.clone()]) {
@@ -89,7 +89,8 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usiz
     (here, wording)
 }
 
-/// The first line that a version control system wrote to mark a conflict. Seven equal signs alone mark none.
+/// The range of the first line that a version control system wrote to mark a conflict. A line of seven equal signs
+/// alone is not such a mark.
 fn conflict(text: &str) -> Option<Range<usize>> {
     let is_mark = |line: &&str| line.starts_with(['<', '>']) && crate::text::is_conflict_mark(line);
     let line = text.lines().find(is_mark)?;
@@ -135,7 +136,7 @@ fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     found.map(|range| (range, format))
 }
 
-/// The message for a word or number of another language, such as `None` or `NaN`.
+/// The message for a word or number that another language would accept, such as `None` or `NaN`.
 fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {

@@ -1,25 +1,25 @@
-//! [`Tree`]: a JSON text as a syntax tree, every value and key with its place.
+//! [`Tree`]: the syntax tree of a JSON text, with the position of every value and key.
 //!
-//! The entries of all lists stand in one list, and those of all objects in another: a file of many points costs few
-//! allocations.
+//! The entries of all lists are stored in one vector, and those of all objects in another. A file with many points
+//! therefore needs few allocations.
 //!
-//! Strict JSON (RFC 8259) and no more: what this file takes, serde_json takes, and the other way round; a test holds the
-//! two against each other. Reading ends at the first fault, of which [`SyntaxError`] says what was expected there.
+//! The parser accepts strict JSON (RFC 8259), exactly like serde_json; a test compares the two. It stops at the first
+//! error, and [`SyntaxError`] describes what was expected there.
 
 mod string;
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// So many brackets may be open at once.
+/// The largest number of brackets that may be open at the same time.
 pub(super) const DEEPEST: usize = 127;
 
-/// A JSON text, read.
+/// The syntax tree of a JSON text.
 #[derive(Debug)]
 pub(super) struct Tree<'t> {
     /// The topmost value.
     pub(super) root: Node<'t>,
-    /// What stands in one list after the other, and in one object after the other.
+    /// The entries of all lists, and of all objects, in one vector each.
     items: Vec<Node<'t>>,
     entries: Vec<Entry<'t>>,
 }
@@ -30,24 +30,24 @@ impl<'t> Tree<'t> {
         &self.items[list.0.clone()]
     }
 
-    /// What stands in an object, in its order, keys perhaps twice.
+    /// The entries of an object, in the order of the text. A key may occur twice.
     pub(super) fn entries(&self, object: &Object) -> &[Entry<'t>] {
         &self.entries[object.0.clone()]
     }
 }
 
-/// Which of the entries of all lists are a list's own.
+/// The range of a list's entries within the entries of all lists.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct List(Range<usize>);
 
 impl List {
-    /// How many there are.
+    /// The number of entries.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
 }
 
-/// Which of the entries of all objects are an object's own.
+/// The range of an object's entries within the entries of all objects.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Object(Range<usize>);
 
@@ -60,14 +60,14 @@ pub(super) struct Node<'t> {
     pub(super) kind: NodeKind<'t>,
 }
 
-/// What a JSON value is.
+/// The kind and content of a JSON value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum NodeKind<'t> {
     /// `null`
     Null,
     /// `true` or `false`
     Flag(bool),
-    /// A number; infinite where it is beyond all floats.
+    /// A number; infinite if it is too large for a float.
     Number(f64),
     /// A string, its escapes resolved.
     Text(Cow<'t, str>),
@@ -88,25 +88,25 @@ pub(super) struct Entry<'t> {
     pub(super) value: Node<'t>,
 }
 
-/// Where and why a text is no JSON.
+/// The place and the reason of an error in a JSON text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SyntaxError {
     /// The byte at which reading stopped.
     pub(super) at: usize,
-    /// Why.
+    /// The reason.
     pub(super) why: Why,
 }
 
-/// Why a text is no JSON.
+/// The reason why a text is not JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Why {
-    /// The text ends; the innermost bracket or quote that is open, with its byte.
+    /// The text ends too early. Contains the innermost open bracket or quote, with its byte.
     End(Option<(char, usize)>),
     /// More brackets are open than [`DEEPEST`].
     TooDeep,
     /// A string that began at this byte holds a line break or another control character.
     Control(usize),
-    /// A backslash is followed by something else than an escape.
+    /// A backslash does not begin a valid escape.
     Escape,
     /// An escape is half of a surrogate pair.
     Surrogate,
@@ -124,7 +124,7 @@ pub(super) enum Why {
     Behind,
 }
 
-/// Reads a text as one JSON value.
+/// Parses a text that contains one JSON value.
 pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     let mut reader = Parser {
         text,
@@ -160,7 +160,7 @@ struct Parser<'t> {
     open: Vec<(char, usize)>,
     items: Vec<Node<'t>>,
     entries: Vec<Entry<'t>>,
-    /// What stands in lists and objects that are open, the innermost last.
+    /// The entries of the lists and objects that are still open, the innermost last.
     loose_items: Vec<Node<'t>>,
     loose_entries: Vec<Entry<'t>>,
 }
@@ -176,7 +176,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// A fault here, or that the text ends here.
+    /// The error `why` at the current byte. At the end of the text, the error is that the text ends early.
     fn fault(&self, why: Why) -> SyntaxError {
         let why = match self.peek() {
             None => Why::End(self.open.last().copied()),
@@ -266,7 +266,8 @@ impl<'t> Parser<'t> {
         self.at += 1;
     }
 
-    /// What follows a value in a list or object: whether another comes, after a comma.
+    /// Called after a value in a list or object. True if a comma and another entry follow, false at the closing
+    /// bracket.
     fn another(&mut self, close: char) -> Result<bool, SyntaxError> {
         self.blanks();
         let comma = self.at;

@@ -1,6 +1,6 @@
 //! [`Code`]: a fixed word for each kind of problem, for programs that sort or count problems.
 
-/// Declares the codes of one sort with their words and meanings, so that none can lack either.
+/// Declares an enum of codes, each with its word and its meaning.
 macro_rules! codes {
     ($(#[$doc:meta])* $name:ident; $($variant:ident $word:literal $meaning:literal,)*) => {
         $(#[$doc])*
@@ -14,14 +14,14 @@ macro_rules! codes {
             /// Every code, in the order of the documentation.
             pub const ALL: &'static [$name] = &[$($name::$variant),*];
 
-            /// The fixed word, as in JSON.
+            /// The fixed word of the code, as in JSON.
             pub fn word(self) -> &'static str {
                 match self {
                     $($name::$variant => $word,)*
                 }
             }
 
-            /// The meaning of the word as a phrase.
+            /// The meaning of the code, as a phrase.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $($name::$variant => $meaning,)*
@@ -39,30 +39,30 @@ macro_rules! codes {
 pub(in crate::mechanics::scene) use codes;
 
 codes! {
-    /// What sort of problem it is. Words are added in later versions, never renamed.
+    /// The kind of a problem. Later versions may add words, but never rename them.
     Code;
-    NotReadable "not_readable" "the file cannot be read at all; the message holds the system's reason",
+    NotReadable "not_readable" "the file cannot be read; the message gives the system's reason",
     InternalFault "internal_fault" "an internal error of the program occurred on this scene",
-    NoSuchFrame "no_such_frame" "`--frame` asks for a frame that the scene does not have",
+    NoSuchFrame "no_such_frame" "`--frame` names a frame that the scene does not have",
     NotUtf8 "not_utf8" "the bytes are not UTF-8 text",
-    EmptyFile "empty_file" "the file holds nothing but white space",
+    EmptyFile "empty_file" "the file contains only white space",
     EndsEarly "ends_early" "the text ends before its brackets or quotes are closed",
     NestedTooDeep "nested_too_deep" "more than 127 brackets are open at once",
     OtherFormat "other_format" "the text is written in another format, such as YAML, TOML or XML",
     NotJson "not_json" "the text is not JSON at this place",
-    WrongType "wrong_type" "a value of another kind is expected here, such as a number in place of a string",
+    WrongType "wrong_type" "a value of another type is expected here, such as a number instead of a string",
     WrongLength "wrong_length" "a list has too many or too few entries, such as a point with three coordinates",
     UnknownKey "unknown_key" "the format has no such key here",
-    DuplicateKey "duplicate_key" "a key stands twice in one object",
+    DuplicateKey "duplicate_key" "a key occurs twice in one object",
     MissingKey "missing_key" "a required key is missing",
-    UnknownChoice "unknown_choice" "a word is not one of those that may stand here",
+    UnknownChoice "unknown_choice" "a word is not one of the allowed values",
     UnknownVersion "unknown_version" "the version of the format is not known",
     NotFinite "not_finite" "a number is infinite or not a number",
-    TooLarge "too_large" "a number, a weight or a lattice coordinate is beyond all reason",
-    TooSmall "too_small" "a number or an extent is not 0, and too small to calculate with",
-    Negative "negative" "a number is negative that has to be at least 0",
+    TooLarge "too_large" "a number, a weight or a lattice coordinate is too large",
+    TooSmall "too_small" "a number or an extent is not 0, but too small to calculate with",
+    Negative "negative" "a number that must be at least 0 is negative",
     OutOfRange "out_of_range" "the kernel is outside 0 to 1, or the grid's side is not more than 0",
-    NoColour "no_colour" "a fill is not written as a colour",
+    NoColour "no_colour" "a fill is not a colour",
     UnknownName "unknown_name" "no block, robot, material or shape has this name",
     DuplicateId "duplicate_id" "two blocks or two robots have the same id",
     EmptyId "empty_id" "an id is an empty string",
@@ -70,20 +70,20 @@ codes! {
     DuplicatePair "duplicate_pair" "a pair of materials has two friction coefficients",
     NoOutline "no_outline" "a body or shape has no outline",
     TwoOutlines "two_outlines" "a body or shape has more than one outline",
-    HolesWithoutPolygon "holes_without_polygon" "`holes` stand where there is no `polygon`",
+    HolesWithoutPolygon "holes_without_polygon" "`holes` are given without a `polygon`",
     TooFewCorners "too_few_corners" "an outline has fewer than three different corners",
     ZeroArea "zero_area" "an outline encloses no area",
     CrossingOutline "crossing_outline" "an outline crosses or touches itself",
     HoleOutside "hole_outside" "a hole does not lie inside its outline, or lies in another hole",
-    NeedsGrid "needs_grid" "cells or a built-in shape stand in a scene without the grid they need",
+    NeedsGrid "needs_grid" "cells or a built-in shape are used without the grid that they need",
     WrongCell "wrong_cell" "a cell is written for the other kind of grid",
     DuplicateCell "duplicate_cell" "a cell is listed twice",
-    CellsApart "cells_apart" "the cells of a body are not all joined by edges",
-    OffLattice "off_lattice" "a coordinate or an angle leaves the lattice",
-    Overlap "overlap" "two bodies that stand at the same time lie in each other",
-    TooManySteps "too_many_steps" "the steps show their blocks too many times in all",
+    CellsApart "cells_apart" "the cells of a body are not all connected by edges",
+    OffLattice "off_lattice" "a coordinate or an angle does not fit the lattice",
+    Overlap "overlap" "two bodies that are present at the same time overlap",
+    TooManySteps "too_many_steps" "the frames contain too many blocks in total",
     PlacedTwice "placed_twice" "a block that is already placed is placed, or planned, again",
-    NotPlaced "not_placed" "a block is removed or held that is not placed",
+    NotPlaced "not_placed" "a block that is not placed is removed or held",
     RemovedWhileHeld "removed_while_held" "a block is removed while a robot holds it",
     HoldsTwo "holds_two" "a robot takes hold of a block while it holds another",
     MoreProblems "more_problems" "there are more problems than are listed",

@@ -19,7 +19,7 @@ pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) ->
     )
 }
 
-/// The remedy for a value of a wrong type. It shows the text to write in the file if that is clearer than words.
+/// The remedy for a value of a wrong type. Where possible, it shows the text to write in the file.
 fn help(expected: &str, found: &str) -> String {
     let (is_number, is_text) = (
         found.starts_with("the number "),
@@ -54,7 +54,7 @@ pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) ->
 
 pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        3.. => "write [x, y]: a scene has two dimensions: x to the right and y up",
         _ => "write [x, y]",
     };
     say(
@@ -66,7 +66,7 @@ pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
 
 pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        3.. => "write [x, y]: a scene has two dimensions: x to the right and y up",
         _ => "write [x, y]",
     };
     say(
@@ -108,7 +108,7 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     let is_cohesive = ["cohesion", "adhesion", "mortar", "tensile_strength"].contains(&key);
     let help = match meant.or_else(|| nearest(key, known.clone())) {
         _ if is_cohesive => {
-            "joints are dry: they press and rub, without mortar or cohesion; take the key out"
+            "joints are dry: they transmit pressure and friction, but no tension; remove the key"
                 .into()
         }
         Some(near) if meant.is_some() => format!("it is called `{near}` here"),
@@ -122,7 +122,7 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     )
 }
 
-/// The name in this format of a key that other programs and formats use.
+/// Returns the key of this format that means the same as a key of other programs; `None` if no such key is known.
 fn synonym(key: &str) -> Option<&'static str> {
     Some(match key.to_lowercase().as_str() {
         "mu" | "μ" | "friction_coefficient" => "friction",
@@ -146,19 +146,19 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
     say(
         Code::DuplicateKey,
         format!(
-            "the key `{}` stands here twice; first in line {line}, column {column}",
+            "the key `{}` occurs twice; first in line {line}, column {column}",
             shortened(key)
         ),
-        "take one of the two out",
+        "remove one of the two",
     )
 }
 
-/// The message about a duplicate key in an object made in code.
+/// The message about a key that occurs twice in an object built in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
     say(
         Code::DuplicateKey,
-        format!("the key `{}` stands here twice", shortened(key)),
-        "take one of the two out",
+        format!("the key `{}` occurs twice", shortened(key)),
+        "remove one of the two",
     )
 }
 

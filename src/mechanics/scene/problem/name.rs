@@ -18,7 +18,7 @@ pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &
             )
         }
         None => format!(
-            "the scene has {} {sort}s, none with a name like it",
+            "the scene has {} {sort}s, but none with a similar name",
             known.len()
         ),
     };
@@ -33,7 +33,7 @@ pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) 
     say(
         Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
-        "see the first of these for the known names",
+        "see the first problem of this kind for the known names",
     )
 }
 
@@ -44,14 +44,14 @@ pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -
             "the {sort} id `{}` is used twice; first by {first}",
             shortened(id)
         ),
-        format!("give every {sort} an id of its own"),
+        format!("give each {sort} a different id"),
     )
 }
 
 pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
     say(
         Code::ReservedName,
-        "the id `ground` is reserved: results name the ground so",
+        "the id `ground` is reserved for the ground in results",
         "give the block another id",
     )
 }
@@ -60,7 +60,7 @@ pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
     say(
         Code::EmptyId,
         format!("the {sort}'s id is empty"),
-        "give it a name of at least one letter",
+        "write an id of at least one character",
     )
 }
 
@@ -80,6 +80,6 @@ pub(in crate::mechanics::scene) fn pair_twice(names: &[String; 2], first: usize)
             shortened(&names[0]),
             shortened(&names[1])
         ),
-        "take one of the two out; the order of the names does not matter",
+        "remove one of the two; the order of the names does not matter",
     )
 }

@@ -2,14 +2,14 @@
 
 use super::{Code, Wording, digits, pair, say, shortened};
 
-/// The message of a note. Notes have their own codes, so the code of the problem is not shown.
+/// Makes the message of a note. The code of the problem is never shown, because notes have their own codes.
 fn note(message: String, hint: impl Into<String>) -> Wording {
     say(Code::OutOfRange, message, hint)
 }
 
 pub(in crate::mechanics::scene) fn friction_high(mu: f64) -> Wording {
     note(
-        format!("a friction coefficient of {} is seldom meant", digits(mu)),
+        format!("a friction coefficient of {} is probably a mistake", digits(mu)),
         "dry stone has 0.5 to 0.8; a coefficient is the tangent of the angle of friction, not degrees or percent",
     )
 }
@@ -48,9 +48,9 @@ pub(in crate::mechanics::scene) fn load_outside(
 
 pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> Wording {
     let hint = if no_steps {
-        "give the block it `holds`, or take it out"
+        "give the block that it `holds`, or remove the robot"
     } else {
-        "let it `hold` a block in a step, or take it out; with `steps`, `holds` does not count"
+        "let it `hold` a block in a step, or remove the robot; in a scene with `steps`, `holds` is ignored"
     };
     note(
         format!("the robot `{}` never holds a block", shortened(robot)),
@@ -61,7 +61,7 @@ pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> 
 pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
     note(
         format!("no step places the block `{}`", shortened(block)),
-        "add it to `place` of a step, or take it out",
+        "add it to `place` of a step, or remove it",
     )
 }
 

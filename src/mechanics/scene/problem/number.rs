@@ -42,7 +42,7 @@ pub(in crate::mechanics::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wo
     say(
         Code::TooSmall,
         format!(
-            "it extends over {} m, less than {} m",
+            "its extent is {} m, less than {} m",
             digits(extent),
             digits(smallest)
         ),
@@ -54,7 +54,7 @@ pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
     say(
         Code::Negative,
         format!("negative {what} {}", digits(x)),
-        format!("`{what}` has to be at least 0"),
+        format!("`{what}` must be at least 0"),
     )
 }
 
@@ -62,7 +62,7 @@ pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
     say(
         Code::OutOfRange,
         format!("the kernel {} is outside 0 … 1", digits(x)),
-        "give the share of each contact to stay clear of: 0 for none, 0.2 for a fifth",
+        "give the fraction of each contact that must stay free of force: 0 for none, 0.2 for a fifth",
     )
 }
 
@@ -78,7 +78,7 @@ pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wordi
     say(
         Code::TooLarge,
         format!(
-            "the block comes out {} N heavy, beyond {}",
+            "the block's weight would be {} N, more than {} N",
             digits(weight),
             digits(largest)
         ),

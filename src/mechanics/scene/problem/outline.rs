@@ -5,9 +5,9 @@ use std::fmt;
 use super::{Code, Wording, digits, pair, point, say};
 use crate::geometry::Point;
 
-/// A side of an outline, by its corners' numbers.
+/// A side of an outline, given by the numbers of its corners.
 pub(in crate::mechanics::scene) struct Side {
-    /// The hole it belongs to; the outline where absent.
+    /// The hole that it belongs to; `None` for the outline.
     pub(in crate::mechanics::scene) hole: Option<usize>,
     /// The numbers of its corners, from 0.
     pub(in crate::mechanics::scene) corners: [usize; 2],
@@ -58,7 +58,7 @@ pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
     say(
         Code::HoleOutside,
         "the hole does not lie inside the outline, or lies inside another hole",
-        "move the hole, or make it a block of its own",
+        "move the hole, or make it a separate block",
     )
 }
 
@@ -89,8 +89,8 @@ pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wo
 pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
     say(
         Code::HolesWithoutPolygon,
-        "`holes` go with a `polygon`",
-        "give the outline as `polygon`, or leave the holes out; cells simply leave theirs out",
+        "`holes` need a `polygon`",
+        "give the outline as `polygon`, or remove `holes`; in a body of cells, a hole is a cell left out",
     )
 }
 
@@ -121,7 +121,7 @@ pub(in crate::mechanics::scene) fn no_cells() -> Wording {
 pub(in crate::mechanics::scene) fn square_cell() -> Wording {
     say(
         Code::WrongCell,
-        "a cell of the triangular grid says which triangle it is",
+        "a cell of the triangular grid needs \"up\" or \"down\"",
         "write [x, y, \"up\"] or [x, y, \"down\"]",
     )
 }
@@ -138,15 +138,15 @@ pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
     say(
         Code::DuplicateCell,
         format!("the cell is listed twice; first as number {first}, counting from 0"),
-        "take one of the two out",
+        "remove one of the two",
     )
 }
 
 pub(in crate::mechanics::scene) fn cells_apart() -> Wording {
     say(
         Code::CellsApart,
-        "the cells are not all joined by edges",
-        "make each connected part a block of its own",
+        "the cells are not all connected by edges",
+        "make each connected part a separate block",
     )
 }
 
@@ -169,20 +169,20 @@ pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wo
 pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> Wording {
     say(
         Code::OffLattice,
-        format!("a turn by {}° leaves the lattice", digits(angle)),
+        format!("a rotation by {}° does not fit the lattice", digits(angle)),
         format!("give a multiple of {}°, or use a polygon", digits(turn)),
     )
 }
 
-/// What two bodies have in common.
+/// The overlap of two bodies.
 pub(in crate::mechanics::scene) struct Common {
-    /// How far one would have to move to be clear of the other, metres.
+    /// How far one body must move so that they no longer overlap, metres.
     pub(in crate::mechanics::scene) depth: f64,
     /// The common area, m².
     pub(in crate::mechanics::scene) area: f64,
     /// Its centroid.
     pub(in crate::mechanics::scene) at: Point,
-    /// Whether it is so slight that it may be meant for a contact.
+    /// Whether it is so small that the bodies were probably meant to touch.
     pub(in crate::mechanics::scene) may_be_meant: bool,
 }
 
@@ -208,7 +208,7 @@ pub(in crate::mechanics::scene) fn overlap(
             point(*at)
         ),
         if common.may_be_meant {
-            format!("{help}, or give \"contact_tolerance\": {enough} if that is what is meant")
+            format!("{help}, or give \"contact_tolerance\": {enough} if they are meant to touch")
         } else {
             help
         },

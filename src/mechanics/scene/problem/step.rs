@@ -5,8 +5,8 @@ use super::{Code, Wording, say, shortened};
 pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
     say(
         Code::TooManySteps,
-        format!("{steps} steps show their blocks more than {most} times in all"),
-        "take steps out, or give several scenes",
+        format!("the frames of {steps} steps contain more than {most} blocks in total"),
+        "remove steps, or write several scenes",
     )
 }
 
@@ -19,7 +19,7 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
     say(
         Code::PlacedTwice,
         format!("the block `{}` is already placed, {when}", shortened(block)),
-        "place a block once; `remove` it first to place it anew",
+        "place a block once; `remove` it first to place it again",
     )
 }
 
@@ -65,7 +65,7 @@ pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &st
     let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
     say(
         Code::HoldsTwo,
-        format!("the robot `{robot}` is to hold the block `{block}` while it still holds `{held}`"),
+        format!("the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"),
         format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
     )
 }

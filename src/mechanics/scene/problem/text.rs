@@ -44,8 +44,8 @@ pub(in crate::mechanics::scene) fn early_end(opened: Option<(char, usize, usize)
 pub(in crate::mechanics::scene) fn not_a_number(word: &str) -> Wording {
     say(
         Code::NotJson,
-        format!("`{word}` is not a number JSON knows"),
-        "give a finite number; leave a robot's limit out where there is none",
+        format!("`{word}` is not a number in JSON"),
+        "give a finite number; if a robot has no limit, leave the limit out",
     )
 }
 
@@ -69,7 +69,7 @@ pub(in crate::mechanics::scene) fn comment() -> Wording {
     say(
         Code::NotJson,
         "JSON has no comments",
-        "take the comment out; `title` holds text for people",
+        "remove the comment; `title` holds text for people",
     )
 }
 
@@ -85,7 +85,7 @@ pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
     say(
         Code::NotJson,
         "a comma after the last entry",
-        "take the comma out, or add the entry that follows it",
+        "remove the comma, or add the entry that follows it",
     )
 }
 
@@ -100,7 +100,7 @@ pub(in crate::mechanics::scene) fn number_too_large(text: &str) -> Wording {
 pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
     say(
         Code::NotJson,
-        format!("`{}` is not a number of JSON", shortened(text)),
+        format!("`{}` is not a number in JSON", shortened(text)),
         "write numbers as 0.5, -2 or 1e3: no leading + or 0, and a digit on both sides of the point",
     )
 }
@@ -140,15 +140,15 @@ pub(in crate::mechanics::scene) fn not_json(expected: &str) -> Wording {
 pub(in crate::mechanics::scene) fn behind_the_end() -> Wording {
     say(
         Code::NotJson,
-        "the scene has ended before this",
-        "take out what follows the scene's last bracket, or the bracket before that is one too many",
+        "there is text after the end of the scene",
+        "remove the text after the scene's last bracket, or a bracket before it that is too many",
     )
 }
 
 pub(in crate::mechanics::scene) fn escape() -> Wording {
     say(
         Code::NotJson,
-        "JSON has no such escape in a string",
+        "JSON has no such escape sequence in a string",
         "write a backslash as \\\\, a line break as \\n, and any character by its code as \\u00e9",
     )
 }
@@ -156,7 +156,7 @@ pub(in crate::mechanics::scene) fn escape() -> Wording {
 pub(in crate::mechanics::scene) fn surrogate() -> Wording {
     say(
         Code::NotJson,
-        "the escape is half of a character",
+        "the escape is only half of a surrogate pair",
         "write the character itself, or both halves of its surrogate pair",
     )
 }

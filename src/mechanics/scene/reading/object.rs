@@ -1,6 +1,6 @@
 //! Reads the objects of a scene file from the syntax tree into the types of [`format`](super::super::format).
 //!
-//! The lists of keys are held against those of the types by a test in `format::schema`.
+//! A test in `format::schema` compares the lists of keys with the fields of the types.
 
 use super::super::format::{
     BlockEntry, CellEntry, CellHalf, Expectation, FrictionPairEntry, GridEntry, GridKind,
@@ -77,7 +77,7 @@ const CELL: &str = "[x, y, \"up\"], [x, y, \"down\"] or [x, y]";
 
 type R<'s, 't> = Reader<'s, 't>;
 
-/// Reads the whole file. A value that does not fit is reported and left out.
+/// Reads the whole file. A value that does not fit the format is reported and left out.
 pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
     let at = &Trail::Top;
     let Some(o) = r.object(node, at, SCENE) else {
@@ -142,7 +142,7 @@ fn holes<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Vec<Vec<Pa
 
 fn cells<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec<CellEntry>> {
     let list = r.optional(o, at, "cells", |r, n, at| {
-        // A cell that cannot be read marks its body as not readable, so its value does not matter.
+        // A cell that cannot be read makes its whole body unreadable, so any value can stand in for it.
         r.entries(n, at, |r, n, at| cell(r, n, at).map(Some))
     })?;
     let read = |cell: Option<CellEntry>| cell.unwrap_or(CellEntry::Square(0.0, 0.0));

@@ -1,7 +1,7 @@
 //! [`Reader`]: reads values of the types of a scene file from the syntax tree.
 //!
-//! Every misfit is noted, with what is expected and what was found, and its place put in doubt: what follows is read as
-//! if nothing stood there, and nobody complains of what follows from that.
+//! A value that does not fit is reported with what was expected and what was found, and then treated as absent. Its
+//! place is recorded as unreadable, so that problems that only follow from its absence are not reported.
 
 use std::collections::BTreeMap;
 
@@ -12,31 +12,31 @@ use super::super::problem::{self, Wording};
 use super::super::source::{Mark, Source};
 use super::super::tree::{Entry, List, Node, NodeKind};
 
-/// In objects of more keys than this a repeated one is looked for with a table.
+/// In objects with more keys than this, repeated keys are found with a table.
 const FEW: usize = 16;
 
-/// Reads a scene file's values and keeps what is wrong with them.
+/// Reads the values of a scene file and collects their problems.
 pub(super) struct Reader<'s, 't> {
     pub(super) source: &'s Source<'t>,
     pub(super) findings: Findings,
     pub(super) doubt: UnreadParts,
 }
 
-/// An object that is known to be one.
+/// The entries of a value that is an object.
 #[derive(Clone, Copy)]
 pub(super) struct Object<'n, 't> {
     entries: &'n [Entry<'t>],
 }
 
 impl<'n, 't> Object<'n, 't> {
-    /// The value of a key. If the key occurs twice, its first value.
+    /// The value of a key; `None` if there is no such key. If the key occurs twice, it is the first value.
     fn get(self, key: &str) -> Option<&'n Node<'t>> {
         let found = self.entries.iter().find(|e| e.name == key);
         found.map(|e| &e.value)
     }
 }
 
-/// What a pair of numbers is, for those who read of it.
+/// The meaning of a pair of numbers, for messages.
 #[derive(Clone, Copy)]
 pub(super) enum Meaning {
     Point,
@@ -60,7 +60,7 @@ impl<'s, 't> Reader<'s, 't> {
 
     fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
-            // A file with so many wrong values is not examined any further.
+            // A file with so many problems is not read any further.
             self.doubt.paths = vec![Trail::Top.path()];
             return;
         }
@@ -71,7 +71,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// Reports a value of a wrong type.
+    /// Reports that a value has the wrong type. `expected` describes the right type for the message.
     pub(super) fn wrong(&mut self, node: &Node<'_>, at: &Trail<'_>, expected: &str) {
         let quoted = match &node.kind {
             NodeKind::Text(text) if expected == "a number" => {
@@ -90,7 +90,7 @@ impl<'s, 't> Reader<'s, 't> {
         self.misfit(at, Mark::Value, wording);
     }
 
-    /// The value in words, for messages.
+    /// Describes a value for messages.
     fn found(&self, node: &Node<'_>) -> String {
         match &node.kind {
             NodeKind::Null => "null".into(),
@@ -102,7 +102,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// The text of a value.
+    /// The value as it is written in the file.
     pub(super) fn written(&self, node: &Node<'_>) -> &'t str {
         &self.source.text[node.range.clone()]
     }
@@ -135,7 +135,7 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// Reads one of some fixed words.
+    /// Reads a string that must be one of some fixed words. Returns the value that belongs to the word.
     pub(super) fn choice<T: Copy>(
         &mut self,
         node: &Node<'_>,
@@ -159,7 +159,8 @@ impl<'s, 't> Reader<'s, 't> {
         chosen
     }
 
-    /// Reads two numbers. If there are three, as for a point in space, the error is reported and the first two are used.
+    /// Reads two numbers. If there are three, as for a point in space, the error is reported and the first two are
+    /// used.
     pub(super) fn pair(
         &mut self,
         node: &Node<'_>,
@@ -208,7 +209,7 @@ impl<'s, 't> Reader<'s, 't> {
         self.pair(node, at, Meaning::Vector)
     }
 
-    /// Reads an object with some of these keys and no others.
+    /// Reads an object. Reports keys that are not in `keys`, and keys that occur twice.
     pub(super) fn object(
         &mut self,
         node: &Node<'t>,
@@ -226,7 +227,7 @@ impl<'s, 't> Reader<'s, 't> {
         Some(object)
     }
 
-    /// Reads an object with any keys, and reports duplicate keys.
+    /// Reads an object with any keys. Reports keys that occur twice.
     fn any_object(&mut self, node: &Node<'t>, at: &Trail<'_>) -> Option<Object<'s, 't>> {
         let NodeKind::Object(object) = &node.kind else {
             self.wrong(node, at, "an object");
@@ -285,8 +286,8 @@ impl<'s, 't> Reader<'s, 't> {
             .unwrap_or_default()
     }
 
-    /// Reads all entries of a list. An entry that does not fit is replaced by an empty one, so that the other entries keep
-    /// their numbers.
+    /// Reads all entries of a list. An entry that does not fit is replaced by an empty one, so that the other entries
+    /// keep their numbers.
     pub(super) fn entries<T: Default>(
         &mut self,
         node: &Node<'t>,
@@ -335,7 +336,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 }
 
-/// The entries with a duplicate key. Each is returned with the first entry that has the same key.
+/// Finds the entries whose key occurred before. Each is returned with the first entry that has the same key.
 fn repeated<'n, 't>(
     entries: &'n [Entry<'t>],
 ) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {

@@ -188,7 +188,7 @@ impl Resolution<'_> {
     }
 }
 
-/// Parses a colour `#rrggbb` or `#rgb`.
+/// Parses a colour `#rrggbb` or `#rgb`. Reports other text and returns `None`.
 pub(super) fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
     let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
         hex.chars()

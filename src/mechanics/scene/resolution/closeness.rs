@@ -1,4 +1,4 @@
-//! [`Closeness`]: how close two edges have to be to touch, and what healing moved.
+//! [`Closeness`]: the distance at which edges touch, and what healing moved.
 
 use super::Resolution;
 use crate::geometry::{Bounds, Polygon, Tolerance};
@@ -9,21 +9,21 @@ use crate::scene::path::Trail;
 use crate::scene::rounding::{self, Rounding};
 use crate::scene::{Block, Ground};
 
-/// How far a corner may lie off the edge that it touches, metres: the two ends of the edge and the corner are each off by the
-/// error of a coordinate.
+/// The largest distance, in metres, by which rounding can move a corner off the edge that it touches. The corner and
+/// both ends of the edge can each have the error of a coordinate.
 fn misfit(rounding: &Rounding) -> f64 {
     3.0 * rounding.error
 }
 
-/// How close is close in a scene.
+/// The contact tolerance of a scene, and the result of healing.
 pub(super) struct Closeness {
     /// Whether every body is a set of lattice cells.
     pub(super) exact: bool,
-    /// How far corners may be moved, and why.
+    /// The tolerance of healing, and where it comes from.
     reach: HealingReach,
-    /// What was moved.
+    /// The bodies and corners that healing moved.
     pub(super) healed: Healed,
-    /// How far a corner may lie off the edge that it touches because coordinates are rounded, metres.
+    /// The largest distance, in metres, by which rounding can move a corner off the edge that it touches.
     pub(super) misfit: f64,
 }
 
@@ -44,7 +44,7 @@ impl Closeness {
 }
 
 impl Resolution<'_> {
-    /// Finds how close is close, and heals the bodies within it. Bodies on a lattice stay as they are.
+    /// Determines the tolerance and heals the bodies with it. Bodies on a lattice stay as they are.
     pub(super) fn heal(
         &self,
         findings: &mut Findings,
@@ -56,7 +56,7 @@ impl Resolution<'_> {
         let exact = self.lattice.is_some() && bodies.all(|body| body.cells.is_some());
         let given = self.file.contact_tolerance;
         let given = at_least_zero(findings, &Trail::Top, "contact_tolerance", given);
-        // A lattice and a given tolerance need not be guessed from the digits.
+        // The digits of coordinates are not needed on a lattice or if a tolerance is given.
         let rounding = match exact || given.is_some() {
             true => None,
             false => rounding::of(self.file),
@@ -80,7 +80,8 @@ impl Resolution<'_> {
     }
 }
 
-/// How close is close: as given, else from how the coordinates are written and how large the scene is.
+/// The tolerance of healing: the given one, or else an estimate from the digits of the coordinates and the scene's
+/// extent. Lengths in metres.
 fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>]) -> HealingReach {
     if let Some(gap) = given {
         return HealingReach {

@@ -1,4 +1,5 @@
-//! The lists of a file that bodies refer to: materials, friction pairs and shapes; and the ids of blocks and robots.
+//! Resolves the lists of a file that bodies refer to: materials, friction pairs and shapes. Also checks the ids of
+//! blocks and robots.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +14,8 @@ use crate::scene::path::Trail;
 use crate::scene::{problem, shape};
 
 impl Resolution<'_> {
-    /// The outlines of the file's shapes, then those of the built-in ones.
+    /// The outlines of the file's shapes, then those of the built-in shapes. `None` stands for an outline that is not
+    /// valid.
     pub(super) fn shape_outlines(&self, findings: &mut Findings) -> Vec<Option<Outline>> {
         let top = Trail::Top;
         let list = top.key("shapes");
@@ -54,7 +56,7 @@ impl Resolution<'_> {
         outlines
     }
 
-    /// Friction coefficients of pairs of materials, by their numbers.
+    /// The friction coefficients between pairs of materials, given by their numbers.
     pub(super) fn friction_pairs(&self, findings: &mut Findings) -> Vec<([usize; 2], f64)> {
         let top = Trail::Top;
         let list = top.key("friction_pairs");
@@ -82,7 +84,7 @@ impl Resolution<'_> {
         pairs
     }
 
-    /// Finds faults in the ids of blocks and robots.
+    /// Reports ids of blocks and robots that are used twice, empty or reserved.
     pub(super) fn check_ids(&self, findings: &mut Findings) {
         let top = Trail::Top;
         let given = self.file.blocks.iter().map(|b| b.id.is_some());
@@ -98,7 +100,7 @@ impl Resolution<'_> {
     }
 }
 
-/// Each material's own values.
+/// The density, friction coefficient and colour that each material gives.
 pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<MaterialValues> {
     let top = Trail::Top;
     let list = top.key("materials");
@@ -117,7 +119,7 @@ pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<
     values
 }
 
-/// Notes ids that are used twice, empty or reserved.
+/// Reports ids that are used twice, empty or reserved.
 fn ids(
     findings: &mut Findings,
     list: &Trail<'_>,

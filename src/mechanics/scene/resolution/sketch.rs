@@ -1,4 +1,4 @@
-//! The outlines of the bodies of a scene file as far as they can be drawn, also if they are not valid.
+//! Finds the outlines of all bodies of a scene file that can be drawn, even if the outlines are not valid.
 
 use super::Resolution;
 use super::body::BodyEntry;
@@ -8,20 +8,20 @@ use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// A body as it is written, in its place.
+/// A body as written in the file, in its position in the scene.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SketchedBody {
-    /// Which body.
+    /// The id of the body.
     pub id: BodyId,
     /// A block's id, or `ground[2]`.
     pub name: String,
-    /// Its outline and holes in metres; they may cross, and have any number of corners.
+    /// Its outline and holes in metres. They may cross, and may have any number of corners.
     pub rings: Vec<Vec<Point>>,
     pub(in crate::mechanics::scene) placement: Placement,
 }
 
-/// How a body is put into its place: turned about its origin, then moved.
+/// The position of a body: it is rotated about its origin and then moved.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::mechanics::scene) struct Placement {
     by: Vector,
@@ -39,7 +39,8 @@ impl Placement {
     }
 }
 
-/// All bodies with corners, the ground first. Also the scene, if all its bodies are valid; they may overlap.
+/// Returns all bodies that can be drawn, the ground first. Also returns the scene if all its bodies are valid; they may
+/// still overlap.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
     doubt: UnreadParts,
@@ -93,7 +94,7 @@ impl Resolution<'_> {
         }
     }
 
-    /// The corners as they are written, if they can be drawn.
+    /// The rings of a body as written, in their position. Rings that cannot be drawn are left out.
     fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;
@@ -124,7 +125,7 @@ impl Resolution<'_> {
             .collect()
     }
 
-    /// The corners of one cell, if the scene has a lattice with such cells.
+    /// The corners of one cell in metres. `None` if the scene has no lattice or the cell's coordinates are not allowed.
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
         let (x, y, half) = match cell {

@@ -1,11 +1,11 @@
-//! Strings of a JSON text.
+//! Parses the strings of a JSON text.
 
 use std::borrow::Cow;
 
 use super::{Parser, SyntaxError, Why};
 
 impl<'t> Parser<'t> {
-    /// A string with its escapes resolved; borrowed where it has none.
+    /// Reads a string and resolves its escapes. A string without escapes is borrowed from the text.
     pub(super) fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
         let quote = self.at;
         self.at += 1;
@@ -35,7 +35,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// The text ends within a string.
+    /// The error for a text that ends within a string.
     fn cut(&self, quote: usize) -> SyntaxError {
         SyntaxError {
             at: self.at,
@@ -78,7 +78,7 @@ impl<'t> Parser<'t> {
         Ok(c)
     }
 
-    /// Four hexadecimal digits.
+    /// Reads four hexadecimal digits.
     fn hex(&mut self, quote: usize, start: usize) -> Result<u32, SyntaxError> {
         let mut code = 0;
         for _ in 0..4 {

@@ -26,7 +26,7 @@ fn what_the_page_says_is_refused_is_refused() {
         Claim(
             "a computed weight above 10¹² N",
             block(json!({ "mass": 9e11 }), json!({})),
-            Refused("too_large", "N heavy"),
+            Refused("too_large", "weight would be"),
         ),
         Claim(
             "numbers other than 0 within ±10⁻³⁰",
