@@ -1,8 +1,8 @@
 //! Escapes untrusted text for each output format. It is applied to every string that does not come from this program.
 //!
-//! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of terminals,
-//! characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return harmless text on
-//! one line. Invisible characters become [`HIDDEN`], so that the reader sees where they were.
+//! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of
+//! terminals, characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return
+//! harmless text on one line. Invisible characters become [`HIDDEN`], so that the reader sees where they were.
 
 mod spelling;
 
@@ -24,8 +24,8 @@ pub fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// The text on one line. Line breaks and tabs become spaces; other control characters, and characters that change the
-/// reading direction, become [`HIDDEN`]. The number of characters stays the same.
+/// Returns the text on one line. Line breaks and tabs become spaces. Other control characters, and characters that
+/// change the reading direction, become [`HIDDEN`]. The number of characters stays the same.
 ///
 /// ```
 /// use drystone::internals::text::line;
@@ -36,8 +36,8 @@ pub fn line(text: &str) -> String {
     text.chars().map(visible).collect()
 }
 
-/// Text for a heading: like [`line()`], with runs of white space reduced to single spaces, and shortened to `max_chars`
-/// characters with an ellipsis.
+/// Prepares text for a heading: like [`line()`], with single spaces between words. A text longer than `max_chars`
+/// characters is shortened with an ellipsis.
 pub fn heading(text: &str, max_chars: usize) -> String {
     let line = line(text);
     let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
@@ -61,14 +61,15 @@ fn visible(c: char) -> char {
     }
 }
 
-/// Whether a character is a control character, or overrides or embeds a writing direction ([UAX9] 2.1 to 2.4).
+/// True for control characters and for characters that override or embed a writing direction ([UAX9] 2.1 to 2.4).
 ///
 /// [UAX9]: https://www.unicode.org/reports/tr9/
 fn is_hidden(c: char) -> bool {
     c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Text for XML, as content or in quotes: one line, markup characters replaced by entities, forbidden code points removed.
+/// Escapes text for XML, for content and for values in quotes. The result is one line, with entities for markup
+/// characters and without forbidden code points.
 pub fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars().map(visible) {
@@ -87,12 +88,12 @@ pub fn xml(text: &str) -> String {
     out
 }
 
-/// Text for Markdown, escaped so that it cannot start emphasis, a heading, a list, a link, code or HTML.
+/// Escapes text for Markdown, so that it cannot start emphasis, a heading, a list, a link, code or HTML.
 pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
     let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    // Lists and underlined headings start only at the beginning of a line.
+    // Lists and underlined headings can only begin at the start of a line.
     let starts_block = |place: usize, c: char| match c {
         '-' | '+' | '=' => place == 0,
         _ => matches!(c, '.' | ')') && place == number && number > 0,
@@ -100,14 +101,14 @@ pub fn markdown(text: &str) -> String {
     backslash_escaped(text, starts_block)
 }
 
-/// Text for a cell of a Markdown table: like [`markdown`], but `64.7 kN` and `-3` are not escaped, because a cell
-/// cannot start a list.
+/// Escapes text for a cell of a Markdown table. It is like [`markdown`], but `64.7 kN` and `-3` stay as they are,
+/// because a list cannot begin in a cell.
 pub fn markdown_cell(text: &str) -> String {
     backslash_escaped(line(text).trim(), |_, _| false)
 }
 
-/// Text with a backslash before each character that Markdown interprets or for which `is_special(position, character)`
-/// is true.
+/// Puts a backslash before each character that Markdown interprets, and before each character for which
+/// `is_special(position, character)` is true.
 fn backslash_escaped(text: &str, is_special: impl Fn(usize, char) -> bool) -> String {
     let mut out = String::with_capacity(text.len());
     for (place, c) in text.char_indices() {
@@ -125,7 +126,7 @@ fn backslash_escaped(text: &str, is_special: impl Fn(usize, char) -> bool) -> St
     out
 }
 
-/// Text for a cell of a CSV file, in quotes. An apostrophe is added if a spreadsheet would read the text as a formula.
+/// Quotes text for a cell of a CSV file. An apostrophe is added if a spreadsheet would read the text as a formula.
 pub fn csv(text: &str) -> String {
     let line = line(text);
     let is_formula = line
@@ -135,7 +136,7 @@ pub fn csv(text: &str) -> String {
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
 
-/// A word for the command line of a POSIX shell, on one line and quoted if necessary.
+/// Prepares a word for the command line of a POSIX shell: on one line, and in quotes if necessary.
 ///
 /// ```
 /// use drystone::internals::text::shell;
@@ -158,7 +159,7 @@ pub fn shell(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// JSON text with the same values, in which characters that a terminal would interpret are written as escapes.
+/// Returns JSON text with the same values. Characters that a terminal would interpret are replaced by escapes.
 ///
 /// In valid JSON, such characters occur only inside strings, where escapes are allowed.
 pub fn json(text: &str) -> String {
@@ -179,18 +180,19 @@ pub fn json(text: &str) -> String {
     out
 }
 
-/// Text for a GitHub annotation, which uses escapes such as `%0A`; line breaks are kept as escapes.
+/// Escapes text for a GitHub annotation. Special characters become escapes such as `%0A`; line breaks are kept in this
+/// form.
 pub fn github(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(line).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")
 }
 
-/// Text for a property of a GitHub annotation, such as its file or title.
+/// Escapes text for a property of a GitHub annotation, such as its file or title.
 pub fn github_property(text: &str) -> String {
     github(&line(text)).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// Whether a line is a conflict marker of a version control system: it starts with seven `<`, `=` or `>`.
+/// True if a line is a conflict marker of a version control system: it starts with seven `<`, `=` or `>`.
 pub fn is_conflict_mark(line: &str) -> bool {
     let marks = |c: char| line.chars().take(7).filter(|found| *found == c).count() == 7;
     marks('<') || marks('=') || marks('>')

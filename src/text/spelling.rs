@@ -1,15 +1,16 @@
 //! [`nearest`]: finds the known name that an unknown name was probably meant to be.
 //!
-//! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or swap
-//! with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest distance.
+//! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or
+//! swap with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest
+//! distance.
 
 /// The number of letters of a name that are compared. It is limited because the time grows with its square.
 const MAX_LETTERS: usize = 80;
 
-/// The known name with the smallest distance to `name`; `None` if no distance is at most a third of its letters plus
-/// one.
+/// Returns the known name that is most similar to `name`; of several, the first. `None` if no name is similar enough.
 ///
-/// Of several names with the same distance, the first is returned.
+/// The distance to a similar name is at most a third of the letters of `name` plus one. It is also less than the number
+/// of these letters, unless the known name starts with `name`.
 pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // This limit keeps the time short for files with many unknown and many known names.
     const MAX_COMPARED_NAMES: usize = 2000;
@@ -34,7 +35,7 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
     best
 }
 
-/// Writes the first letters of a name, in lower case, to `into`.
+/// Writes the first letters of a name to `into`, in lower case.
 fn letters(name: &str, into: &mut Vec<char>) {
     into.clear();
     if name.is_ascii() {
@@ -56,7 +57,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// The distance of two names; `None` if it exceeds `max_distance`.
+    /// The edit distance of two names. `None` if it exceeds `max_distance`.
     fn distance(&mut self, a: &[char], b: &[char], max_distance: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > max_distance {
             return None;
@@ -145,7 +146,8 @@ mod tests {
 
     #[test]
     fn what_is_left_out_of_the_table_changes_no_distance() {
-        // All words of up to four letters of three, and two of five: every way in which two can begin, end, swap and differ.
+        // All words of up to four letters of three, and two of five: every way in which two can begin, end, swap and
+        // differ.
         let mut words = vec![String::new()];
         let mut first = 0;
         for _ in 0..4 {

@@ -1,7 +1,7 @@
 //! Converts text, or a [`SceneFile`] built in code, to a checked [`Scene`] or to the list of all its problems.
 //!
-//! A text is read once, into a syntax tree. The scene file is made from that tree. A value
-//! that does not fit is reported and left out. All other values are still checked.
+//! A text is read once, into a syntax tree. The scene file is made from that tree. A value that does not fit is
+//! reported and left out. All other values are still checked.
 
 mod object;
 mod value;

@@ -1,11 +1,12 @@
 //! [`Session`]: places and removes blocks one by one, with a verdict after every step.
 //!
-//! A session is for planners and training loops that need a verdict after each step. The solution of the last step is the
-//! warm start for the next. It is accepted only with a proof, so a session gives the same verdict as a scene file with the
-//! same blocks and holds.
+//! A session is for planners and training loops that need a verdict after each step. The solution of the last step is
+//! the warm start for the next. It is accepted only with a proof, so a session gives the same verdict as a scene file
+//! with the same blocks and holds.
 //!
-//! On a lattice, a step costs only what is new: contacts are decided by whole numbers. In other scenes, every new block can
-//! change the contact tolerance, which depends on all coordinates. The scene is therefore read again after each step.
+//! On a lattice, a step costs only what is new: contacts are decided by whole numbers. In other scenes, every new block
+//! can change the contact tolerance, which depends on all coordinates. The scene is therefore read again after each
+//! step.
 
 mod error;
 
@@ -49,7 +50,8 @@ pub struct Session {
     bare: SceneFile,
     /// The block that each robot holds, with the grip point if it was given.
     grips: BTreeMap<RobotId, (String, Option<Point>)>,
-    /// The checked scene. Its only frame contains the placed blocks. On a lattice, it still contains blocks that were removed.
+    /// The checked scene. Its only frame contains the placed blocks. On a lattice, it still contains blocks that were
+    /// removed.
     scene: Scene,
     found: Interfaces,
     lookup: Lookup,
@@ -77,7 +79,7 @@ impl Session {
         Session::with(file, Options::default())
     }
 
-    /// Starts with a scene and options. Margins and wedging are not computed. A deadline applies to all steps together.
+    /// Starts a session with options. Margins and wedging are not computed. A deadline applies to all steps together.
     ///
     /// # Errors
     /// As [`Session::new`].
@@ -163,14 +165,15 @@ impl Session {
             self.scene.loads.retain(|load| load.block != number);
             self.scene.frames[0].placed.retain(|b| *b != number);
         } else {
-            // Reading the scene again changes block numbers and the tolerance, so the last solution does not fit any more.
+            // Reading the scene again changes block numbers and the tolerance, so the last solution is no longer a
+            // valid warm start.
             self.guess = WarmStart::default();
             self.read_again()?;
         }
         Ok(self.update_verdict())
     }
 
-    /// Makes a robot hold a block, at a point in metres or at its centroid.
+    /// Makes a robot hold a block. The grip point `at` is in metres; without it, it is the block's centroid.
     ///
     /// # Errors
     /// If the robot or block does not exist, the point is not valid, or the robot holds another block.
@@ -224,13 +227,13 @@ impl Session {
         self.verdict
     }
 
-    /// How this verdict was obtained.
+    /// How the current verdict was obtained.
     pub fn source(&self) -> Source {
         self.source
     }
 
-    /// The placed blocks as a scene with one frame, for figures and further analysis. On a lattice, it also contains removed
-    /// blocks, which are in no frame.
+    /// The placed blocks as a scene with one frame, for figures and further analysis. On a lattice, it also contains
+    /// removed blocks, which are in no frame.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -240,8 +243,8 @@ impl Session {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// The margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which they stand. They
-    /// are those of [`Session::analysis`] with [`Options::margins`].
+    /// The margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which they
+    /// stand. They are those of [`Session::analysis`] with [`Options::margins`].
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;
@@ -277,13 +280,13 @@ impl Session {
         self.verdict
     }
 
-    /// Whether a new block leaves all other contacts unchanged: on a lattice without corner contacts.
+    /// True if a new block leaves all other contacts unchanged: on a lattice without corner contacts.
     fn is_incremental(&self) -> bool {
         self.scene.exact && !self.scene.corner_contacts
     }
 
-    /// Adds a block of cells without reading the scene again. Returns false if the block has no cells or overlaps another
-    /// block: reading the scene then gives the error message.
+    /// Adds a block of cells without reading the whole scene again. Returns false, and adds nothing, if the block has
+    /// no cells or overlaps another block. Reading the whole scene then adds the block or gives the error message.
     fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],
@@ -309,7 +312,7 @@ impl Session {
         Ok(true)
     }
 
-    /// Reads all placed blocks as one scene. After an error, the session is unchanged.
+    /// Reads all placed blocks again as one scene. If this fails, the current scene is kept.
     fn read_again(&mut self) -> Result<(), SceneError> {
         let mut scene = Scene::new(self.file.clone())?;
         self.lookup = Lookup::new(&scene);

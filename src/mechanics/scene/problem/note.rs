@@ -9,7 +9,10 @@ fn note(message: String, hint: impl Into<String>) -> Wording {
 
 pub(in crate::mechanics::scene) fn friction_high(mu: f64) -> Wording {
     note(
-        format!("a friction coefficient of {} is probably a mistake", digits(mu)),
+        format!(
+            "a friction coefficient of {} is probably a mistake",
+            digits(mu)
+        ),
         "dry stone has 0.5 to 0.8; a coefficient is the tangent of the angle of friction, not degrees or percent",
     )
 }

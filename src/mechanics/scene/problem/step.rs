@@ -65,7 +65,9 @@ pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &st
     let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
     say(
         Code::HoldsTwo,
-        format!("the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"),
+        format!(
+            "the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"
+        ),
         format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
     )
 }

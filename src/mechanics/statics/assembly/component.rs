@@ -6,7 +6,7 @@ impl Assembly {
     /// The connected components of the assembly, in the order of their first bodies.
     ///
     /// Two bodies are in one component if a chain of contacts connects them without passing through the ground. All
-    /// components keep the L of the whole assembly, so that torques have the same weight everywhere.
+    /// components keep the length L of the whole assembly, so that torques have the same weight in each of them.
     pub fn components(&self) -> Vec<Assembly> {
         let mut sets = DisjointSets::new(self.bodies.len());
         for contact in &self.contacts {
@@ -47,7 +47,7 @@ impl Assembly {
         parts
     }
 
-    /// Whether no body touches the ground and no robot holds a body.
+    /// True if no body touches the ground and no robot holds a body.
     pub fn is_unsupported(&self) -> bool {
         self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
     }
@@ -61,7 +61,7 @@ pub(crate) struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// The numbers 0 … `count` − 1, each in a separate set.
+    /// Creates the sets: each of the numbers 0 … `count` − 1 is alone in its set.
     pub fn new(count: usize) -> DisjointSets {
         DisjointSets {
             parent: (0..count).collect(),

@@ -4,7 +4,7 @@ use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, l
 use crate::geometry::{Point, Vector};
 
 impl Assembly {
-    /// The assembly after the bodies of each group are merged into one rigid body.
+    /// Returns the assembly in which the bodies of each group are merged into one rigid body.
     ///
     /// `group` gives the group of each body; a body without a group becomes part of the ground. The centroid of a
     /// merged body is the mean of its members' centroids. Contacts within a group and grips on the ground are omitted.
@@ -62,8 +62,8 @@ fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
 }
 
 impl AssemblyContact {
-    /// The contact with other numbers for its bodies (`None` for the ground). Returns `None` if both bodies are the
-    /// same.
+    /// Returns the contact between the bodies `on` and `from`, which are numbers in another assembly; `None` stands for
+    /// the ground. Returns `None` if both are the same body or both are the ground.
     ///
     /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.
     pub(super) fn with_bodies(
@@ -121,7 +121,8 @@ mod tests {
         }
     }
 
-    /// Of a motion of pieces the loads do the work that they do on the bodies, each with the velocity it has within its piece.
+    /// Of a motion of pieces the loads do the work that they do on the bodies, each with the velocity it has within its
+    /// piece.
     #[test]
     fn the_loads_of_a_piece_do_the_work_of_those_of_its_bodies() {
         let bodies = vec![

@@ -72,7 +72,7 @@ impl LoadVector {
         }
     }
 
-    /// The larger of the force and of the moment divided by `length` metres, in newtons.
+    /// The size of the load in newtons: the force, or the moment divided by `length` (metres) if that is larger.
     pub fn size(&self, length: f64) -> f64 {
         self.force.norm().max(self.moment.abs() / length)
     }
@@ -157,7 +157,7 @@ pub struct AssemblyGrip {
 }
 
 impl Assembly {
-    /// The bodies that are placed in a frame, without loads, contacts and grips: the effects add these.
+    /// Creates the assembly of a frame: its placed bodies, without loads, contacts and grips. The effects add these.
     pub fn without_effects(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
         let mut placed = frame.placed.clone();
         placed.sort();
@@ -192,7 +192,7 @@ impl Assembly {
         body_of_block
     }
 
-    /// The assembly after the load vector of each body is recomputed from weight, gravity and listed loads.
+    /// Recomputes the load vector of each body from its weight, gravity and its listed loads.
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector {
@@ -214,7 +214,8 @@ impl Assembly {
     }
 }
 
-/// The load vector, about `centroid`, of a force at the point `at` and a torque.
+/// The load vector about `centroid` that is equivalent to a force at the point `at` and a torque. Metres, newtons and
+/// N·m.
 pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> LoadVector {
     LoadVector {
         force,

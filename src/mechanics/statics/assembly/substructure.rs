@@ -19,7 +19,7 @@ pub struct Substructure {
 }
 
 impl Assembly {
-    /// The substructure of the bodies with these indices, which must be in ascending order.
+    /// Returns the substructure of the bodies with these indices. They must be in ascending order.
     pub fn substructure(&self, bodies: &[usize]) -> Substructure {
         let mut place = vec![None; self.bodies.len()];
         for (number, body) in bodies.iter().enumerate() {
@@ -46,7 +46,7 @@ impl Assembly {
                 grips.push(number);
             }
         }
-        // The length L of the part: the median of its contacts, or else of its bodies' radii.
+        // The length L of the part: the median length of its contacts, or else the median radius of its bodies.
         let lengths = part.contacts.iter().map(|c| (c.ends[1] - c.ends[0]).norm());
         let lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
         let radii = part.bodies.iter().map(|body| body.radius());
@@ -61,7 +61,8 @@ impl Assembly {
         }
     }
 
-    /// The connected sets of the bodies for which `member` is true; the bodies of each set are in ascending order.
+    /// Returns the connected sets of the bodies for which `member` is true. The bodies of each set are in ascending
+    /// order.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
         for contact in &self.contacts {
@@ -76,7 +77,7 @@ impl Assembly {
             if seen[first] {
                 continue;
             }
-            // Breadth-first search from the first body of the set.
+            // Find the set by breadth-first search from its first body.
             seen[first] = true;
             let mut set = vec![first];
             let mut next = 0;

@@ -6,7 +6,7 @@ use crate::geometry::Vector;
 use crate::scene::Limits;
 
 impl Assembly {
-    /// The assembly with the friction coefficient `mu` at every contact.
+    /// Sets the friction coefficient of every contact to `mu`.
     pub fn with_friction(mut self, mu: f64) -> Assembly {
         for contact in &mut self.contacts {
             contact.friction = mu;
@@ -14,7 +14,8 @@ impl Assembly {
         self
     }
 
-    /// The assembly with application points moved inward by `kernel`/2 of each interface's length.
+    /// Moves the application points inward by `kernel`/2 of each interface's length, measured from the interface's
+    /// ends.
     pub fn with_kernel(mut self, kernel: f64) -> Assembly {
         for contact in &mut self.contacts {
             contact.points = crate::interface::application_points(contact.ends, kernel);
@@ -22,19 +23,19 @@ impl Assembly {
         self
     }
 
-    /// The assembly with another direction or strength of gravity, in newtons per newton of weight.
+    /// Sets the direction and strength of gravity, in newtons per newton of weight.
     pub fn with_gravity(mut self, pull: Vector) -> Assembly {
         self.pull = pull;
         self.with_summed_loads()
     }
 
-    /// The assembly with the listed loads multiplied by a factor.
+    /// Sets the factor by which the listed loads are multiplied.
     pub fn with_load_factor(mut self, factor: f64) -> Assembly {
         self.load_factor = factor;
         self.with_summed_loads()
     }
 
-    /// The assembly with other limits for the grip with this index.
+    /// Sets the limits of the grip with this index.
     pub fn with_limits(mut self, grip: usize, limits: Limits) -> Assembly {
         self.grips[grip].limits = limits;
         self

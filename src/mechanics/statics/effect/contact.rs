@@ -1,4 +1,4 @@
-//! Contact: two normal forces per edge interface, one at each end; they press and never pull.
+//! Contact: two normal forces per edge interface, one at each end. They can press but never pull.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
@@ -7,7 +7,8 @@ use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
-/// Normal forces between edges that touch. Applies if two bodies touch; contributes one smooth contact per edge interface.
+/// Normal forces between edges that touch. Applies if two bodies touch; contributes one smooth contact per edge
+/// interface.
 pub(super) struct Contact;
 
 impl Effect for Contact {
@@ -27,7 +28,7 @@ impl Effect for Contact {
     }
 }
 
-/// Adds one contact for each interface of a kind, with the friction coefficient that `friction` returns for it.
+/// Adds one contact for each interface of the kind `kind`. `friction` returns the friction coefficient of an interface.
 pub(super) fn add(
     context: &FrameContext,
     assembly: &mut Assembly,

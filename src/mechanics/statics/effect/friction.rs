@@ -19,7 +19,7 @@ impl Effect for Friction {
         let (rough, all) = (rough.count(), context.interfaces.len());
         match rough {
             0 if all == 0 => Applicability::skipped("there is no interface"),
-            // Two directions at each of two application points.
+            // Four unknowns per interface: two directions of friction at each of the two application points.
             0 => Applicability::skipped_saving("μ is 0 at every interface", 4 * all),
             1 => Applicability::Applies("1 interface has friction".to_owned()),
             n => Applicability::Applies(format!("{} have friction", counted(n, "interface"))),

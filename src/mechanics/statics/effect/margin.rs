@@ -8,7 +8,7 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Margins;
 
-/// The report on margins. `judged` is the number of changed frames whose verdicts were computed for them; `None` if
+/// The report on margins. `judged` is the number of changed frames that were decided to find the margins; `None` if
 /// margins were not requested.
 pub fn report(judged: Option<usize>) -> EffectReport {
     match judged {

@@ -60,7 +60,7 @@ pub enum EffectName {
 }
 
 impl EffectName {
-    /// The word for the effect in results.
+    /// The name of the effect in results.
     pub fn word(self) -> &'static str {
         match self {
             EffectName::Weight => "weight",
@@ -78,24 +78,26 @@ impl EffectName {
         }
     }
 
-    /// A short explanation, for people.
+    /// A short explanation of the effect for users.
     pub fn meaning(self) -> &'static str {
         match self {
-            EffectName::Weight => "each block is pulled along gravity at its centroid",
+            EffectName::Weight => "gravity acts on each block at its centroid",
             EffectName::Contact => {
                 "blocks press on each other and on the ground where edges touch, and never pull"
             }
             EffectName::Friction => "contacts resist sliding, up to μ times the normal force",
-            EffectName::Kernel => "forces keep away from the ends of interfaces",
+            EffectName::Kernel => "contact forces act at a distance from the ends of interfaces",
             EffectName::Robots => "robots hold blocks by a force, up to their limits",
             EffectName::RobotTorque => "robots also hold blocks by a torque, up to their limits",
-            EffectName::Loads => "forces and torques from outside, as the scene lists them",
-            EffectName::CornerContacts => "corners that touch carry force too",
+            EffectName::Loads => "external forces and torques that the scene lists",
+            EffectName::CornerContacts => "corners that touch an edge or a corner also carry force",
             EffectName::Sticking => {
                 "the least adhesion, or robot force beyond the limits, with which it would stand"
             }
             EffectName::Mechanism => "the motion by which it falls",
-            EffectName::Margins => "how far it is from the edge of standing",
+            EffectName::Margins => {
+                "how far loads, friction, tilt and geometry may change before the verdict changes"
+            }
             EffectName::Wedging => {
                 "whether it stands only by a self-stress that its loads do not build up"
             }
@@ -169,12 +171,12 @@ enum Applicability {
 }
 
 impl Applicability {
-    /// The effect is skipped, and would have had no unknowns.
+    /// An effect that is skipped and would have had no unknowns.
     fn skipped(reason: &str) -> Applicability {
         Applicability::skipped_saving(reason, 0)
     }
 
-    /// The effect is skipped, which saves some unknowns.
+    /// An effect that is skipped, and the number of unknowns that this saves.
     fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
         Applicability::Skipped {
             reason: reason.to_owned(),
@@ -188,7 +190,7 @@ trait Effect {
     /// The name in results.
     fn name(&self) -> EffectName;
 
-    /// Whether the frame needs the effect, and why.
+    /// Decides whether the frame needs the effect, and why.
     fn applicability(&self, context: &FrameContext) -> Applicability;
 
     /// Adds the loads, contacts, friction or grips of the effect to the assembly. It is called only if the effect
@@ -210,7 +212,7 @@ const EFFECTS: [&dyn Effect; 8] = [
 
 /// Builds a frame's assembly from the effects that apply, and reports on each effect.
 ///
-/// The reports of simulated effects hold 0 unknowns until these are counted from the programs.
+/// The reports of simulated effects give 0 unknowns at first. The unknowns are counted later, from the programs.
 pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
     let mut assembly = Assembly::without_effects(context.scene, context.frame, context.interfaces);
     let mut reports = Vec::with_capacity(EFFECTS.len());
@@ -226,12 +228,13 @@ pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
             } => EffectReport::skipped(effect.name(), reason, saved_unknowns),
         });
     }
-    // Edge and corner contacts come from two effects; results list contacts in the order of the interfaces.
+    // Edge and corner contacts come from two effects. Sort them, because results list contacts in the order of the
+    // interfaces.
     assembly.contacts.sort_by_key(|contact| contact.interface);
     (assembly.with_summed_loads(), reports)
 }
 
-/// A number with a noun, as `1 block` or `2 blocks`.
+/// A number with a noun, such as `1 block` or `2 blocks`.
 fn counted(n: usize, noun: &str) -> String {
     if n == 1 {
         format!("1 {noun}")

@@ -19,7 +19,7 @@ impl Effect for Robots {
         let (holds, robots) = (context.frame.holds.len(), context.scene.robots.len());
         match holds {
             _ if robots == 0 => Applicability::skipped("the scene has no robots"),
-            // Two components, each in two directions.
+            // Four unknowns per robot: two force components, each in two directions.
             0 => Applicability::skipped_saving("no robot holds a block", 4 * robots),
             1 => Applicability::Applies("1 robot holds a block".to_owned()),
             n => Applicability::Applies(format!("{} hold blocks", counted(n, "robot"))),

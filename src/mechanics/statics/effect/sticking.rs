@@ -1,7 +1,7 @@
 //! Sticking: the forces that mortar, or stronger robots, would have to exert. They show where a structure fails.
 //!
-//! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum of
-//! all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
+//! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum
+//! of all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
 
 use super::{EffectName, EffectReport, counted};
 
@@ -19,8 +19,8 @@ pub enum Sought {
     NotAsked,
 }
 
-/// The report on sticking. `blocks` is the number of blocks in the frame; `unknowns` is the number of sticking unknowns,
-/// whether they were needed or saved.
+/// The report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns of
+/// sticking, whether they were used or saved.
 pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
     match sought {
         Sought::Found => {

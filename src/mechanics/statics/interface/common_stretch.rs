@@ -1,10 +1,11 @@
-//! [`CommonStretch`]: the stretch along which two edges face each other.
+//! [`CommonStretch`]: the common part of two edges that face each other.
 
 use super::open_stretch::OpenStretch;
 use crate::geometry::{Edge, Point, Tolerance, Vector};
 use crate::scene::{Scene, ToleranceSource};
 
-/// If a tolerance is given, a stretch that covers this fraction of the shorter edge is a contact, however short the edge.
+/// If a tolerance is given, a stretch that covers this fraction of the shorter edge is a contact, however short the
+/// edge.
 ///
 /// Ten times this is more than a whole edge. At a tenth, two bricks that barely touch at their chamfers would have a
 /// contact.
@@ -28,7 +29,7 @@ pub(super) struct CommonStretch {
 }
 
 impl CommonStretch {
-    /// The stretch of the edges `a` and `b`, which run in opposite directions.
+    /// The common stretch of the edges `a` and `b`, which run in opposite directions.
     pub(super) fn new(a: Edge, b: Edge) -> CommonStretch {
         let along = (a.vector() - b.vector()).normalize();
         let mut stretch = CommonStretch {
@@ -43,12 +44,12 @@ impl CommonStretch {
         stretch
     }
 
-    /// Its length, metres; negative where the edges cover no common stretch.
+    /// Its length in metres; negative if the edges have no common stretch.
     pub(super) fn length(&self) -> f64 {
         self.end - self.start
     }
 
-    /// A point's place along the stretch, metres.
+    /// The coordinate of a point along the stretch, metres.
     fn place(&self, p: Point) -> f64 {
         self.along.dot(&(p - self.a.from))
     }
@@ -58,7 +59,8 @@ impl CommonStretch {
         Vector::new(self.along.y, -self.along.x)
     }
 
-    /// How far outside the start of the first edge an edge runs at a place, metres.
+    /// The distance, in metres, by which the edge `e` lies outside the start of the first edge, at coordinate `s` along
+    /// the stretch.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
         let (h0, h1) = (
@@ -69,28 +71,28 @@ impl CommonStretch {
         h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
     }
 
-    /// The distance from the first edge to the second at a place, metres; negative where they overlap.
+    /// The gap between the two edges at coordinate `s`, metres; negative if they overlap there.
     fn gap(&self, s: f64) -> f64 {
         self.height(self.b, s) - self.height(self.a, s)
     }
 
-    /// The larger distance at its two ends, gap or overlap, metres.
+    /// The larger amount of the gaps or overlaps at its two ends, metres.
     pub(super) fn distance(&self) -> f64 {
         self.gap(self.start).abs().max(self.gap(self.end).abs())
     }
 
-    /// The smaller gap at its two ends, metres; negative where the bodies overlap.
+    /// The smaller gap at its two ends, metres; negative if the bodies overlap.
     pub(super) fn depth(&self) -> f64 {
         self.gap(self.start).min(self.gap(self.end))
     }
 
-    /// The point halfway between the two edges at a place.
+    /// The point halfway between the two edges at coordinate `s`.
     pub(super) fn middle(&self, s: f64) -> Point {
         let height = (self.height(self.a, s) + self.height(self.b, s)) / 2.0;
         self.a.from + self.along * s + self.outward() * height
     }
 
-    /// The stretch as an open gap.
+    /// Converts the stretch to an open gap.
     pub(super) fn open(&self) -> OpenStretch {
         let at = self.a.from + self.along * ((self.start + self.end) / 2.0);
         let ends = [self.start, self.end].map(|s| (self.middle(s), self.gap(s).abs()));
@@ -98,13 +100,14 @@ impl CommonStretch {
     }
 }
 
-/// The length in metres that two edges must have in common to form an interface; `edge` is the shorter edge's length.
+/// The length in metres that two edges must have in common to form an interface. `edge` is the length of the shorter
+/// edge in metres. It is smaller than the tolerance's own value if a given tolerance is large for the edge.
 pub(super) fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
     let min_length = tolerance.min_contact_length(edge);
     let is_given = scene.healed.source == ToleranceSource::Given;
     if is_given && edge > MIN_EDGE_PER_TOLERANCE * tolerance.gap {
-        // A given tolerance may exceed the edges of a round stone. A stretch that covers half of an edge is then a
-        // contact.
+        // A given tolerance may be longer than the edges of a round stone. A stretch that covers half of an edge is
+        // then a contact.
         return min_length.min(CONTACT_PER_EDGE * edge);
     }
     min_length

@@ -32,12 +32,12 @@ struct Tip {
 }
 
 impl Tip {
-    /// Whether the inner angle is less than 180°.
+    /// True if the inner angle is less than 180°.
     fn is_convex(&self) -> bool {
         cross(self.before, self.after) > 0.0
     }
 
-    /// The unit vector along the bisector, into the material.
+    /// The unit vector along the bisector of the corner, which points into the material.
     fn inward(&self) -> Vector {
         let along = (self.before.normalize() + self.after.normalize()).normalize();
         Vector::new(-along.y, along.x)
@@ -59,7 +59,8 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
         _ => scene.tolerance_between(a, b).gap,
     };
     let index = BoxIndex::new(corner_sides(scene), |place| place.side.bounds());
-    // In the order of the scene: of several corners at the same point, the first one becomes the contact.
+    // Go through the corners in the order of the scene. If several corners are at the same point, the first one becomes
+    // the contact.
     let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
     places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();
@@ -108,7 +109,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     found
 }
 
-/// All corners of a scene with the sides that begin in them.
+/// All corners of a scene, each with the side that begins at it.
 fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
     let mut places = Vec::new();
     for body in bodies(scene) {
@@ -139,7 +140,8 @@ fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
     places
 }
 
-/// The unit normal into the body of `tip` if `tip` touches the corner of `other`, or its side between the ends.
+/// The unit normal into the body of `tip`, if `tip` touches the corner of `other` or the interior of its side.
+/// Otherwise `None`. It is also `None` if two touching corners have no defined normal.
 fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
     if (other.side.from - tip.at).norm() <= tolerance {
         let between = tip.inward() - other.tip.inward();

@@ -54,7 +54,7 @@ struct Side {
 }
 
 impl Side {
-    /// Bounds of the edge in x, y and direction.
+    /// The bounding box of the edge in x, y and direction.
     ///
     /// The range of directions contains each edge that may face this one within the smaller of both angle tolerances.
     /// Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With it, it
@@ -63,8 +63,8 @@ impl Side {
         let along = self.edge.vector();
         let angle =
             (2.0 * self.search_distance / along.norm()).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
-        // `compare` tests the sine, which is smaller than the angle by less than a thousandth. `direction` grows by at
-        // most 1 per radian.
+        // `compare` tests the sine, which is smaller than the angle by less than a thousandth. `direction` changes by
+        // at most 1 per radian.
         let angle = 1.001 * angle;
         let (position, direction) = (self.edge.bounds(), direction(along));
         Aabb {
@@ -73,7 +73,7 @@ impl Side {
         }
     }
 
-    /// Query boxes for edges that face this one: opposite direction, within the search distance.
+    /// The query boxes that find edges facing this one: edges of the opposite direction within the search distance.
     ///
     /// Directions are periodic. Near 0 and [`FULL_TURN`] two boxes are needed.
     fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
@@ -95,7 +95,8 @@ impl Side {
     }
 }
 
-/// A monotonic measure of a vector's direction without trigonometry: 0 to 4 anticlockwise from the x axis, 1 per quadrant.
+/// A number that grows with the angle of a vector, computed without trigonometry: from 0 to 4 anticlockwise from the x
+/// axis, 1 per quadrant.
 fn direction(v: Vector) -> f64 {
     let part = v.y.abs() / (v.x.abs() + v.y.abs());
     match (v.x >= 0.0, v.y >= 0.0) {
@@ -182,7 +183,7 @@ struct Collection {
     notices: Notices,
 }
 
-/// Sorts the pairs of edges, grouped by their bodies, into interfaces, near misses and slivers.
+/// Converts the pairs of edges, which are grouped by their bodies, to interfaces, near misses and slivers.
 fn collect(
     scene: &Scene,
     pairs: Vec<Pair>,
@@ -227,9 +228,10 @@ fn collect(
 }
 
 impl Collection {
-    /// Adds an interface. `smallest` is the size of the smallest stone, metres.
+    /// Adds an interface whose edges are at most `distance` metres apart. `smallest` is the size of the smallest stone,
+    /// metres.
     fn add_touching(&mut self, interface: Interface, distance: f64, smallest: f64) {
-        // Only a gap that some stone of the scene can fill may be kept open by a stone.
+        // A gap that is too narrow for every stone of the scene cannot be kept open by a stone.
         if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
             self.open_joints.push(NearMiss {
                 bodies: interface.bodies,
@@ -240,7 +242,7 @@ impl Collection {
         self.interfaces.push(interface);
     }
 
-    /// Adds a contact that is too short to count; one within rounding is not even a sliver.
+    /// Adds a contact that is too short for an interface. If it is longer than rounding, it becomes a sliver.
     fn add_short(&mut self, interface: Interface, tolerance: Tolerance) {
         self.notices.add_short(interface.length(), tolerance);
         if interface.length() > tolerance.rounding {
@@ -248,7 +250,7 @@ impl Collection {
         }
     }
 
-    /// Adds the gaps between two bodies, without those along rounded outlines that touch.
+    /// Adds the gaps between two bodies, except those that belong to a rounded outline of bodies that touch.
     fn add_gaps(
         &mut self,
         scene: &Scene,
@@ -271,7 +273,7 @@ impl Collection {
     }
 }
 
-/// The length in metres up to which an edge may be part of a rounded outline of either body.
+/// The largest length, in metres, of an edge that may be part of a rounded outline of either body.
 fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     let of_body = |body: &BodyId| match body {
         BodyId::Block(_) => LONG_SIDE_PER_SIZE * size(&scene.body(*body).polygon),
@@ -280,8 +282,8 @@ fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     bodies.iter().map(of_body).fold(f64::INFINITY, f64::min)
 }
 
-/// The points at which two bodies touch: the ends of their interfaces, or the only corner of the first body that
-/// touches the second.
+/// The points at which two bodies touch: the ends of their interfaces. If they have no interface, it is the only corner
+/// of the first body that touches the second.
 fn touching_points(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -296,7 +298,8 @@ fn touching_points(
         .collect()
 }
 
-/// The only corner of the first body that touches the second; `None` if there is none, or several at different points.
+/// The only point at which corners of the first body touch the second. `None` if no corner touches, or if corners touch
+/// at different points.
 fn only_touching_corner(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -326,7 +329,8 @@ fn only_touching_corner(
         .then_some(first)
 }
 
-/// The relation of edge `a` of the first body to edge `b` of the second; `None` if they do not face each other.
+/// Compares edge `a` of the first body with edge `b` of the second. Returns their relation, or `None` if they do not
+/// face each other.
 fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Relation> {
     let search_distance = a.search_distance.min(b.search_distance);
     let (a, b) = (a.edge, b.edge);
@@ -334,7 +338,7 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if va.dot(&vb) >= 0.0 {
         return None;
     }
-    // Test for parallel edges. Moving the ends by one gap turns a short edge more than a long one.
+    // Test whether the edges are parallel. If both ends move by one gap, a short edge turns more than a long one.
     let (la, lb) = (va.norm(), vb.norm());
     let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     let is_parallel_within = |gap: f64| {

@@ -22,7 +22,7 @@ pub(super) const JOIN_REACH: f64 = 4.0;
 /// drawings with seven digits; ten times this angle would join neighbouring sides of a finely drawn curve.
 const SAME_LINE_TOL: f64 = 1e-6;
 
-/// Joins those stretches of one pair of bodies that continue each other, and returns all stretches.
+/// Joins the stretches of one pair of bodies that continue each other. Returns the joined and all other stretches.
 pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
     let mut remaining = StretchGrid::new(stretches, JOIN_REACH * tolerance.gap);
     let mut joined = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) ->
     joined
 }
 
-/// The two outermost ends of two stretches, measured along the first one.
+/// The two outermost ends of two stretches, in the order along the first stretch.
 ///
 /// All four ends are compared: if the stretches are shorter than the distance within which ends count as equal, it is
 /// not known which ends meet.
@@ -87,7 +87,8 @@ impl StretchGrid {
         grid
     }
 
-    /// The cell of a point. With a reach of 0 all points of a quadrant share one cell: slow, but still correct.
+    /// The grid cell of a point. If `reach` is 0, all points of a quadrant have the same cell, which is slow but
+    /// correct.
     fn cell(&self, p: Point) -> GridCell {
         let number = |x: f64| (x / self.reach).floor() as i64;
         (number(p.x), number(p.y))
@@ -111,7 +112,8 @@ impl StretchGrid {
         self.stretches.get_mut(next)?.take()
     }
 
-    /// The first stretch on the line of `one` whose given end lies at `p`.
+    /// The index of the first stretch on the line of `one` whose end of the given kind lies at `p`. `None` if there is
+    /// none.
     fn neighbour(&mut self, end: StretchEnd, p: Point, one: &Interface) -> Option<usize> {
         let (x, y) = self.cell(p);
         let (table, which) = match end {

@@ -35,8 +35,8 @@ impl LatticeEdges {
         }
     }
 
-    /// The interfaces in which the body `id` is the first of the two bodies. For the last block of a scene, these are
-    /// all its interfaces.
+    /// The interfaces in which the body `id`, which consists of `cells`, is the first of the two bodies. For the last
+    /// block of a scene, these are all its interfaces.
     pub(crate) fn interfaces_of(
         &self,
         scene: &Scene,
@@ -48,16 +48,16 @@ impl LatticeEdges {
         self.interfaces(scene, lattice, own.map(|step| (step, id)))
     }
 
-    /// The interfaces along some edges. Each edge is given with its owner, which must be the first body of the
-    /// interface.
+    /// The interfaces along the given edges. Each edge is given with the body to which it belongs, which must be the
+    /// first body of the interface.
     fn interfaces(
         &self,
         scene: &Scene,
         lattice: &Lattice,
         edges: impl Iterator<Item = ((Node, Node), BodyId)>,
     ) -> Vec<Interface> {
-        // For each pair of bodies and each direction: the shared unit edges of the first body, as a map from begin to
-        // end.
+        // For each pair of bodies and each direction, the unit edges that they share, as a map from start node to end
+        // node. The direction is that of the first body.
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
             for other in self.owners.get(&(b, a)).into_iter().flatten() {
@@ -73,7 +73,7 @@ impl LatticeEdges {
     }
 }
 
-/// Finds all edge interfaces of a scene that consists of cells.
+/// Finds all edge interfaces of a scene whose bodies consist of cells.
 pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
     let mut edges = LatticeEdges::default();
     for id in bodies(scene) {
@@ -108,7 +108,7 @@ fn joined(
     found
 }
 
-/// The interface from the node `begin` to the node `end`.
+/// The interface along the edges from the node `begin` to the node `end`.
 ///
 /// The first body lies to the left of this direction, so the normal into it is the direction rotated anticlockwise by
 /// 90°.
@@ -123,7 +123,7 @@ fn interface(
     Interface {
         bodies: pair,
         kind: ContactKind::Edge,
-        // The tangent (−n_y, n_x) of this normal points from the end back to the begin.
+        // The tangent (−n_y, n_x) of this normal points from `end` to `begin`.
         ends: [to, from],
         normal: quarter_turn((to - from).normalize()),
         friction: scene.friction_between(pair[0], pair[1]),

@@ -1,4 +1,5 @@
-//! [`Interface`]: a stretch of edge that two bodies share; [`Interfaces`]: all of them in a scene, for all frames.
+//! [`Interface`]: a contact of two bodies along a stretch of edge. [`Interfaces`]: all contacts of a scene, for all
+//! frames.
 //!
 //! Invariant: the first body of an interface is a block, and the normal points into it. Edges that are too short or too
 //! far apart for an interface are reported in [`Interfaces::notices`], so that none is dropped silently.
@@ -107,7 +108,7 @@ pub(crate) struct PinnedGap {
 }
 
 impl PinnedGap {
-    /// Whether an interface lies in the gap: it then does not exist while the stone is present.
+    /// True if the interface lies in the gap. It then does not exist while the stone is present.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -134,8 +135,8 @@ pub struct Interfaces {
 impl Interfaces {
     /// Finds all contacts of a scene: exactly if it is made of lattice cells, otherwise within its tolerance.
     ///
-    /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched only
-    /// if the scene requests them.
+    /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched
+    /// only if the scene requests them.
     pub fn new(scene: &Scene) -> Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
@@ -167,7 +168,7 @@ impl Interfaces {
         });
     }
 
-    /// A copy in which the slivers count as interfaces.
+    /// Returns a copy in which the slivers are interfaces too.
     pub(crate) fn with_slivers(&self) -> Interfaces {
         let mut all = self.clone();
         all.all.append(&mut all.slivers);
@@ -175,7 +176,8 @@ impl Interfaces {
         all
     }
 
-    /// The interfaces of a frame: those whose two bodies are present and are not kept apart by a present stone.
+    /// The interfaces of a frame. Both bodies must be present, and no stone that is present may keep the interface
+    /// open.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
@@ -203,7 +205,7 @@ fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))))
 }
 
-/// Two bodies in the order in which an interface lists them: the later block first, the ground last.
+/// Returns two bodies in the order in which an interface lists them: the later block first, the ground last.
 ///
 /// `None` for two parts of the ground.
 fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
@@ -214,7 +216,8 @@ fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
     }
 }
 
-/// The unit normal that is exactly perpendicular to a stretch whose ends lie along (−n_y, n_x).
+/// Returns the unit normal that is exactly perpendicular to the stretch between two ends. The ends are in the order of
+/// (−n_y, n_x).
 ///
 /// Friction is one force per interface, which acts along the line through the two ends. Its moment is the same at both
 /// ends only if the normal is exactly perpendicular to this line.

@@ -17,21 +17,21 @@ pub(super) struct Notices {
 }
 
 impl Notices {
-    /// Records a stretch of `length` metres that is too short for an interface.
+    /// Records a stretch of `length` metres, which is too short for an interface.
     pub(super) fn add_short(&mut self, length: f64, tolerance: Tolerance) {
         self.short_count += 1;
         self.longest_short = self.longest_short.max(length);
         self.required_length = self.required_length.max(tolerance.min_length);
     }
 
-    /// Records two bodies with edges `distance` metres apart, slightly more than the tolerance.
+    /// Records two bodies with edges that are `distance` metres apart, slightly more than the tolerance.
     pub(super) fn add_apart(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
         let names = bodies.map(|body| scene.name(body));
         self.apart
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
-    /// The notices as sentences, at most one of each kind.
+    /// The notices as sentences for users, at most one of each kind.
     pub(super) fn into_sentences(self, tolerance: Tolerance) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.short_count > 0 {

@@ -24,7 +24,7 @@ pub(super) struct OpenStretch {
 }
 
 impl OpenStretch {
-    /// A stretch from its two ends, each with its gap in metres, and its middle.
+    /// Creates a stretch from its two ends, each with its gap in metres, and from its middle `at`.
     pub(super) fn new(ends: [(Point, f64); 2], at: Point) -> OpenStretch {
         let [a, b] = ends;
         let (narrow, wide) = if a.1 <= b.1 { (a, b) } else { (b, a) };

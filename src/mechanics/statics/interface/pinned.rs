@@ -10,7 +10,7 @@ use crate::scene::{BlockId, BodyId, Scene, size};
 pub(crate) struct ContactsByBody<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);
 
 impl<'a> ContactsByBody<'a> {
-    /// Groups interfaces by their bodies; each is listed under both.
+    /// Groups interfaces by their bodies. Each interface is listed under both of its bodies.
     pub(crate) fn new(all: &'a [Interface]) -> ContactsByBody<'a> {
         let mut by_body: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
         for interface in all {
@@ -26,7 +26,7 @@ impl<'a> ContactsByBody<'a> {
     }
 }
 
-/// The stone that stands between the two bodies of a gap and keeps it open; `None` if there is none.
+/// Finds the stone between the two bodies of a gap that keeps the gap open. `None` if there is none.
 ///
 /// Such a stone touches the two bodies on opposite sides, and its height between them is about the width of the gap:
 /// more than half of it, and at most 1.1 times the width plus `tolerance` metres. Only bodies for which `is_present` is
@@ -64,7 +64,7 @@ pub(crate) fn pinning_stone(
 /// more time.
 pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
-/// The joints among `open_joints` that a stone keeps open. Their gaps are within the tolerance.
+/// Finds the joints in `open_joints` that a stone keeps open. The gaps of these joints are within the tolerance.
 pub(super) fn pinned_gaps(
     scene: &Scene,
     all: &[Interface],

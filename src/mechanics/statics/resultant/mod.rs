@@ -58,7 +58,7 @@ pub fn from_corner_forces(
     }
 }
 
-/// The share of the available friction that is used, |T| / (μ (N1 + N2)); 0 if no friction is available.
+/// The used fraction of the available friction, |T| / (μ (N1 + N2)). It is 0 if no friction is available.
 pub fn friction_used(interface: &Interface, normal: [f64; 2], friction: f64) -> f64 {
     let available = interface.friction * (normal[0] + normal[1]);
     if available > 0.0 {
