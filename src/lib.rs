@@ -60,7 +60,7 @@
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
 //! | [`Scene::builder`] | [`Scene`], checked | calls, one for each part of the file |
 //! | [`starter`] | a scene file | a few lengths and counts |
-//! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
+//! | [`import`](mod@import) | a scene file | a drawing: SVG, DXF, GeoJSON or WKT |
 //! | [`interface`] | pairs of bodies that touch, and where | a scene |
 //! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, with the effects that it needs |
 //! | [`program`] | the equilibrium in numbers without units | an assembly |

@@ -166,6 +166,80 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
 }
 
 #[test]
+fn an_arch_from_a_cad_program_stands() {
+    // Written by ezdxf as AutoCAD 2010: voussoirs with bulges, a keystone of lines and arcs, block references, hatches.
+    let imported = read("arch.dxf", Format::Dxf, &Options::default());
+    let blocks = &imported.scene.blocks;
+    assert_eq!((blocks.len(), imported.scene.ground.len()), (12, 2));
+    assert_eq!(imported.scene.robots.len(), 1);
+    assert_eq!(&ids(&imported)[8..10], ["FINIAL", "FINIAL-2"]);
+    // Each voussoir touches two neighbours, the finials and the hatched stone stand on the ground.
+    assert_eq!(touching(&imported.scene), 8 + 2 + 2 + 1);
+    assert_eq!(verdict(&imported.scene), Verdict::Stable);
+    let warned: Vec<&str> = remarks(&imported).iter().map(|r| r.1).collect();
+    assert_eq!(warned, ["a spline has no exact corners"]);
+    assert!(imported.notes[0].contains("0.001 m, because the drawing states millimetres"));
+    // The layer LIMESTONE sets the density: the weight of the first voussoir is that of a ninth of the half ring, less the
+    // segments that the chords cut off.
+    let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
+    let ring = std::f64::consts::PI / 2.0 * (1.3 * 1.3 - 1.0) / 9.0 * 2500.0 * 9.81;
+    let weight = scene.blocks()[0].weight;
+    assert!((weight / ring - 1.0).abs() < 0.03, "{weight} {ring}");
+}
+
+#[test]
+fn drawings_of_other_programs_in_dxf_become_scenes() {
+    // Written by GDAL: every polygon is a hatch, and the header states inches.
+    let mut options = Options::default();
+    options.scale = Some(1.0);
+    let imported = read("lintel.dxf", Format::Dxf, &options);
+    assert_eq!(
+        (imported.scene.blocks.len(), imported.scene.ground.len()),
+        (3, 1)
+    );
+    assert_eq!(verdict(&imported.scene), Verdict::Stable);
+    // Written by ezdxf as release 12: polylines with vertices, an array of a block, a rotated block, no unit.
+    let imported = read("bricks.dxf", Format::Dxf, &Options::default());
+    assert_eq!(
+        (imported.scene.blocks.len(), imported.scene.ground.len()),
+        (7, 1)
+    );
+    assert_eq!(verdict(&imported.scene), Verdict::Stable);
+    assert!(
+        imported
+            .notes
+            .iter()
+            .any(|n| n.contains("taken as ground by name: Fundament"))
+    );
+}
+
+#[test]
+fn a_scene_exported_to_dxf_and_imported_again_gives_the_same_verdict() {
+    for (name, text) in [
+        ("stands", drystone::scene::starter()),
+        ("falls", drystone::scene::falling_starter()),
+    ] {
+        let scene = Scene::from_json(text).expect("sound");
+        let analysis = Analysis::new(&scene);
+        for (i, frame) in analysis.frames.iter().enumerate() {
+            let drawing = figure::dxf(&analysis, i);
+            let mut options = Options::default();
+            options.scene.friction = Some(scene.blocks()[0].body.friction);
+            let imported = import(&drawing, Format::Dxf, &options).expect("our own drawing");
+            assert_eq!(
+                imported.scene.blocks.len(),
+                scene.frames()[i].placed.len(),
+                "{name} {i}"
+            );
+            assert!(imported.remarks.is_empty(), "{:?}", imported.remarks);
+            let has_guide = |layer: &str| drawing.contains(&format!("\n  8\nguide {layer}"));
+            assert_eq!(has_guide("thrust line"), frame.verdict == Verdict::Stable);
+            assert_eq!(has_guide("mechanism"), frame.verdict == Verdict::Unstable);
+        }
+    }
+}
+
+#[test]
 fn our_own_figures_read_back_give_the_same_verdicts() {
     let mut frames = 0;
     for entry in fs::read_dir(asset("thesis")).expect("scenes") {
@@ -258,6 +332,9 @@ fn mangled_drawings_are_told_and_never_a_panic() {
         ("window.svg", Format::Svg),
         ("steps.geojson", Format::GeoJson),
         ("post.wkt", Format::Wkt),
+        ("arch.dxf", Format::Dxf),
+        ("lintel.dxf", Format::Dxf),
+        ("bricks.dxf", Format::Dxf),
     ] {
         let whole = fs::read(asset("import").join(name)).expect("an asset");
         for _ in 0..150 {

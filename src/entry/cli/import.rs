@@ -21,7 +21,7 @@ use crate::scene::{Note, NoteCode, Scene};
 /// So many moved bodies are listed; --json lists them all.
 const LISTED: usize = 12;
 
-/// Turn a drawing (SVG, GeoJSON, WKT) into a scene
+/// Turn a drawing (SVG, DXF, GeoJSON, WKT) into a scene
 ///
 /// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with "ground"
 /// become ground, with "robot" robots, which hold the block in which their centre lies; "ignore" and "guide" are left out.
@@ -29,7 +29,7 @@ const LISTED: usize = 12;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
-    /// The drawing: .svg, .geojson, .json or .wkt; - reads standard input
+    /// The drawing: .svg, .dxf, .geojson, .json or .wkt; - reads standard input
     #[arg(value_name = "DRAWING")]
     drawing: PathBuf,
     /// The scene file to write; - or nothing prints the scene
@@ -93,6 +93,7 @@ pub(crate) struct Import {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum WrittenIn {
     Svg,
+    Dxf,
     Geojson,
     Wkt,
 }
@@ -161,7 +162,7 @@ impl Import {
         } else {
             self.drawing.display().to_string()
         };
-        let text = self.text(&name).map_err(|c| vec![c])?;
+        let text = self.text(&name, format).map_err(|c| vec![c])?;
         let imported = match import::import(&text, format, &self.options()) {
             Ok(imported) => imported,
             Err(refusal) => {
@@ -197,6 +198,7 @@ impl Import {
         if let Some(format) = self.format {
             return Ok(match format {
                 WrittenIn::Svg => Format::Svg,
+                WrittenIn::Dxf => Format::Dxf,
                 WrittenIn::Geojson => Format::GeoJson,
                 WrittenIn::Wkt => Format::Wkt,
             });
@@ -207,20 +209,25 @@ impl Import {
             .map(|e| e.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Format::Svg),
+            Some("dxf") => Ok(Format::Dxf),
             Some("geojson" | "json") => Ok(Format::GeoJson),
             Some("wkt") => Ok(Format::Wkt),
             Some("svgz") => Err(CliError::CommandLine(format!(
                 "{} is packed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
             ))),
+            Some("dwg") => Err(CliError::CommandLine(format!(
+                "{} is a DWG file, which only CAD programs read; save it there as DXF",
+                self.drawing.display()
+            ))),
             _ => Err(CliError::CommandLine(format!(
-                "the name {} does not tell what the drawing is written in; say --format svg, geojson or wkt",
+                "the name {} does not tell what the drawing is written in; say --format svg, dxf, geojson or wkt",
                 self.drawing.display()
             ))),
         }
     }
 
-    fn text(&self, name: &str) -> Result<String, CliError> {
+    fn text(&self, name: &str, format: Format) -> Result<String, CliError> {
         let bytes = if self.drawing == Path::new("-") {
             let mut bytes = Vec::new();
             io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
@@ -231,6 +238,10 @@ impl Import {
             what: name.into(),
             why: error.to_string(),
         })?;
+        // Old DXF files have one byte per letter. Only names contain letters beyond ASCII, so Latin-1 will do.
+        if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
+            return Ok(bytes.into_iter().map(char::from).collect());
+        }
         String::from_utf8(bytes).map_err(|error| CliError::NotRead {
             what: name.into(),
             why: format!(

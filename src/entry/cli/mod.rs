@@ -22,6 +22,7 @@ mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod export;
 mod figures;
 mod import;
 mod level;
@@ -85,6 +86,7 @@ enum Command {
     Schema(schema::Schema),
     New(new::New),
     Import(import::Import),
+    Export(export::Export),
     #[command(name = "mdbook")]
     MdBook(mdbook::MdBook),
     Shapes(shapes::Shapes),
@@ -121,6 +123,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
         Command::Import(import) => import.run(&terminal),
+        Command::Export(export) => export.run(&terminal),
         Command::MdBook(mdbook) => mdbook.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Snapshot(snapshot) => snapshot.run(&terminal),

@@ -9,6 +9,7 @@ mod arrow;
 mod bearing;
 mod broken;
 mod by_colour;
+mod cad;
 mod caption;
 mod collapse;
 mod compare;
@@ -52,6 +53,7 @@ mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 pub use broken::broken;
+pub use cad::dxf;
 pub use caption::caption;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 pub use freebody::freebody;

@@ -1,8 +1,8 @@
-//! Imports drawings as scene files: SVG, GeoJSON or well-known text.
+//! Imports drawings as scene files: SVG, DXF, GeoJSON or well-known text.
 //!
 //! | step | file |
 //! |---|---|
-//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `geojson`, `wkt` |
+//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `dxf`, `geojson`, `wkt` |
 //! | 2. flatten curves into chords, and close open ends | `subpath` |
 //! | 3. find regions and their holes by the fill rule | `region` |
 //! | 4. refuse drawings with too many overlapping outlines | `limit` |
@@ -17,6 +17,7 @@ mod affine;
 mod limit;
 mod degrees;
 mod draft;
+mod dxf;
 mod scene_file;
 mod scale;
 mod snapping;
@@ -52,6 +53,8 @@ const MAX_GAP_TO_THICKNESS: f64 = 0.25;
 pub enum Format {
     /// Scalable Vector Graphics from Inkscape, Illustrator or this library.
     Svg,
+    /// Drawing Exchange Format, in text form, from CAD programs.
+    Dxf,
     /// GeoJSON: polygons with properties.
     GeoJson,
     /// Well-known text: one geometry per line.
@@ -62,7 +65,8 @@ pub enum Format {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Metres per unit of the drawing. Default: the physical size of an SVG, or the scale of a figure by this library, or 1.
+    /// Metres per unit of the drawing. Default: the physical size of an SVG, the unit of a DXF (`$INSUNITS`), the scale of a figure
+    /// by this library, or 1.
     pub scale: Option<f64>,
     /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit that the
     /// drawing states; a drawing that states no unit needs `scale` too.
@@ -245,6 +249,7 @@ fn read_draft(
     };
     match format {
         Format::Svg => svg::read(text, scale, options.frame, naming),
+        Format::Dxf => dxf::read(text, scale, naming),
         Format::GeoJson => {
             let is_given = options.scale.is_some();
             scaled(&|metres| geojson::read(text, metres, is_given, naming))

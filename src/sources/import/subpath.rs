@@ -92,6 +92,27 @@ impl Subpath {
         }
     }
 
+    /// The same curve from its end to its start.
+    pub(super) fn reversed(&self) -> Subpath {
+        let mut ends = vec![self.start];
+        ends.extend(self.segments.iter().map(Segment::end));
+        let back = |(i, segment): (usize, &Segment)| match segment {
+            Segment::Line(_) => Segment::Line(ends[i]),
+            Segment::Cubic(a, b, _) => Segment::Cubic(*b, *a, ends[i]),
+            Segment::Arc(arc) => Segment::Arc(Arc {
+                from: arc.from + arc.sweep,
+                sweep: -arc.sweep,
+                to: ends[i],
+                ..*arc
+            }),
+        };
+        Subpath {
+            start: ends[ends.len() - 1],
+            segments: self.segments.iter().enumerate().rev().map(back).collect(),
+            closed: self.closed,
+        }
+    }
+
     /// Whether it contains a curve.
     pub(super) fn has_curves(&self) -> bool {
         let straight = |segment: &Segment| matches!(segment, Segment::Line(_));

@@ -1,4 +1,4 @@
-//! Any bytes are either a sound scene or a reason, as SVG, GeoJSON and well-known text alike; never a panic.
+//! Any bytes are either a sound scene or a reason, read as SVG, DXF, GeoJSON and well-known text; never a panic.
 
 #![no_main]
 
@@ -8,7 +8,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let text = String::from_utf8_lossy(bytes);
-    for format in [Format::Svg, Format::GeoJson, Format::Wkt] {
+    for format in [Format::Svg, Format::Dxf, Format::GeoJson, Format::Wkt] {
         match import(&text, format, &Options::default()) {
             Ok(imported) => {
                 assert!(!imported.scene.blocks.is_empty());

@@ -66,7 +66,7 @@ fn standard_input_and_output_want_the_format() {
     let untold = bench.run_with("import -", DRAWING.as_bytes());
     assert_eq!(untold.code, 2);
     assert!(
-        untold.err.contains("say --format svg, geojson or wkt"),
+        untold.err.contains("say --format svg, dxf, geojson or wkt"),
         "{}",
         untold.err
     );
@@ -187,4 +187,44 @@ fn a_figure_is_read_back_frame_by_frame() {
         "{}",
         beyond.err
     );
+}
+
+#[test]
+fn a_dwg_is_refused_with_the_remedy_and_old_letters_are_read() {
+    let bench = bench();
+    let ran = bench.run("import bridge.dwg");
+    assert!(
+        ran.code == 2 && ran.err.contains("save it there as DXF"),
+        "{}",
+        ran.err
+    );
+    // The layer "Gelände" in Windows-1252, as files before 2007 write it.
+    let square = "70\n1\n10\n0\n20\n0\n10\n2\n20\n0\n10\n2\n20\n1\n10\n0\n20\n1\n";
+    let file = format!(
+        "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nGel\u{e4}nde\n{square}0\nENDSEC\n0\nEOF\n"
+    );
+    let bytes: Vec<u8> = file.chars().map(|c| c as u8).collect();
+    let ran = bench.run_with("import - --format dxf", &bytes);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("the drawing has Gelände"), "{}", ran.err);
+}
+
+#[test]
+fn export_writes_a_frame_for_cad_programs() {
+    let bench = bench();
+    assert_eq!(bench.run("new --example falls -o door.json").code, 0);
+    let ran = bench.run("export door.json --frame c -o falls.dxf");
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    let text = fs::read_to_string(bench.path("falls.dxf")).expect("written");
+    assert!(text.contains("guide mechanism") && text.is_ascii());
+    let printed = bench.run("export door.json --frame c");
+    assert_eq!(printed.out, text);
+    for (words, why) in [
+        ("export door.json -o falls.svg", "does not end in .dxf"),
+        ("export door.json --frame 9", "there is no frame 9"),
+        ("export absent.json -o x.dxf", "cannot read absent.json"),
+    ] {
+        let ran = bench.run(words);
+        assert!(ran.code == 2 && ran.err.contains(why), "{}", ran.err);
+    }
 }

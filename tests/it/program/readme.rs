@@ -64,6 +64,10 @@ fn every_command_of_the_page_does_its_work() {
             "drawing.svg",
             include_str!("../../../assets/import/doorway.svg"),
         ),
+        (
+            "bridge.dxf",
+            include_str!("../../../assets/import/arch.dxf"),
+        ),
     ] {
         fs::write(bench.path(name), text).expect("writable");
     }

@@ -1,0 +1,76 @@
+//! `drystone export`: a scene as a drawing for CAD programs.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::analysis::Analysis;
+use crate::cli::complaint::CliError;
+use crate::cli::destination;
+use crate::cli::ending::ExitStatus;
+use crate::cli::level::AnalysisArgs;
+use crate::cli::source::{self, FrameChoice};
+use crate::cli::terminal::Terminal;
+use crate::figure;
+use crate::output::file::Existing;
+
+/// Write a frame as a DXF drawing in metres: structure, line of thrust or collapse
+///
+/// Blocks, ground and grips of robots are on the layers "blocks", "ground" and "robots". All other layers begin with "guide",
+/// and import leaves them out: the drawing can be edited in a CAD program and imported again.
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// The scene file; - reads standard input
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The .dxf file to write; - or nothing prints the drawing
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Frame, by number from 1 or by its letter
+    #[arg(long, value_name = "N", default_value = "last")]
+    frame: FrameChoice,
+    #[command(flatten)]
+    level: AnalysisArgs,
+}
+
+impl Export {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+        let file = self
+            .output
+            .as_deref()
+            .filter(|path| *path != Path::new("-"));
+        if let Some(file) = file {
+            check_name(file).map_err(|c| vec![c])?;
+            destination::apart(&[file.to_owned()], &[&self.scene]).map_err(|c| vec![c])?;
+        }
+        let scenes = [self.scene.clone()];
+        let sources = source::read(&scenes, Some(self.frame), self.level.contact_tolerance)?;
+        let Some(source) = sources.first() else {
+            let why = format!("there is no scene file in {}", self.scene.display());
+            return Err(vec![CliError::CommandLine(why)]);
+        };
+        let text = source::isolated(&self.scene, || {
+            figure::dxf(
+                &Analysis::with(source.scene.clone(), &self.level.options()),
+                0,
+            )
+        });
+        let bytes = text.map_err(|c| vec![c])?.into_bytes();
+        match file {
+            Some(path) => destination::write(&[(path.to_owned(), bytes)], Existing::Replace),
+            None => terminal.print_bytes(&bytes),
+        }
+        .map_err(|c| vec![c])?;
+        Ok(ExitStatus::Done)
+    }
+}
+
+/// Refuses an output file that is a folder, or whose name belongs to another format.
+fn check_name(file: &Path) -> Result<(), CliError> {
+    let why = match file.extension().map(|e| e.to_ascii_lowercase()) {
+        _ if file.is_dir() => "is a folder; name the .dxf file in it",
+        Some(ending) if ending == "dxf" => return Ok(()),
+        _ => "does not end in .dxf, the only format of export; pictures come from drystone render",
+    };
+    Err(CliError::CommandLine(format!("{} {why}", file.display())))
+}

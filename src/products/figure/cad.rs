@@ -1,0 +1,194 @@
+//! [`dxf`]: a frame as a DXF drawing in metres, for CAD programs.
+//!
+//! The file has the version R12 (AC1009), which every CAD program reads: closed polylines, lines, points and text. What is
+//! not part of the structure lies on layers whose names begin with `guide`; `drystone import` leaves these out, so that the
+//! drawing can be edited and imported again.
+
+use std::fmt::Write as _;
+
+use super::displacement::Course;
+use super::{funicular, unit};
+use crate::analysis::{Analysis, Verdict};
+use crate::geometry::{Point, Polygon};
+use crate::scene::{Frame, Scene};
+
+/// The layers with their AutoCAD colour numbers.
+const LAYERS: [(&str, i32); 7] = [
+    (GROUND, 8),
+    (BLOCKS, 7),
+    (HOLES, 9),
+    (ROBOTS, 2),
+    (NAMES, 8),
+    (THRUST, 5),
+    (MECHANISM, 1),
+];
+const GROUND: &str = "ground";
+const BLOCKS: &str = "blocks";
+/// Version R12 has no outlines with holes.
+const HOLES: &str = "guide holes";
+const ROBOTS: &str = "robots";
+const NAMES: &str = "guide names";
+const THRUST: &str = "guide thrust line";
+const MECHANISM: &str = "guide mechanism";
+/// The height of letters relative to the unit edge of the scene.
+const LETTER_SHARE: f64 = 0.15;
+
+/// Writes a frame as DXF: ground, blocks with their names, grips of robots, the line of thrust if the frame stands, and the
+/// displaced blocks if it falls. Coordinates are in metres with y up.
+///
+/// `frame` is the index of the frame, from 0; the text is empty if there is no such frame.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, figure};
+/// let scene = Scene::from_json(drystone::scene::starter())?;
+/// let text = figure::dxf(&Analysis::new(&scene), 0);
+/// assert!(text.contains("AC1009") && text.trim_end().ends_with("EOF"));
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn dxf(analysis: &Analysis, frame: usize) -> String {
+    let scene = &analysis.scene;
+    let (Some(placed), Some(found)) = (scene.frames.get(frame), analysis.frames.get(frame)) else {
+        return String::new();
+    };
+    let unit = unit::unit(scene, None);
+    let mut file = DxfWriter::default();
+    file.head();
+    for ground in &scene.ground {
+        file.outline(GROUND, &ground.body.polygon);
+    }
+    file.blocks(scene, placed, LETTER_SHARE * unit);
+    for hold in &placed.holds {
+        file.entity("POINT", ROBOTS);
+        file.point(10, hold.at);
+    }
+    if found.verdict == Verdict::Stable {
+        for segment in funicular::segments(scene, placed, found) {
+            file.entity("LINE", THRUST);
+            file.point(10, segment.from);
+            file.point(11, segment.to);
+        }
+    }
+    let displaced = Course::new(analysis, frame, unit).at(1.0);
+    for (block, displacement) in scene.blocks.iter().zip(&displaced) {
+        if let Some(displacement) = displacement {
+            let outline = block.body.polygon.outline().iter();
+            let corners: Vec<Point> = outline.map(|p| displacement.moved(*p)).collect();
+            file.polyline(MECHANISM, &corners);
+        }
+    }
+    file.group(0, "ENDSEC");
+    file.group(0, "EOF");
+    file.text
+}
+
+#[derive(Default)]
+struct DxfWriter {
+    text: String,
+}
+
+impl DxfWriter {
+    fn group(&mut self, code: i32, value: &str) {
+        // Writing to a `String` cannot fail.
+        let _ = writeln!(self.text, "{code:3}\n{value}");
+    }
+
+    fn number(&mut self, code: i32, value: f64) {
+        self.group(code, &format!("{value:?}"));
+    }
+
+    fn point(&mut self, code: i32, at: Point) {
+        self.number(code, at.x);
+        self.number(code + 10, at.y);
+    }
+
+    fn entity(&mut self, kind: &str, layer: &str) {
+        self.group(0, kind);
+        self.group(8, layer);
+    }
+
+    /// The header with the version and the unit metre, the layers, and the beginning of the entities.
+    fn head(&mut self) {
+        let header = [
+            (0, "SECTION"),
+            (2, "HEADER"),
+            (9, "$ACADVER"),
+            (1, "AC1009"),
+            (9, "$INSUNITS"),
+            (70, "6"),
+            (0, "ENDSEC"),
+            (0, "SECTION"),
+            (2, "TABLES"),
+            (0, "TABLE"),
+            (2, "LAYER"),
+        ];
+        for (code, value) in header {
+            self.group(code, value);
+        }
+        self.group(70, &LAYERS.len().to_string());
+        for (name, colour) in LAYERS {
+            self.group(0, "LAYER");
+            self.group(2, name);
+            self.group(70, "0");
+            self.group(62, &colour.to_string());
+            self.group(6, "CONTINUOUS");
+        }
+        for (code, value) in [
+            (0, "ENDTAB"),
+            (0, "ENDSEC"),
+            (0, "SECTION"),
+            (2, "ENTITIES"),
+        ] {
+            self.group(code, value);
+        }
+    }
+
+    fn blocks(&mut self, scene: &Scene, frame: &Frame, letters: f64) {
+        for id in &frame.placed {
+            let block = &scene.blocks[id.0];
+            self.outline(BLOCKS, &block.body.polygon);
+            self.entity("TEXT", NAMES);
+            self.point(10, block.body.polygon.centroid());
+            self.number(40, letters);
+            self.group(1, &ascii(&block.id));
+        }
+    }
+
+    fn outline(&mut self, layer: &str, polygon: &Polygon) {
+        self.polyline(layer, polygon.outline());
+        for hole in polygon.holes() {
+            self.polyline(HOLES, hole);
+        }
+    }
+
+    /// A closed polyline.
+    fn polyline(&mut self, layer: &str, corners: &[Point]) {
+        self.entity("POLYLINE", layer);
+        self.group(66, "1");
+        self.group(70, "1");
+        for corner in corners {
+            self.entity("VERTEX", layer);
+            self.point(10, *corner);
+        }
+        self.entity("SEQEND", layer);
+    }
+}
+
+/// A line of text in ASCII: other characters as `\U+XXXX`, which CAD programs show as letters. Control characters are
+/// replaced by spaces, because a line break would end the group.
+fn ascii(text: &str) -> String {
+    let mut line = String::new();
+    for c in text.chars() {
+        match c {
+            ' '..='~' => line.push(c),
+            c if c.is_control() => line.push(' '),
+            c => {
+                let mut units = [0; 2];
+                for unit in c.encode_utf16(&mut units) {
+                    let _ = write!(line, "\\U+{unit:04X}");
+                }
+            }
+        }
+    }
+    line
+}

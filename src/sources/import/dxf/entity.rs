@@ -1,0 +1,243 @@
+//! [`curve`]: the curve of an entity, in the units of the drawing.
+
+use core::f64::consts::TAU;
+
+use super::record::{Record, integer, number};
+use crate::geometry::{Point, Vector};
+use crate::import::subpath::{Arc, Segment, Subpath};
+
+/// A bulge below this is a straight line: the sagitta is this share of half the chord.
+const MIN_BULGE: f64 = 1e-9;
+
+/// The shape of an entity.
+#[derive(Debug)]
+pub(super) enum Shape {
+    /// A curve, closed or open.
+    Curve(Subpath),
+    /// The grip point of a robot.
+    Point(Point),
+    /// No outline, with the reason.
+    Unreadable(&'static str),
+}
+
+/// The curve of an entity. `vertices` are the records `VERTEX` after an entity `POLYLINE`. `None` for kinds without outlines.
+pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
+    let shape = match entity.kind {
+        "LINE" => Shape::Curve(open(
+            point(entity, 10),
+            vec![Segment::Line(point(entity, 11))],
+        )),
+        "ARC" => Shape::Curve(arc(entity)),
+        "CIRCLE" => {
+            let radius = entity.number(40).unwrap_or(f64::NAN);
+            Shape::Curve(Subpath::ellipse(point(entity, 10), radius, radius))
+        }
+        "ELLIPSE" => Shape::Curve(ellipse(entity)),
+        "LWPOLYLINE" => polyline(&corners(entity), entity.has_flag(70, 1)),
+        "POLYLINE" if entity.has_flag(70, 16 | 64) => Shape::Unreadable("it is a mesh"),
+        "POLYLINE" => {
+            // Vertices with flag 16 are control points of a spline and not on the curve.
+            let on_curve = vertices.iter().filter(|v| !v.has_flag(70, 16));
+            let corners: Vec<Corner> = on_curve.map(corner).collect();
+            polyline(&corners, entity.has_flag(70, 1))
+        }
+        "SOLID" | "TRACE" => {
+            // The third and the fourth corner are swapped in the file.
+            let order = [10, 11, 13, 12].map(|code| point(entity, code));
+            let four = entity.number(13).is_some();
+            let corners = if four { &order[..] } else { &order[..2] };
+            let mut corners = corners.to_vec();
+            if !four {
+                corners.push(point(entity, 12));
+            }
+            corners.dedup();
+            Subpath::closed(&corners).map_or(Shape::Unreadable("it has no corners"), Shape::Curve)
+        }
+        "POINT" => Shape::Point(point(entity, 10)),
+        "SPLINE" => Shape::Unreadable("a spline has no exact corners"),
+        "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => {
+            Shape::Unreadable("it is not a plane outline")
+        }
+        "MLINE" => Shape::Unreadable("a multiple line has no single outline"),
+        _ => return None,
+    };
+    Some(match (extrusion(entity), shape) {
+        (Extrusion::Up, shape) => shape,
+        (Extrusion::Down, Shape::Curve(curve))
+            if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
+        {
+            // Such entities lie in a coordinate system whose x axis points to the left.
+            Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
+        }
+        (Extrusion::Down, shape) => shape,
+        (Extrusion::Other, _) => Shape::Unreadable("it does not lie in the plane of the drawing"),
+    })
+}
+
+/// The direction of an entity's normal relative to the drawing's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Extrusion {
+    Up,
+    Down,
+    Other,
+}
+
+/// The direction of the normal in the codes 210, 220 and 230. It deviates by at most a millionth.
+pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
+    let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
+        .map(|(code, default)| entity.number(code).unwrap_or(default));
+    if !(x.abs() <= 1e-6 && y.abs() <= 1e-6 && z != 0.0) {
+        Extrusion::Other
+    } else if z > 0.0 {
+        Extrusion::Up
+    } else {
+        Extrusion::Down
+    }
+}
+
+/// A point: x with the given code, y with the code 10 higher.
+pub(super) fn point(record: &Record<'_>, code: i32) -> Point {
+    let coordinate = |code| record.number(code).unwrap_or(f64::NAN);
+    Point::new(coordinate(code), coordinate(code + 10))
+}
+
+/// A corner of a polyline, with the bulge of the segment that begins there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) at: Point,
+    pub(super) bulge: f64,
+}
+
+fn corner(vertex: &Record<'_>) -> Corner {
+    Corner {
+        at: point(vertex, 10),
+        bulge: vertex.number(42).unwrap_or(0.0),
+    }
+}
+
+/// The corners of an LWPOLYLINE: 10 begins a corner, 20 and 42 belong to it.
+fn corners(entity: &Record<'_>) -> Vec<Corner> {
+    let mut corners: Vec<Corner> = Vec::new();
+    for (code, value) in &entity.groups {
+        match (code, corners.last_mut()) {
+            (10, _) => corners.push(Corner {
+                at: Point::new(number(value), f64::NAN),
+                bulge: 0.0,
+            }),
+            (20, Some(corner)) => corner.at.y = number(value),
+            (42, Some(corner)) => corner.bulge = number(value),
+            _ => {}
+        }
+    }
+    corners
+}
+
+/// The curve through the corners of a polyline.
+pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
+    let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
+        return Shape::Unreadable("it has no corners");
+    };
+    let mut segments: Vec<Segment> = corners
+        .windows(2)
+        .map(|pair| segment(pair[0].at, pair[1].at, pair[0].bulge))
+        .collect();
+    if is_closed && last.bulge.abs() > MIN_BULGE && last.at != first.at {
+        segments.push(segment(last.at, first.at, last.bulge));
+    }
+    Shape::Curve(Subpath {
+        start: first.at,
+        segments,
+        closed: is_closed,
+    })
+}
+
+/// The segment between two corners. The bulge is the tangent of a quarter of the arc's angle, positive if it turns
+/// anticlockwise from `from` to `to`.
+///
+/// With half the chord c and bulge b, the sagitta is b·c, the radius c·(1 + b²) / 2|b|, and the centre lies c·(1 − b²) / 2b to
+/// the left of the middle of the chord.
+fn segment(from: Point, to: Point, bulge: f64) -> Segment {
+    let half = (to - from) / 2.0;
+    if !(bulge.abs() > MIN_BULGE) || half.norm() == 0.0 {
+        return Segment::Line(to);
+    }
+    let left = Vector::new(-half.y, half.x);
+    let centre = from + half + left * ((1.0 - bulge * bulge) / (2.0 * bulge));
+    let start = from - centre;
+    Segment::Arc(Arc {
+        centre,
+        u: start,
+        v: Vector::new(-start.y, start.x),
+        from: 0.0,
+        sweep: 4.0 * libm::atan(bulge),
+        to,
+    })
+}
+
+/// An ARC: centre, radius, start and end in degrees, anticlockwise.
+fn arc(entity: &Record<'_>) -> Subpath {
+    let radius = entity.number(40).unwrap_or(f64::NAN);
+    let angle = |code| entity.number(code).unwrap_or(0.0).to_radians();
+    part_of_ellipse(
+        point(entity, 10),
+        Vector::new(radius, 0.0),
+        Vector::new(0.0, radius),
+        angle(50),
+        angle(51),
+    )
+}
+
+/// An ELLIPSE: centre, the end of the long axis relative to it, the ratio of the axes, start and end in radians.
+fn ellipse(entity: &Record<'_>) -> Subpath {
+    let centre = point(entity, 10);
+    let major = point(entity, 11).coords;
+    let turn = match extrusion(entity) {
+        Extrusion::Down => -1.0,
+        _ => 1.0,
+    };
+    let minor = Vector::new(-major.y, major.x) * (turn * entity.number(40).unwrap_or(1.0));
+    let (from, to) = (
+        entity.number(41).unwrap_or(0.0),
+        entity.number(42).unwrap_or(TAU),
+    );
+    part_of_ellipse(centre, major, minor, from, to)
+}
+
+/// The curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`; the whole ellipse if they are a full turn apart.
+pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to: f64) -> Subpath {
+    let sweep = match (to - from).rem_euclid(TAU) {
+        // Equal ends are a full turn. The tolerance allows for angles of six decimals.
+        turn if turn < 1e-6 || TAU - turn < 1e-6 => TAU,
+        turn => turn,
+    };
+    let at = |angle: f64| centre + u * libm::cos(angle) + v * libm::sin(angle);
+    let start = at(from);
+    let is_closed = sweep == TAU;
+    let end = if is_closed { start } else { at(from + sweep) };
+    Subpath {
+        start,
+        segments: vec![Segment::Arc(Arc {
+            centre,
+            u,
+            v,
+            from,
+            sweep,
+            to: end,
+        })],
+        closed: is_closed,
+    }
+}
+
+/// An open curve.
+pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
+    Subpath {
+        start,
+        segments,
+        closed: false,
+    }
+}
+
+/// The number of a count group.
+pub(super) fn count(value: &str) -> usize {
+    usize::try_from(integer(value)).unwrap_or(0)
+}

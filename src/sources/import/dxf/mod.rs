@@ -1,0 +1,69 @@
+//! Reads DXF drawings into a [`Draft`]: closed outlines, circles, hatches, and loops of lines and arcs.
+//!
+//! | step | file |
+//! |---|---|
+//! | 1. split the text into records of group codes and values | `record` |
+//! | 2. find the header, the layers, the blocks and the entities | `document` |
+//! | 3. convert each entity to curves in the plane of its insertion | `entity`, `hatch` |
+//! | 4. insert blocks with their transform, and sort the curves by layer | `walk` |
+//! | 5. join open curves that meet into loops | `chain` |
+//!
+//! The name of a layer gives the role, as in other drawings, or the material: a layer "granite" sets density and friction.
+//! Group codes are those of the AutoCAD DXF reference.
+
+mod chain;
+mod document;
+mod entity;
+mod hatch;
+mod record;
+mod walk;
+
+use std::collections::BTreeMap;
+
+use super::draft::Draft;
+use super::naming::Naming;
+use super::scale::Scale;
+use document::Document;
+use walk::Walk;
+
+/// Reads a DXF file in text form, in metres with y up.
+///
+/// # Errors
+/// The reason why the text cannot be read as DXF.
+pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draft, String> {
+    let records = record::records(text)?;
+    let document = Document::new(&records)?;
+    let (metres, note) = scale.of(unit(document.unit), "the drawing states no unit")?;
+    let mut walk = Walk {
+        document: &document,
+        naming,
+        metres,
+        draft: Draft::default(),
+        open: BTreeMap::new(),
+        hatches: Vec::new(),
+        left_out: BTreeMap::new(),
+        inserted: 0,
+    };
+    walk.draft.notes.push(note);
+    walk.drawing()?;
+    Ok(walk.finish())
+}
+
+/// Metres of the unit that the header variable `$INSUNITS` states, with the reason for the note.
+fn unit(code: i64) -> Option<(f64, String)> {
+    let (metres, name) = match code {
+        1 => (0.0254, "inches"),
+        2 => (0.3048, "feet"),
+        4 => (1e-3, "millimetres"),
+        5 => (1e-2, "centimetres"),
+        6 => (1.0, "metres"),
+        7 => (1e3, "kilometres"),
+        10 => (0.9144, "yards"),
+        14 => (0.1, "decimetres"),
+        _ => return None,
+    };
+    Some((metres, format!("the drawing states {name} ($INSUNITS)")))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,407 @@
+//! [`Walk`]: goes through the entities, inserts blocks, and sorts the curves by layer.
+
+use std::collections::BTreeMap;
+
+use super::chain::{OpenCurve, chains};
+use super::document::{Block, Document};
+use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
+use super::hatch;
+use super::record::Record;
+use crate::geometry::{Bounds, Point};
+use crate::import::affine::Affine;
+use crate::import::draft::{Draft, FillRule, Form, Part, Role, Values};
+use crate::import::limit::{MAX_BODIES, too_many};
+use crate::import::naming::Naming;
+use crate::import::stone::Stone;
+use crate::import::subpath::Subpath;
+
+/// Blocks are not nested deeper.
+const MAX_DEPTH: usize = 16;
+/// Ends of lines within this share of the drawing's size meet: the default for chords and gaps is the same.
+const END_TOL: f64 = 1e-3;
+/// Two outlines coincide if their boxes differ by at most this share of their size.
+const SAME_TOL: f64 = 1e-6;
+/// Entities without outlines, which a drawing of a structure usually contains.
+const ANNOTATIONS: [&str; 17] = [
+    "ACAD_PROXY_ENTITY",
+    "ATTDEF",
+    "ATTRIB",
+    "DIMENSION",
+    "IMAGE",
+    "LEADER",
+    "MTEXT",
+    "MULTILEADER",
+    "OLE2FRAME",
+    "RAY",
+    "SEQEND",
+    "TEXT",
+    "TOLERANCE",
+    "VIEWPORT",
+    "WIPEOUT",
+    "XLINE",
+    "ACAD_TABLE",
+];
+
+/// The state of the walk.
+pub(super) struct Walk<'d> {
+    pub(super) document: &'d Document<'d>,
+    pub(super) naming: &'d Naming<'d>,
+    /// Metres per unit of the drawing.
+    pub(super) metres: f64,
+    pub(super) draft: Draft,
+    /// Open curves by layer and by insertion: only curves of one layer in one insertion form a loop.
+    pub(super) open: BTreeMap<(String, usize), (Place, Vec<OpenCurve>)>,
+    pub(super) hatches: Vec<(Place, Vec<Subpath>, String)>,
+    /// The number of entities that are left out, by reason.
+    pub(super) left_out: BTreeMap<String, usize>,
+    /// The number of insertions so far.
+    pub(super) inserted: usize,
+}
+
+/// Where entities are: their transform, and the names around them.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    map: Affine,
+    /// The layer of the INSERT, for entities on layer 0.
+    layer: String,
+    /// The name of the innermost block with a name; empty outside of blocks.
+    block: String,
+    role: Option<Role>,
+    insertion: usize,
+    depth: usize,
+}
+
+impl<'d> Walk<'d> {
+    /// Goes through all entities outside of blocks.
+    ///
+    /// # Errors
+    /// If the drawing has too many outlines.
+    pub(super) fn drawing(&mut self) -> Result<(), String> {
+        let place = Place {
+            map: Affine::scale(self.metres, self.metres),
+            layer: "0".into(),
+            block: String::new(),
+            role: None,
+            insertion: 0,
+            depth: 0,
+        };
+        self.entities(self.document.entities, &place)
+    }
+
+    fn entities(&mut self, records: &'d [Record<'d>], around: &Place) -> Result<(), String> {
+        for (i, entity) in records.iter().enumerate() {
+            if self.draft.parts.len() > MAX_BODIES {
+                return Err(too_many(self.draft.parts.len()).message);
+            }
+            if entity.kind == "VERTEX" || entity.kind == "SEQEND" {
+                continue;
+            }
+            let Some(place) = self.place(entity, around) else {
+                continue;
+            };
+            match entity.kind {
+                "INSERT" => self.insert(entity, &place)?,
+                "HATCH" => self.hatch(entity, &place),
+                _ => {
+                    let vertices = &records[i + 1..];
+                    let end = vertices.iter().position(|r| r.kind != "VERTEX");
+                    self.entity(entity, &vertices[..end.unwrap_or(vertices.len())], place);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The place of an entity; `None` if it is left out.
+    fn place(&mut self, entity: &Record<'_>, around: &Place) -> Option<Place> {
+        if entity.integer(67) == 1 {
+            self.leave("entities in paper space");
+            return None;
+        }
+        let layer = match entity.text(8).unwrap_or("0") {
+            "0" => around.layer.clone(),
+            layer => layer.to_owned(),
+        };
+        if self.document.hidden_layers.contains(layer.as_str()) {
+            self.leave("entities on layers that are off or frozen");
+            return None;
+        }
+        let role = self.naming.role(&layer).or(around.role);
+        if role == Some(Role::Ignored) {
+            self.leave("entities on layers whose names begin with ignore or guide");
+            return None;
+        }
+        Some(Place {
+            layer,
+            role,
+            ..around.clone()
+        })
+    }
+
+    fn entity(&mut self, entity: &Record<'_>, vertices: &[Record<'_>], place: Place) {
+        let element = described(entity, &place);
+        match curve(entity, vertices) {
+            Some(Shape::Curve(curve)) => {
+                let curve = curve.mapped(&place.map);
+                if curve.closed {
+                    self.part(&place, vec![curve], element);
+                } else {
+                    let key = (place.layer.clone(), place.insertion);
+                    let (_, list) = self.open.entry(key).or_insert((place, Vec::new()));
+                    list.push(OpenCurve { curve, element });
+                }
+            }
+            Some(Shape::Point(at)) if place.role == Some(Role::Robot) => {
+                let form = Form::Point(place.map.point(at));
+                self.draft.parts.push(new_part(&place, form, element));
+            }
+            Some(Shape::Point(_)) => self.leave("POINT"),
+            Some(Shape::Unreadable(why)) => self.draft.remark(
+                element,
+                format!("{why}; left out"),
+                "draw the block as a closed polyline",
+            ),
+            None if ANNOTATIONS.contains(&entity.kind) => self.leave(entity.kind),
+            None => self.draft.remark(
+                element,
+                "entities of this kind are not read; left out",
+                "draw the block as a closed polyline",
+            ),
+        }
+    }
+
+    fn part(&mut self, place: &Place, curves: Vec<Subpath>, element: String) {
+        let form = Form::Subpaths(curves, FillRule::EvenOdd);
+        self.draft.parts.push(new_part(place, form, element));
+    }
+
+    /// Inserts a block, possibly in rows and columns.
+    fn insert(&mut self, insert: &Record<'_>, around: &Place) -> Result<(), String> {
+        let name = insert.text(2).unwrap_or("");
+        let element = described(insert, around);
+        let Some(block) = self.document.blocks.get(name) else {
+            let why = format!(
+                "its block `{}` is not in the file; left out",
+                crate::text::heading(name, 60)
+            );
+            self.draft.remark(element, why, "");
+            return Ok(());
+        };
+        // Bits 4 and 8 of code 70: the block is another drawing.
+        if block.head.has_flag(70, 4 | 8) {
+            let help = "bind the external drawing, or explode it";
+            self.draft
+                .remark(element, "it refers to another drawing file; left out", help);
+            return Ok(());
+        }
+        if around.depth >= MAX_DEPTH {
+            let why = format!("blocks are nested more than {MAX_DEPTH} levels deep; left out");
+            self.draft.remark(element, why, "explode the blocks");
+            return Ok(());
+        }
+        let mut role = around.role;
+        if let Some(own) = self.naming.role(name) {
+            role = Some(own);
+        }
+        if role == Some(Role::Ignored) {
+            self.leave("entities in blocks whose names begin with ignore or guide");
+            return Ok(());
+        }
+        let times = |code: i32| insert.text(code).map_or(1, count).max(1);
+        let (columns, rows) = (times(70), times(71));
+        if columns.saturating_mul(rows) > MAX_BODIES {
+            return Err(too_many(columns.saturating_mul(rows)).message);
+        }
+        for cell in 0..columns * rows {
+            self.inserted += 1;
+            if self.inserted > 10 * MAX_BODIES {
+                return Err(too_many(self.inserted).message);
+            }
+            let place = Place {
+                map: around
+                    .map
+                    .after(&transform(insert, block, [cell % columns, cell / columns])),
+                // Anonymous blocks, as of dimensions and hatches, begin with an asterisk.
+                block: match name.starts_with('*') {
+                    true => around.block.clone(),
+                    false => name.to_owned(),
+                },
+                role,
+                insertion: self.inserted,
+                depth: around.depth + 1,
+                ..around.clone()
+            };
+            self.entities(block.entities, &place)?;
+        }
+        Ok(())
+    }
+
+    fn hatch(&mut self, entity: &Record<'_>, place: &Place) {
+        let element = described(entity, place);
+        match hatch::loops(entity) {
+            Ok(loops) => {
+                let loops = loops.iter().map(|curve| curve.mapped(&place.map)).collect();
+                self.hatches.push((place.clone(), loops, element));
+            }
+            Err(why) => self.draft.remark(element, format!("{why}; left out"), ""),
+        }
+    }
+
+    fn leave(&mut self, reason: &str) {
+        *self.left_out.entry(reason.to_owned()).or_default() += 1;
+    }
+
+    /// Joins open curves into loops, adds hatches that fill no outline, and writes the notes.
+    pub(super) fn finish(mut self) -> Draft {
+        let boxes = self
+            .open
+            .values()
+            .flat_map(|(_, list)| list)
+            .map(|o| around(&o.curve));
+        let size = boxes
+            .chain(self.draft.parts.iter().map(part_box))
+            .flatten()
+            .reduce(Bounds::union);
+        let tolerance = END_TOL * size.map_or(0.0, Bounds::diagonal);
+        for ((layer, _), (place, list)) in std::mem::take(&mut self.open) {
+            self.chain(&layer, &place, list, tolerance);
+        }
+        self.add_hatches();
+        for (reason, number) in std::mem::take(&mut self.left_out) {
+            self.draft
+                .notes
+                .push(format!("left out: {reason} ({number})"));
+        }
+        self.draft
+    }
+
+    fn chain(&mut self, layer: &str, place: &Place, list: Vec<OpenCurve>, tolerance: f64) {
+        let chained = match tolerance > 0.0 {
+            true => chains(list, tolerance),
+            false => Default::default(),
+        };
+        for (curve, element) in chained.loops {
+            self.part(place, vec![curve], element);
+        }
+        let Some(first) = chained.left.first() else {
+            return;
+        };
+        let more = match chained.left.len() {
+            1 => String::new(),
+            n => format!(
+                " and {} more on layer {}",
+                n - 1,
+                crate::text::heading(layer, 60)
+            ),
+        };
+        let (why, help) = match chained.branch {
+            Some(at) => (
+                format!(
+                    "more than two lines meet at ({:.6}, {:.6}) m, so they form no single loop; left out",
+                    at.x, at.y
+                ),
+                "draw each block as a closed polyline, for example with the command BOUNDARY",
+            ),
+            None => (
+                "the lines do not close to a loop; left out".to_owned(),
+                "close the outline",
+            ),
+        };
+        self.draft
+            .remark(format!("{}{more}", first.element), why, help);
+    }
+
+    /// A hatch is an outline of its own, unless it fills outlines that are drawn.
+    fn add_hatches(&mut self) {
+        let mut drawn: Vec<Bounds> = self.draft.parts.iter().filter_map(part_box).collect();
+        drawn.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
+        let mut filled = 0;
+        for (place, loops, element) in std::mem::take(&mut self.hatches) {
+            let total = loops.len();
+            let own: Vec<Subpath> = loops
+                .into_iter()
+                .filter(|curve| around(curve).is_some_and(|own| !coincides(own, &drawn)))
+                .collect();
+            filled += total - own.len();
+            if !own.is_empty() {
+                self.part(&place, own, element);
+            }
+        }
+        if filled > 0 {
+            self.draft.notes.push(format!(
+                "left out: boundaries of hatches that fill a drawn outline ({filled})"
+            ));
+        }
+    }
+}
+
+/// The map from a block's coordinates to those around its INSERT: scale, rotate, move; then the cell of the array.
+fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) -> Affine {
+    let number = |code, default| insert.number(code).unwrap_or(default);
+    let base = point(block.head, 10);
+    let at = point(insert, 10);
+    let offset = [
+        column as f64 * number(44, 0.0),
+        row as f64 * number(45, 0.0),
+    ];
+    let map = Affine::translation(at.x, at.y)
+        .after(&Affine::rotation(number(50, 0.0)))
+        .after(&Affine::translation(offset[0], offset[1]))
+        .after(&Affine::scale(number(41, 1.0), number(42, 1.0)))
+        .after(&Affine::translation(-base.x, -base.y));
+    match extrusion(insert) {
+        Extrusion::Down => Affine::scale(-1.0, 1.0).after(&map),
+        _ => map,
+    }
+}
+
+fn new_part(place: &Place, form: Form, element: String) -> Part {
+    let stone = Stone::from_name(&place.layer);
+    Part {
+        kind: place.role.unwrap_or(Role::Block),
+        name: place.block.clone(),
+        element,
+        form,
+        fill: None,
+        values: Values {
+            friction: stone.map(|s| s.friction),
+            density: stone.map(|s| s.density),
+            weight: None,
+        },
+    }
+}
+
+/// A description with which the user finds an entity.
+fn described(entity: &Record<'_>, place: &Place) -> String {
+    let layer = crate::text::heading(&place.layer, 60);
+    format!("{} on layer {layer} in line {}", entity.kind, entity.line)
+}
+
+fn around(curve: &Subpath) -> Option<Bounds> {
+    let hull = curve.hull();
+    let is_finite = hull
+        .iter()
+        .all(|p: &Point| p.x.is_finite() && p.y.is_finite());
+    if is_finite {
+        Bounds::from_points(hull)
+    } else {
+        None
+    }
+}
+
+fn part_box(part: &Part) -> Option<Bounds> {
+    match &part.form {
+        Form::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
+        Form::Point(_) => None,
+    }
+}
+
+/// Whether a box coincides with one of the boxes, which are sorted by their left sides.
+fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
+    let tolerance = SAME_TOL * own.diagonal();
+    let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
+    boxes[first..]
+        .iter()
+        .take_while(|b| b.min.x <= own.min.x + tolerance)
+        .any(|b| (b.min - own.min).norm() <= tolerance && (b.max - own.max).norm() <= tolerance)
+}
