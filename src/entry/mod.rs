@@ -1,4 +1,4 @@
-//! The entry points: the command line, and interfaces for other languages.
+//! The entry points: the command line, and the Python module.
 
 #[cfg(feature = "cli")]
 pub mod cli;

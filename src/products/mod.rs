@@ -1,4 +1,5 @@
-//! What people and programs receive: results, sentences, figures, reports. Joins mechanics and pictures.
+//! Output for people and programs: results, sentences, figures and reports. These modules use both mechanics and
+//! pictures.
 //!
 //! The modules are listed in the order of dependency: each uses only those above it.
 

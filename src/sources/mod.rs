@@ -1,4 +1,4 @@
-//! Other ways to a scene file than writing it: from a drawing, or from a few measures.
+//! Makes scene files from drawings, or from a few lengths and counts.
 
 #[cfg(feature = "import")]
 pub mod import;

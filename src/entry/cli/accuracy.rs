@@ -33,7 +33,7 @@ pub(crate) struct Accuracy {
 fn tolerance(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(value) if (1e-15..=0.1).contains(&value) => Ok(value),
-        _ => Err("a tolerance is a number from 1e-15 to 0.1".into()),
+        _ => Err("a tolerance must be a number from 1e-15 to 0.1".into()),
     }
 }
 
@@ -56,7 +56,7 @@ impl Accuracy {
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
         destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, None, None)?;
-        // A scene without a title gets the name of its file as title.
+        // A scene without a title gets the name of its file as its title.
         let scenes: Vec<Scene> = sources
             .iter()
             .map(|source| {
@@ -111,7 +111,7 @@ fn form(path: &Path) -> Result<Form, CliError> {
         Some("svg") => Ok(Form::Svg),
         Some("md") => Ok(Form::Markdown),
         _ => Err(CliError::CommandLine(format!(
-            "{}: a study is .html, .csv, .json, .svg or .md",
+            "{}: the file name of a study must end in .html, .csv, .json, .svg or .md",
             path.display()
         ))),
     }

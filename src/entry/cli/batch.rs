@@ -138,7 +138,7 @@ impl Batch {
                 }
             },
         );
-        // Write the answers from before the error: they are valid results.
+        // Write the answers that precede the error: they are valid results.
         let flushed = output.flush();
         pace.end();
         match (failed, flushed) {
@@ -147,7 +147,7 @@ impl Batch {
         }
     }
 
-    /// The form of the output, by the ending of its file.
+    /// Returns the form of the output, from the ending of its file.
     fn form(&self) -> Result<Form, CliError> {
         let ending = self
             .output
@@ -210,8 +210,8 @@ impl Batch {
         })
     }
 
-    /// The settings on which the answers of a run depend. The number of threads and the progress report do not change the
-    /// answers.
+    /// Returns the settings on which the answers of a run depend. The number of threads and the progress report do
+    /// not change the answers.
     fn settings(&self, work: &Work) -> Settings {
         let mut settings = vec![
             ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
@@ -230,7 +230,7 @@ impl Batch {
             }
         };
         settings.push(("the format of the pictures", format.into()));
-        settings.push(("the hash of their look", look));
+        settings.push(("the hash of their style", look));
         Settings(settings)
     }
 }
@@ -253,7 +253,7 @@ enum Form {
     Csv,
 }
 
-/// How scenes are drawn, and where to.
+/// The options for pictures, and their folder.
 struct Drawn {
     folder: PathBuf,
     format: Format,
@@ -262,7 +262,7 @@ struct Drawn {
     options: figure::Options,
 }
 
-/// A line of the output, and what it says of its scene.
+/// A line of the output, with the exit status and the hash of its scene.
 struct Answer {
     line: String,
     ending: ExitStatus,
@@ -271,7 +271,7 @@ struct Answer {
 }
 
 impl Work {
-    /// Analyses one record. Returns its line, or an error if its picture could not be written, because then no later
+    /// Analyses one record, and returns its line. Returns an error if its picture could not be written: then no later
     /// picture could be written either.
     fn answer(&self, record: Record) -> Result<Answer, CliError> {
         let origin = input::origin(&record);
@@ -330,7 +330,8 @@ impl Work {
         (line, ExitStatus::WrongInput)
     }
 
-    /// The options of an analysis: only what the line contains is computed. A time limit starts with this call.
+    /// Returns the options of an analysis, which computes only what the line contains. A time limit starts with this
+    /// call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());
         if self.fields.ask(&["frames", "margins"]) {

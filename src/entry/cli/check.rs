@@ -1,4 +1,4 @@
-//! `drystone check`: does it stand, in a table for a person or as JSON for a program.
+//! `drystone check`: decides whether structures stand, and prints tables for people or JSON for programs.
 
 use std::path::PathBuf;
 
@@ -59,7 +59,8 @@ impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
             .map_err(|c| vec![c])?;
-        // Programs get an object for every file, in its place; a person reads of what is wrong before anything else.
+        // JSON contains an object for every file, in the order of the files. Without `--json`, files that are not
+        // valid are reported first.
         let layout = if outcomes.len() == 1 {
             Layout::Lines
         } else {
@@ -73,7 +74,7 @@ impl Check {
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }
-        // A fault of the program is no reason to leave the other scenes without an answer.
+        // If the program itself fails on one scene, the other scenes are still answered.
         let is_wrong =
             |(.., complaint): &(usize, PathBuf, CliError)| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
@@ -179,10 +180,10 @@ impl Check {
     }
 }
 
-/// What a scene comes to, the verdicts of its frames, and its JSON or its table.
+/// The exit status of a scene, the verdicts of its frames, and its JSON or its table.
 type Answer = (ExitStatus, Vec<Verdict>, String, Page);
 
-/// The total of several scenes: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`.
+/// Counts the verdicts of several scenes: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`.
 fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     let counts = |verdicts: &[Verdict]| {
         let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
@@ -201,7 +202,7 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     words
 }
 
-/// Notes below a table, a line each with what to do about it in the next.
+/// Writes the notes below a table. Each has two lines: the note, and the remedy.
 fn noted(notes: &[Note]) -> Page {
     let mut page = Page::default();
     for note in notes {

@@ -65,7 +65,7 @@ pub(crate) enum CliError {
 }
 
 impl CliError {
-    /// The exit status for this error.
+    /// Returns the exit status for this error.
     pub(crate) fn ending(&self) -> ExitStatus {
         match self {
             CliError::NotWritten { .. } => ExitStatus::NotWritten,
@@ -79,7 +79,7 @@ impl CliError {
         }
     }
 
-    /// Whether the program itself failed on one scene. The other scenes are answered then.
+    /// True if the program itself failed on one scene. The other scenes are still answered then.
     pub(crate) fn is_internal_fault(&self) -> bool {
         match self {
             CliError::Scene { problems, .. } => {
@@ -89,7 +89,7 @@ impl CliError {
         }
     }
 
-    /// The problems of a scene that cannot be read, for JSON output.
+    /// Returns the error as problems of one file, for JSON output.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         let alone = |code, message: String, help: &str| {
             vec![Problem {
@@ -111,14 +111,15 @@ impl CliError {
             CliError::NotRead { what, why } => alone(
                 Code::NotReadable,
                 format!("cannot read {what}: {why}"),
-                "check the path, and that the file may be read",
+                "check the path and the permissions of the file",
             ),
             // All other errors do not concern a single scene file.
             other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
         }
     }
 
-    /// The message for a person. `width` is the number of columns of the terminal; `None` if the output is not a terminal.
+    /// Writes the message for people. `width` is the number of columns of the terminal; `None` if the output is not a
+    /// terminal.
     pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {
@@ -126,11 +127,11 @@ impl CliError {
                 page.block(&all(name, problems.text.as_deref(), &problems.list, width));
                 let has_lines = [".ndjson", ".jsonl"].iter().any(|end| name.ends_with(end));
                 if has_lines {
-                    page.line("a file with one scene on each line is for: drystone batch FILE");
+                    page.line("for a file with one scene on each line, use: drystone batch FILE");
                 }
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
                     page.line(
-                        "drystone render --broken draws its outlines with these problems marked",
+                        "drystone render --broken draws its outlines and marks these problems",
                     );
                 }
             }
@@ -186,14 +187,14 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
     out
 }
 
-/// The line a problem is in, and the range of it that is the problem, in characters.
+/// The line of a problem, and the range of the problem in this line, in characters.
 struct Place<'a> {
     line: &'a str,
     range: Range<usize>,
 }
 
 impl<'a> Place<'a> {
-    /// The place of a byte range in a text; `None` if the range does not fit the text.
+    /// Finds the place of a byte range in a text; `None` if the range does not fit the text.
     fn new(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
         let before = text.get(..span.start)?;
         let start = before.rfind('\n').map_or(0, |n| n + 1);
@@ -213,7 +214,7 @@ impl<'a> Place<'a> {
         })
     }
 
-    /// Whether the whole line fits the width, with the place marked and a label below it.
+    /// True if the whole line fits the width, with the marked place and its label.
     fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
         if self.line.chars().count() > LONG_LINE {
             return false;
@@ -227,15 +228,15 @@ impl<'a> Place<'a> {
     }
 }
 
-/// From the middle of a place to its label, `╰──── `, and a column to spare.
+/// The columns from the middle of a place to its label, `╰──── `, and one more.
 const ARROW: usize = 8;
 
-/// The number of columns before the text of a line, which contain its number.
+/// Returns the number of columns before the text of a line, which show the line number.
 fn margin(problem: &Problem) -> usize {
     problem.line.to_string().len() + 4
 }
 
-/// The label below the marked place.
+/// Returns the label below the marked place.
 fn label(problem: &Problem) -> String {
     match problem.path.as_str() {
         "" => "here".into(),
@@ -265,11 +266,11 @@ fn plain(name: &str, problem: &Problem) -> String {
     out
 }
 
-/// The message with the line and a mark below it. ariadne gets empty lines in place of the lines above, so that its line
-/// numbers are right.
+/// Writes the message with the line and a mark below it. The lines above are replaced by empty lines, so that
+/// `ariadne` shows the right line number.
 fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
-    // A space after the line, so that a problem at its very end, such as a file that ends early, has a place to mark.
+    // Add a space after the line, so that a problem at its very end, such as a file that ends early, can be marked.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
@@ -281,7 +282,7 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
                 .with_color(Color::Red),
         );
     if !problem.help.is_empty() {
-        // The later lines of the help are indented like its first line, which starts with "Help: ".
+        // Further lines of the help are indented by the width of "Help: ", with which its first line begins.
         let room = width.map(|width| width.saturating_sub(margin(problem) + "Help: ".len()));
         report = report.with_help(broken(&line(&problem.help), room));
     }
@@ -292,9 +293,9 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
     }
 }
 
-/// The message with a part of the line, for a line that is too long to be shown completely.
+/// Writes the message with a part of the line, for a line that is too long to be shown completely.
 fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
-    // Subtract two spaces and a mark at each end of the part.
+    // Leave four columns: two spaces, and a mark at each end of the part.
     let room = width.map_or(WINDOW, |width| {
         width.saturating_sub(4).clamp(NARROWEST, WINDOW)
     });

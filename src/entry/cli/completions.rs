@@ -1,4 +1,4 @@
-//! `drystone completions`: completion scripts for shells. No other file uses clap_complete.
+//! `drystone completions`: prints completion scripts for shells. No other file uses `clap_complete`.
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;

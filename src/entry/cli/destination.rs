@@ -19,8 +19,8 @@ pub(crate) enum Destination {
 }
 
 impl Destination {
-    /// The meaning of the argument of `-o`: `-` for standard output, an existing folder, a path with a slash at its end, or
-    /// a file.
+    /// Interprets the argument of `-o`. `-` is standard output. An existing folder, or a path with a slash at its
+    /// end, is a folder. Any other path is a file.
     pub(crate) fn from_path(typed: &Path) -> Destination {
         let text = typed.to_string_lossy();
         if text == "-" {
@@ -32,7 +32,7 @@ impl Destination {
         }
     }
 
-    /// The format of the picture: that of the file's ending, which must agree with `--format`.
+    /// Returns the format of the picture. The ending of the file decides, and `--format` must agree with it.
     pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, CliError> {
         let Destination::File(path) = self else {
             return Ok(asked.unwrap_or(Format::Svg));
@@ -61,7 +61,7 @@ impl Destination {
     }
 }
 
-/// A list of endings in words: `.svg, .png or .pdf`.
+/// Lists endings in words: `.svg, .png or .pdf`.
 fn one_of(names: &[String]) -> String {
     match names.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
@@ -69,9 +69,9 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
-/// Refuses outputs that would overwrite an input or another output, under any names or links.
+/// Refuses outputs that would overwrite an input or another output, even through other names or links.
 pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
-    // The file that a shell redirects to standard input is an input too, if the system has a path for it.
+    // A file that a shell redirects to standard input is an input too, if the system has a path for it.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");
     for (number, output) in outputs.iter().enumerate() {

@@ -1,17 +1,18 @@
-//! [`ExitStatus`]: the result of a command. The variants are ordered: of several results the worst decides the exit code.
+//! [`ExitStatus`]: the result of a command. The variants are ordered: the worst of several results decides the exit
+//! code.
 
 use crate::analysis::{Analysis, Verdict};
 use crate::scene::Scene;
 use crate::scene::format::Expectation;
 
-/// How a command ended. The greater is the one that is reported.
+/// The result of a command. The greatest of several results is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
     /// Done, and every frame is stable.
     Done,
-    /// Done; nothing is unstable, and some frame is undecided.
+    /// Done; no frame is unstable, and at least one is undecided.
     Undecided,
-    /// Done, and some frame is unstable.
+    /// Done, and at least one frame is unstable.
     Unstable,
     /// The output could not be written.
     NotWritten,
@@ -20,14 +21,14 @@ pub(crate) enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// What the frames of an analysis come to. A frame that falls as its author expects is done; one that stands against the
-    /// expectation counts as one that falls.
+    /// Returns the exit status for an analysis. A frame that falls counts as done if the scene expects it to fall. A
+    /// frame that stands against this expectation counts as unstable.
     pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict);
         ExitStatus::from_verdicts(&analysis.scene, verdicts)
     }
 
-    /// Likewise, from the verdicts of the frames alone.
+    /// Returns the exit status for the verdicts of the frames of a scene, like [`ExitStatus::from_analysis`].
     pub(crate) fn from_verdicts(
         scene: &Scene,
         verdicts: impl IntoIterator<Item = Verdict>,
@@ -41,7 +42,7 @@ impl ExitStatus {
         endings.max().unwrap_or(ExitStatus::Done)
     }
 
-    /// The exit code of the process.
+    /// Returns the exit code of the process.
     pub(crate) fn number(self) -> u8 {
         match self {
             ExitStatus::Done => 0,

@@ -1,4 +1,4 @@
-//! `drystone figures`: writes the gallery: every figure as SVG, PNG and PDF, with its caption.
+//! `drystone figures`: writes the gallery, with every figure as SVG, PNG and PDF, and its caption.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `drystone import`: a drawing in, a scene out.
+//! `drystone import`: turns a drawing into a scene.
 
 use std::fs;
 use std::io::{self, Read};
@@ -18,7 +18,7 @@ use crate::result::import_json;
 use crate::scene::format::SceneFile;
 use crate::scene::{Note, NoteCode, Scene};
 
-/// So many moved bodies are listed; --json lists them all.
+/// At most this many moved bodies are listed; `--json` lists all.
 const LISTED: usize = 12;
 
 /// Turn a drawing (SVG, DXF, GeoJSON, WKT) into a scene
@@ -109,7 +109,7 @@ enum Unit {
 }
 
 impl Unit {
-    /// Metres in one unit.
+    /// Returns the length of the unit in metres.
     fn metres(self) -> f64 {
         match self {
             Unit::Mm => 1e-3,
@@ -121,7 +121,7 @@ impl Unit {
     }
 }
 
-/// What `--scale` says.
+/// The value of `--scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DrawnAt {
     /// Real lengths divided by drawn lengths.
@@ -347,7 +347,7 @@ fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
     page
 }
 
-/// The note that weights come from the default density.
+/// Returns a note if weights come from the default density.
 fn light(imported: &Imported) -> Option<String> {
     let scene = Scene::new(imported.scene.clone()).ok()?;
     let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
@@ -368,7 +368,7 @@ fn stone(typed: &str) -> Result<Stone, String> {
     })
 }
 
-/// `1:50` is a ratio, `0.02` is metres per unit.
+/// Parses a scale: `1:50` is a ratio, and `0.02` is metres per unit.
 fn scale(typed: &str) -> Result<DrawnAt, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
     let wrong = || "give 1:50, or metres per unit such as 0.02".to_owned();
@@ -383,13 +383,13 @@ fn scale(typed: &str) -> Result<DrawnAt, String> {
     }
 }
 
-/// `9.81` is downwards, `0,-9.81` is as it says.
+/// Parses gravity in m/s²: `9.81` acts downwards, and `0,-9.81` gives both components.
 fn gravity(typed: &str) -> Result<[f64; 2], String> {
     let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
     match numbers.as_deref() {
         Ok([g]) => Ok([0.0, -g]),
         Ok([x, y]) => Ok([*x, *y]),
-        _ => Err("give one number, or two with a comma between".into()),
+        _ => Err("give one number, or two numbers with a comma between them".into()),
     }
 }
 

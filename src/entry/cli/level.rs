@@ -26,12 +26,12 @@ pub(crate) struct AnalysisArgs {
 }
 
 impl AnalysisArgs {
-    /// Whether `--wedging` was given.
+    /// True if `--wedging` was given.
     pub(crate) fn requests_wedging(self) -> bool {
         self.wedging
     }
 
-    /// The name and the value of each option, for the record of what an answer depends on.
+    /// Returns the name and the value of each option, to record on which options an answer depends.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",
@@ -50,7 +50,7 @@ impl AnalysisArgs {
         ]
     }
 
-    /// The options of the analysis. A time limit starts with this call.
+    /// Returns the options of the analysis. A time limit starts with this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,
@@ -63,7 +63,7 @@ impl AnalysisArgs {
     }
 }
 
-/// Parses a level of accuracy. For the former level `draft` the error message names the replacement.
+/// Makes the parser for a level of accuracy. For the former level `draft`, its error message names the replacement.
 fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
     let names = ["standard", "proved", "draft"];
     let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));
@@ -84,6 +84,6 @@ fn length(typed: &str) -> Result<f64, String> {
 fn seconds(typed: &str) -> Result<Duration, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
-        _ => Err("it is a time in seconds, from 0 to 1000000".into()),
+        _ => Err("it must be a time in seconds, from 0 to 1000000".into()),
     }
 }

@@ -22,22 +22,22 @@ pub(crate) struct StyleArgs {
 }
 
 impl StyleArgs {
-    /// The style file, if one was given.
+    /// Returns the style file, if one was given.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.style.as_deref()
     }
 
-    /// The name of the theme, if no style file changes it.
+    /// Returns the name of the theme, if one was given and no style file changes it.
     pub(crate) fn name(&self) -> Option<&str> {
         self.theme.as_deref().filter(|_| self.style.is_none())
     }
 
-    /// Whether a theme or a style file was given.
+    /// True if a theme or a style file was given.
     pub(crate) fn is_chosen(&self) -> bool {
         self.theme.is_some() || self.style.is_some()
     }
 
-    /// The theme, with the changes of the style file.
+    /// Returns the theme, with the changes of the style file.
     pub(crate) fn theme(&self) -> Result<Theme, CliError> {
         let base = self.theme.as_deref().and_then(Theme::named);
         match &self.style {

@@ -1,4 +1,4 @@
-//! `drystone man`: manual pages. No other file uses clap_mangen.
+//! `drystone man`: writes manual pages. No other file uses `clap_mangen`.
 
 use std::path::PathBuf;
 

@@ -23,7 +23,7 @@ pub(crate) struct MarginArgs {
     margins: Option<Vec<Name>>,
 }
 
-/// A margin by the name it has in results.
+/// A margin, by its name in results.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Name {
     Friction,
@@ -50,12 +50,12 @@ impl Name {
 }
 
 impl MarginArgs {
-    /// Whether margins are requested.
+    /// True if margins are requested.
     pub(crate) fn are_requested(&self) -> bool {
         self.margins.is_some()
     }
 
-    /// The same analysis, with the margins that are requested.
+    /// Adds the requested margins to the options of an analysis.
     pub(crate) fn add_to(&self, options: Options) -> Options {
         match self.margins.as_deref() {
             None => options,
@@ -67,7 +67,7 @@ impl MarginArgs {
         }
     }
 
-    /// The names on the command line: `none`, `all`, or a list.
+    /// Returns the names on the command line: `none`, `all`, or a list.
     pub(crate) fn described(&self) -> String {
         match self.margins.as_deref() {
             None => "none".into(),
@@ -81,7 +81,7 @@ impl MarginArgs {
     }
 }
 
-/// The margins in a list; all margins for an empty list.
+/// Returns the margins in a list; all margins for an empty list.
 fn kinds(names: &[Name]) -> MarginKinds {
     if names.is_empty() {
         return MarginKinds::ALL;
@@ -90,7 +90,8 @@ fn kinds(names: &[Name]) -> MarginKinds {
     MarginKinds::new(&kinds)
 }
 
-/// The margins of a list of names, all of them where it is empty; the first name that is none is the error.
+/// Returns the margins with these names, or all margins if the list is empty. The error is the first name that is not
+/// a margin.
 #[cfg(feature = "python")]
 pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
     let read = |name: &String| Name::from_str(name, true).map_err(|_| name.clone());
@@ -103,8 +104,8 @@ pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
 
 /// Joins the optional list after `--margins` to the option.
 ///
-/// `check --margins scene.json` asks for all, and `check --margins friction,tilt scene.json` for two: a word of names
-/// alone is a list, unless there is a file of that name.
+/// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two.
+/// The word after `--margins` is a list if it looks like names, unless a file has this name.
 pub(crate) fn join_list(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
     let mut joined: Vec<OsString> = Vec::new();
     for word in words {

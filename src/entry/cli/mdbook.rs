@@ -1,4 +1,4 @@
-//! `drystone mdbook`: a preprocessor for mdBook that replaces scenes in the chapters by figures.
+//! `drystone mdbook`: runs a preprocessor for mdBook that replaces scenes in the chapters by figures.
 
 use std::io::{self, Read};
 

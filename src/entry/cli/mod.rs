@@ -58,8 +58,8 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::{OutputArgs, Terminal};
 
 const BEFORE_YOU_TRUST_IT: &str = "\
-A verdict of 'stands' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \
-that lives on wedging counts as one.
+A verdict of 'stands' means that a balance of forces exists for rigid blocks at rest, laid dry (no cohesion). A balance \
+that exists only by wedging counts as one.
 
 Exit codes: 0 done and everything stands, 1 something falls, 2 the input or the command line is wrong, 3 something is \
 undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \
@@ -102,7 +102,7 @@ pub fn run() -> ExitCode {
     ExitCode::from(run_with(std::env::args_os()))
 }
 
-/// Runs a command line, the program's name first, and returns the exit code.
+/// Runs a command line, whose first word is the name of the program, and returns the exit code.
 pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
     let line = match CommandLine::try_parse_from(margins::join_list(words)) {
         Ok(line) => line,
@@ -135,7 +135,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
     ending.number()
 }
 
-/// The exit status after clap has printed help, the version or an error.
+/// Returns the exit status after `clap` has printed help, the version or an error.
 fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     if error.use_stderr() {
         return ExitStatus::WrongInput;
@@ -143,7 +143,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     match terminal::written(printed) {
         Ok(()) => ExitStatus::Done,
         Err(complaint) => {
-            // If standard error cannot be written either, only the exit code is left.
+            // If standard error cannot be written either, only the exit code reports the error.
             let page = complaint.page(terminal::error_width());
             let _ = write!(io::stderr(), "{}", page.text());
             complaint.ending()

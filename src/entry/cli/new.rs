@@ -1,4 +1,4 @@
-//! `drystone new`: a scene to build on.
+//! `drystone new`: writes a scene from which to start.
 
 use std::path::{Path, PathBuf};
 
@@ -130,14 +130,14 @@ fn count() -> RangedU64ValueParser<usize> {
 fn length(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(metres) if (1e-6..=1e6).contains(&metres) => Ok(metres),
-        _ => Err("it is a length in metres, from 0.000001 to 1000000".into()),
+        _ => Err("it must be a length in metres, from 0.000001 to 1000000".into()),
     }
 }
 
 fn at_least_zero(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(number) if (0.0..=1e6).contains(&number) => Ok(number),
-        _ => Err("it is a number, at least 0".into()),
+        _ => Err("it must be a number, at least 0".into()),
     }
 }
 

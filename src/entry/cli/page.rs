@@ -1,4 +1,4 @@
-//! [`Page`]: text for a terminal. It keeps the text of this program apart from text that comes from files.
+//! [`Page`]: text for a terminal. It escapes all text that may come from files.
 //!
 //! The terminal takes nothing else. Words of ours are those that stand in this program, `&'static str`; all other words are
 //! made one harmless line on their way in, so that no title begins a line, sets a colour or moves the cursor. A new message
@@ -16,7 +16,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page of one line.
+    /// Makes a page with one line.
     pub(crate) fn new(words: &str) -> Page {
         let mut page = Page::default();
         page.line(words);
@@ -51,8 +51,8 @@ impl Page {
         self.end();
     }
 
-    /// Appends several lines whose parts are already escaped with [`text::line`]. Line feeds and colours stay; all other
-    /// control characters are escaped again.
+    /// Appends several lines whose parts are already escaped with [`text::line`]. Line feeds and colours are kept;
+    /// all other control characters are escaped again.
     pub(crate) fn block(&mut self, lines: &str) {
         let mut rest = lines;
         while let Some(c) = rest.chars().next() {
@@ -74,8 +74,8 @@ impl Page {
         self.text.push_str(&page.text);
     }
 
-    /// The page with no line wider than `width` columns. The rest of a longer line follows on the next line, indented
-    /// further than the rows of a table, so that it cannot be mistaken for a row.
+    /// Returns the page with lines of at most `width` columns. The rest of a longer line follows on the next line. It
+    /// is indented further than the rows of a table, so that it cannot be mistaken for a row.
     pub(crate) fn fitted(&self, width: usize) -> Page {
         let mut page = Page::default();
         for line in self.text.lines() {
@@ -118,7 +118,7 @@ impl Page {
         self.end();
     }
 
-    /// The text of the page with its escape codes.
+    /// Returns the text of the page with its escape codes.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
@@ -142,7 +142,7 @@ pub(crate) fn broken(words: &str, most: Option<usize>) -> String {
     lines
 }
 
-/// The width of a text in columns, without the escape sequences for colours.
+/// Returns the width of a text in columns, without the escape sequences for colours.
 pub(crate) fn seen(text: &str) -> usize {
     let Some(at) = text.find('\u{1b}') else {
         return text.width();
@@ -152,7 +152,7 @@ pub(crate) fn seen(text: &str) -> usize {
     before.width() + seen(behind)
 }
 
-/// The length in bytes of the colour escape sequence at the beginning of a text; `None` if there is none.
+/// Returns the length, in bytes, of the colour escape sequence at the beginning of a text; `None` if there is none.
 fn colour(text: &str) -> Option<usize> {
     let inside = text.strip_prefix("\u{1b}[")?;
     let digits = inside.find(|c: char| !c.is_ascii_digit() && c != ';')?;

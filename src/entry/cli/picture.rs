@@ -45,12 +45,12 @@ pub(crate) struct Picture {
     /// are written as their code points wherever the words are drawn here
     #[arg(long = "font", value_name = "FILE")]
     fonts: Vec<PathBuf>,
-    /// How hard a PNG is packed.
+    /// The compression of a PNG.
     #[arg(skip)]
     compression: Compression,
 }
 
-/// By how much a figure laid out for print is made smaller: letters of 12.5 pixels, 9.4 points, become 7.5 points high.
+/// The scale of a figure that is laid out for print: text of 12.5 pixels (9.4 points) becomes 7.5 points high.
 const IN_PRINT: f64 = 0.8;
 
 impl ValueEnum for Format {
@@ -80,12 +80,12 @@ enum Background {
 }
 
 impl Picture {
-    /// The format that `--format` selects.
+    /// Returns the format that `--format` selects.
     pub(crate) fn asked(&self) -> Option<Format> {
         self.format
     }
 
-    /// The same, with a default width in pixels for a PNG.
+    /// Sets the width in pixels for a format with pixels, if no size was given.
     pub(crate) fn or_width(mut self, pixels: u32, format: Format) -> Picture {
         let sized = self.width.is_some() || self.scale.is_some() || self.width_mm.is_some();
         if format.has_pixels() && !sized {
@@ -94,7 +94,7 @@ impl Picture {
         self
     }
 
-    /// The same, for many pictures: fast to write, with larger files.
+    /// Selects fast compression, for many pictures. The files are larger.
     pub(crate) fn of_many(self) -> Picture {
         Picture {
             compression: Compression::Quick,
@@ -102,7 +102,7 @@ impl Picture {
         }
     }
 
-    /// Refuses what a format does not have.
+    /// Refuses options that do not apply to a format.
     pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         let mut wrong = Vec::new();
         if !format.has_pixels() && (self.width.is_some() || self.scale.is_some()) {
@@ -125,7 +125,7 @@ impl Picture {
         }
     }
 
-    /// A drawing with the selected background.
+    /// Returns the drawing with the selected background.
     fn on_page(&self, drawing: Drawing) -> Drawing {
         Drawing {
             background: match self.background {
@@ -137,7 +137,7 @@ impl Picture {
         }
     }
 
-    /// The bytes of a drawing.
+    /// Writes a drawing in a format, and returns its bytes.
     pub(crate) fn bytes(
         &self,
         drawing: Drawing,
@@ -155,7 +155,8 @@ impl Picture {
         format.write(&drawing, &settings).map_err(format_error)
     }
 
-    /// The bytes of drawings of one size that follow one another, each for its seconds.
+    /// Writes an animation, and returns its bytes. Each drawing is shown for its number of seconds. All drawings have
+    /// the same size.
     pub(crate) fn animated(
         &self,
         drawings: Vec<(Drawing, f64)>,
@@ -173,25 +174,25 @@ impl Picture {
         animate(&steps, self.size(), fonts).map_err(png_error)
     }
 
-    /// The width in pixels for which a figure is laid out; `None` for its natural width. With a width in millimetres text
-    /// is as large as a footnote, and names in blocks are slightly smaller.
+    /// Returns the width in pixels for which a figure is laid out; `None` for its natural width. With a width in
+    /// millimetres, text is as large as a footnote, and names in blocks are slightly smaller.
     pub(crate) fn page(&self) -> Option<f64> {
         self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
     }
 
-    /// The largest ratio of height to width of a figure on an A4 page. A figure with a width in print has to fit inside the
-    /// margins.
+    /// Returns the largest ratio of height to width of a figure on an A4 page. A figure with a width in print must
+    /// fit inside the margins.
     pub(crate) fn page_ratio(&self) -> f64 {
         let page = 297.0 / 210.0;
         self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
     }
 
-    /// Refuses a PNG whose drawing has at least this width and height, if that is too large.
+    /// Refuses a PNG that would be too large, given the least width and height of its drawing.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
         png::check(width, height, self.size()).map_err(png_error)
     }
 
-    /// The built-in fonts and those of `--font`.
+    /// Returns the built-in fonts and the fonts of `--font`.
     pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
         let mut files = Vec::new();
         for path in &self.fonts {
@@ -208,7 +209,7 @@ impl Picture {
         })
     }
 
-    /// Whether this program sets the text of a picture of this format, and not the reader's program.
+    /// True if drystone lays out the text of a picture of this format, and not the reader's program.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
         format.lays_out_words(self.words())
     }
@@ -221,7 +222,8 @@ impl Picture {
         }
     }
 
-    /// Two pixels per unit by default: sharp on high-resolution screens, and still a small file.
+    /// Returns the size. The default is two pixels per unit, which is sharp on high-resolution screens and gives a
+    /// small file.
     fn size(&self) -> Size {
         match (self.width, self.scale, self.width_mm) {
             (Some(width), _, _) => Size::Width(width),
@@ -235,7 +237,7 @@ impl Picture {
     }
 }
 
-/// An error about the size of a figure. For several steps it also suggests separate figures.
+/// Returns the error. If it is about the size of a figure with several steps, it also suggests separate figures.
 pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
         CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(
@@ -245,7 +247,8 @@ pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     }
 }
 
-/// A size out of range is a mistake on the command line; anything else is a failure to write.
+/// Converts the error of a format. A size out of range is an error of the command line; any other error is a failure
+/// to write.
 fn format_error(error: FormatError) -> CliError {
     match error {
         FormatError::Size(why) => CliError::CommandLine(why),

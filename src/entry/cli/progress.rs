@@ -1,7 +1,7 @@
-//! [`Progress`]: a bar on standard error for work that takes longer than half a second.
+//! [`Progress`]: shows a bar on standard error for work that takes longer than half a second.
 //!
-//! The only file that names indicatif. The bar counts steps of work and, next to it, the changed frames that were decided for margins,
-//! of which one step may take hundreds; it is wiped off when the work is done.
+//! No other file uses `indicatif`. The bar counts steps of work. Next to it is the number of changed frames that were
+//! decided for margins; one step may need hundreds of them. The bar is removed when the work is done.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::analysis::trials;
 
-/// Work shorter than this needs no bar.
+/// Work that is shorter than this has no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Work that is under way.
@@ -22,7 +22,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// A bar for this number of steps. If `shown` is false, nothing is drawn.
+    /// Begins a bar for this number of steps. With [`Shown::Never`], nothing is drawn.
     pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
         match shown {
             Shown::Never => Progress {
@@ -42,7 +42,7 @@ impl Progress {
             let counted = move |_: &ProgressState, to: &mut dyn std::fmt::Write| {
                 let since = trials().saturating_sub(before);
                 if since > 0 {
-                    // If the bar cannot be drawn, the work goes on without it.
+                    // If the bar cannot be drawn, the work continues without it.
                     let _ = write!(to, ", {since} changed frames judged,");
                 }
             };
@@ -53,8 +53,8 @@ impl Progress {
         let waiter = thread::spawn(move || {
             if over.recv_timeout(patience) == Err(RecvTimeoutError::Timeout) {
                 waiting.set_draw_target(target);
-                // One step may take many seconds. The bar moves in the meantime, so that the user sees that the program
-                // works.
+                // One step may take many seconds. Meanwhile the bar moves, so that the user sees that the program is
+                // working.
                 waiting.enable_steady_tick(Duration::from_millis(100));
                 waiting.tick();
             }
@@ -76,12 +76,12 @@ impl Progress {
     }
 }
 
-/// Whether a bar may be seen at all.
+/// Whether a bar is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shown {
-    /// Nobody looks, or wants to.
+    /// Never: there is no terminal, or the user wants no bar.
     Never,
-    /// When the work takes long.
+    /// If the work takes long.
     WhenLong,
 }
 

@@ -1,4 +1,4 @@
-//! `drystone render`: scenes in, figures out.
+//! `drystone render`: draws figures of scenes.
 
 mod args;
 mod block;
@@ -56,7 +56,7 @@ impl Render {
         watch::repeat(&files, terminal, || self.once(terminal))
     }
 
-    /// Draws everything once: check what was typed, read, draw in parallel, write.
+    /// Draws everything once: checks the options, reads the scenes, draws in parallel, and writes.
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let one = |complaint| vec![complaint];
         let destination = Destination::from_path(&self.output);
@@ -130,7 +130,7 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// Refuses a margin's direction without a margin, and parts of a figure that cannot be files.
+    /// Refuses `--margin` for figures without margins, and parts of a figure that cannot be files.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let why = if self.margin.is_some() && !self.kind.needs_margins() {
@@ -143,7 +143,7 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// Whether a figure becomes several files.
+    /// True if a figure becomes several files.
     fn writes_parts(&self) -> bool {
         self.panels || self.pages
     }
@@ -183,7 +183,7 @@ impl Render {
         }
     }
 
-    /// What can be refused before any scene is read.
+    /// Refuses numbers of scenes that do not fit the destination, before any scene is read.
     fn check_count(
         &self,
         scenes: &[PathBuf],
@@ -246,7 +246,7 @@ impl Render {
             && !self.writes_parts()
             && analysis.frames.len() > MANY
         {
-            // What no PNG could hold is refused before it is laid out.
+            // A figure that is too large for a PNG is refused before it is laid out.
             let size = figure::least_size(&analysis, kind, options);
             self.picture.check_png(size).map_err(split)?;
         }
@@ -280,7 +280,7 @@ impl Render {
         })
     }
 
-    /// The options with the block of `--zoom`.
+    /// Returns the options with the block of `--zoom`.
     fn zoomed(
         &self,
         source: &Source,
@@ -294,7 +294,7 @@ impl Render {
         Ok(options)
     }
 
-    /// The pages or the panels of a figure.
+    /// Draws the pages or the panels of a figure.
     fn parts(
         &self,
         analysis: &Analysis,
@@ -308,7 +308,7 @@ impl Render {
         }
     }
 
-    /// The analysis of a scene, with the margins that the figure states or draws from.
+    /// Analyses a scene, with the margins that the figure states or needs.
     fn analysed(&self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         let analysis = Analysis::with(scene, asked);
         let kind = self.kind.panels();

@@ -1,4 +1,4 @@
-//! `drystone report`: many scenes on one page that a person reads.
+//! `drystone report`: reports on many scenes, on one page for people.
 
 mod task;
 
@@ -70,17 +70,17 @@ pub(crate) struct Report {
     level: AnalysisArgs,
 }
 
-/// The margins of a sheet unless all are asked for.
+/// The margins of a sheet, unless all are requested.
 const HEADLINES: [MarginKind; 3] = [
     MarginKind::LoadFactor,
     MarginKind::Friction,
     MarginKind::Tilt,
 ];
 
-/// Files that are no scenes, with what the command line says of them.
+/// Files that are not valid scenes, with the error for the command line.
 type Wrong = Vec<(Refused, CliError)>;
 
-/// The piece of a task and its ending, or the files that are no scenes.
+/// The piece of a task and its exit status, or the files that are not valid scenes.
 type Described = Result<(Piece, ExitStatus), Wrong>;
 
 /// The results of all tasks.
@@ -97,7 +97,7 @@ impl Report {
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let (tasks, mut notes) = self.tasks()?;
         self.check_targets(&tasks, form).map_err(|c| vec![c])?;
-        // A page that follows the reader's system needs its figures for both.
+        // A page that follows the reader's system needs light and dark figures.
         let follows = matches!(form, Form::Html | Form::Split) && !self.look.is_chosen();
         let wanted = ReportOptions {
             theme,
@@ -122,7 +122,7 @@ impl Report {
             return Err(complaints);
         }
         if self.compare && pieces.len() > 1 {
-            let words = "In the table margins, friction, blocks and largest forces are those of the second scenes.";
+            let words = "In the table, margins, friction, blocks and largest forces are those of the second scenes.";
             notes.push(words.to_owned());
         }
         for complaint in &complaints {
@@ -158,7 +158,7 @@ impl Report {
         destination::apart(&[main], &inputs)
     }
 
-    /// The pieces of all tasks, the files that are no scenes, and the worst ending.
+    /// Returns the pieces of all tasks, the files that are not valid scenes, and the worst exit status.
     fn describe_all(
         &self,
         tasks: &[Task],
@@ -167,7 +167,7 @@ impl Report {
         terminal: &Terminal,
     ) -> Result<Collected, CliError> {
         let options = analysis::Options {
-            // JSON has what was asked for, as check has.
+            // JSON contains margins only if they were requested, as in `check`.
             margins: self.margins || form != Form::Json,
             margin_kinds: match self.margins {
                 true => MarginKinds::ALL,
@@ -189,11 +189,11 @@ impl Report {
                 self.describe(task, number + 1, form, wanted, &options)
             });
             progress.step();
-            // The overview lists a fault of the program like a file that is no scene.
+            // The overview lists a scene on which the program failed like a file that is not a valid scene.
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
         let described: Vec<Result<Described, CliError>> = if self.accuracy_study {
-            // Scenes analysed at the same time would disturb each other's timing.
+            // Scenes are analysed one after the other, because simultaneous work would disturb the times.
             numbered.iter().map(one).collect()
         } else {
             numbered.par_iter().map(one).collect()
@@ -233,7 +233,7 @@ impl Report {
             _ if self.split => return Ok(Form::Split),
             _ => {
                 let why = format!(
-                    "{shown}: a report is .html, .md, .pdf or .json, or a folder with --split"
+                    "{shown}: the file name of a report must end in .html, .md, .pdf or .json; a folder needs --split"
                 );
                 return Err(CliError::CommandLine(why));
             }
@@ -262,7 +262,7 @@ impl Report {
         }
     }
 
-    /// A task's piece of the report.
+    /// Makes the piece of the report for a task.
     fn describe(
         &self,
         task: &Task,
@@ -276,7 +276,7 @@ impl Report {
             Err(wrong) => return Ok(Err(wrong)),
         };
         if form == Form::Pdf {
-            // Its words are drawn here, in our fonts.
+            // A PDF contains text in the fonts of drystone, so characters that they lack are replaced.
             for (source, _) in &mut read {
                 source.scene = script::legible(&source.scene, &Fonts::default());
             }
@@ -304,7 +304,7 @@ impl Report {
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 
-    /// The scenes of a task with their text, or the files that are no scenes.
+    /// Reads the scenes of a task with their text. The error contains the files that are not valid scenes.
     fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, Wrong> {
         let mut read = Vec::new();
         let mut wrong = Vec::new();
@@ -333,7 +333,7 @@ impl Report {
         for (number, (name, bytes)) in made.into_iter().enumerate() {
             let path = match (form, number) {
                 (Form::Split, _) | (_, 1..) => folder.join(name),
-                // As it was typed, whatever the letters of its ending.
+                // Use the path as typed: its ending may be in upper case.
                 _ => self.output.clone(),
             };
             files.push((path, bytes));
@@ -351,7 +351,7 @@ impl Report {
     }
 }
 
-/// The entry of one scene, or of two that are compared; `None` of no scene.
+/// Makes the entry of one scene, or of two scenes that are compared; `None` without a scene.
 fn entry(
     read: &[(Source, String)],
     analyses: &[Analysis],
@@ -375,8 +375,8 @@ fn entry(
     }
 }
 
-/// In Markdown only the figures use our fonts; the reader's program sets the text. Where our fonts lack characters, only the
-/// figures are drawn again without them.
+/// Replaces characters that the fonts of drystone lack, in figures only. In Markdown, the reader's program sets the
+/// other text.
 fn make_figures_legible(
     entry: &mut Entry,
     read: &[(Source, String)],
@@ -396,7 +396,7 @@ fn make_figures_legible(
     }
 }
 
-/// The path as typed.
+/// Returns the path as typed.
 fn shown(source: &Source) -> String {
     source.path.display().to_string()
 }

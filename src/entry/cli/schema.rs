@@ -1,4 +1,4 @@
-//! `drystone schema`: the JSON Schemas of scene files and of results.
+//! `drystone schema`: prints the JSON Schema of scene files or of results.
 
 use clap::Args;
 

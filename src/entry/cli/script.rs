@@ -1,4 +1,4 @@
-//! Handles characters that no font has: a warning names them, and figures show their code points.
+//! Finds characters that no font has. A warning names them, and figures show their code points.
 
 use std::borrow::Cow;
 
@@ -29,12 +29,12 @@ pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
     }
 }
 
-/// Whether a scene has characters that no font has.
+/// True if a scene has characters that no font has.
 pub(crate) fn lacks(scene: &Scene, fonts: &Fonts) -> bool {
     !fonts.lacking(&words(scene).join(" ")).is_empty()
 }
 
-/// The texts of a scene that figures show.
+/// Returns the texts of a scene that figures show.
 fn words(scene: &Scene) -> Vec<&str> {
     let blocks = scene.blocks.iter().map(|b| b.id.as_str());
     let robots = scene.robots.iter().map(|r| r.id.as_str());
@@ -44,7 +44,7 @@ fn words(scene: &Scene) -> Vec<&str> {
     titles.chain(frames).chain(blocks).chain(robots).collect()
 }
 
-/// The scene with the characters that no font has written as their code points.
+/// Returns the scene with its characters that no font has replaced by their code points.
 pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     let mut scene = scene.clone();
     let spell = |words: &mut String| {
@@ -62,7 +62,8 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     scene
 }
 
-/// A character in words: itself and its code point. Only the code point for a character that would change its neighbours.
+/// Describes a character: itself and its code point, or only the code point if the character would change its
+/// neighbours.
 fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
     if c.is_alphanumeric() {

@@ -1,4 +1,4 @@
-//! `drystone shapes`: a sheet of the built-in shapes.
+//! `drystone shapes`: draws a sheet of the built-in shapes.
 
 use std::path::{Path, PathBuf};
 

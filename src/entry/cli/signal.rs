@@ -9,7 +9,7 @@ use signal_hook::iterator::Signals;
 #[cfg(unix)]
 use signal_hook::low_level::emulate_default_handler;
 
-/// Handles signals until the process ends.
+/// Starts a thread that handles signals until the process ends.
 #[cfg(unix)]
 pub(crate) fn listen() {
     let ignored = ignored();
@@ -17,7 +17,7 @@ pub(crate) fn listen() {
     let wanted = wanted
         .into_iter()
         .filter(|signal| ignored >> (signal - 1) & 1 == 0);
-    // Without a handler, signals have their default effect.
+    // If no handler can be installed, signals have their default effect.
     let Ok(mut signals) = Signals::new(wanted) else {
         return;
     };
@@ -35,8 +35,8 @@ pub(crate) fn listen() {
     });
 }
 
-/// The signals that the parent process ignores (as `nohup` does), one bit each, with signal 1 in the lowest bit. Known on
-/// Linux only; 0 elsewhere.
+/// Returns the signals that this process was started to ignore, as `nohup` does. Each signal is one bit; signal 1 is
+/// the lowest. They are known on Linux only; elsewhere the result is 0.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -45,6 +45,6 @@ fn ignored() -> u64 {
         .unwrap_or(0)
 }
 
-/// There are no signals on this system.
+/// Does nothing: this system has no signals.
 #[cfg(not(unix))]
 pub(crate) fn listen() {}

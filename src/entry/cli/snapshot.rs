@@ -76,7 +76,7 @@ impl Snapshot {
 
         let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
         let described = report.lines();
-        // The page also shows what was accepted in this run.
+        // Make the page before accepting, so that it shows the accepted changes too.
         let page = match &self.review {
             Some(Some(_)) => review::page(&report, &self.folders),
             _ => String::new(),
@@ -97,7 +97,8 @@ impl Snapshot {
         drop(turn);
         self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
-            // These files only help a person to look at the difference. The answer does not depend on them.
+            // These files only help people to inspect the difference. The result of the command does not depend on
+            // them.
             Err(failed) if !accepts => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));

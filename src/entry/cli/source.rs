@@ -24,7 +24,7 @@ impl Source {
         stem(&self.path)
     }
 
-    /// The name of the scene in messages.
+    /// Returns the name of the scene in messages.
     pub(crate) fn name(&self) -> String {
         name(&self.path)
     }
@@ -64,7 +64,7 @@ pub(crate) enum FrameChoice {
 }
 
 impl FrameChoice {
-    /// The number of the frame, from 0; `None` for the last frame.
+    /// Returns the number of the frame, from 0; `None` for the last frame.
     pub(crate) fn number(self) -> Option<usize> {
         match self {
             FrameChoice::Number(number) => Some(number),
@@ -98,12 +98,13 @@ impl FromStr for FrameChoice {
         };
         match number {
             Some(number) if number > 0 => Ok(FrameChoice::Number(number - 1)),
-            _ => Err("give a frame's number, from 1, its letter, or last".into()),
+            _ => Err("give the number of a frame from 1, its letter, or last".into()),
         }
     }
 }
 
-/// Reads all scenes, or returns all problems of all scenes. A tolerance (m) replaces the tolerances of the scenes.
+/// Reads all scenes, or returns all problems of all scenes. A `tolerance` in metres replaces the tolerances of the
+/// scenes.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -115,7 +116,8 @@ pub(crate) fn read(
     }
 }
 
-/// Reads all scenes. Returns internal faults of the program separately, or all problems of all scenes.
+/// Reads all scenes, and separately returns the scenes on which the program itself failed. If other scenes cannot be
+/// read, it returns all problems of all scenes.
 pub(crate) fn read_apart_from_faults(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -135,7 +137,7 @@ pub(crate) fn read_apart_from_faults(
     }
 }
 
-/// A path as given, with the scene that was read from it or what is wrong with it.
+/// A path as given, with the scene that was read from it, or the error.
 pub(crate) type Outcome = (PathBuf, Result<Source, CliError>);
 
 /// Reads the scenes, each with its own result, in the given order. The files of a folder are read in the order of their
@@ -183,7 +185,7 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         if scenes.is_empty() {
             return Err(CliError::NotRead {
                 what: name(path),
-                why: "the folder holds no .json files".into(),
+                why: "the folder contains no .json files".into(),
             });
         }
         scenes.sort();
@@ -236,7 +238,7 @@ pub(crate) fn stem(path: &Path) -> String {
     stem.to_string_lossy().into_owned()
 }
 
-/// The name of a file in messages.
+/// Returns the name of a file in messages.
 pub(crate) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "standard input".into()

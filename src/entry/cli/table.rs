@@ -1,4 +1,4 @@
-//! A person's table of an analysis: a line per frame, and under it what fails, in words with numbers and units.
+//! Writes an analysis as a table for people: a row for each frame, and below it the failures in words.
 
 use std::fmt::Write;
 
@@ -14,11 +14,11 @@ use crate::wording::number::{digits, duration, letter, tenths};
 use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
-/// Every word of the tables and of the lines below them, with its meaning.
+/// The words in the tables and in the lines below them, with their meanings.
 const MEANINGS: [[&str; 2]; 16] = [
     [
         "stands",
-        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.",
+        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance only by wedging counts.",
     ],
     ["falls", "no such set exists, and a motion proves it."],
     [
@@ -51,11 +51,11 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
     [
         "sticking",
-        "with --verbose: the sum of what would have to be glued so that it stands",
+        "with --verbose: the sum of the missing forces; with them it would stand",
     ],
     [
         "proof",
-        "with --verbose: the error of the balance relative to the forces on a block; or the power of a motion relative to the loads of what moves",
+        "with --verbose: the error of the balance relative to the forces on a block; or the power of a motion relative to the loads of the moving blocks",
     ],
     [
         "margins",
@@ -63,13 +63,13 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
     [
         "note",
-        "something that is allowed and seldom meant, with the key that silences it",
+        "an allowed input that is rarely intended, with the key that silences it",
     ],
 ];
-/// Before the meanings, and in how many columns these are broken into lines on wide terminals.
+/// The indentation of the meanings, and the width of their lines on wide terminals, in columns.
 const MEANING: [usize; 2] = [10, 68];
 
-/// The words of the table with their meanings, for a terminal of `width` columns.
+/// Explains the words of the table, for a terminal of `width` columns.
 pub(crate) fn explained(width: Option<usize>) -> Page {
     let [indent, most] = MEANING;
     let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
@@ -84,16 +84,17 @@ pub(crate) fn explained(width: Option<usize>) -> Page {
     page
 }
 
-/// So many failures of a frame are described in words; the figure and the JSON have them all.
+/// At most this many failures of a frame are described in words; figures and JSON have all.
 const MOST_LISTED: usize = 12;
-/// A frame's longer title is cut.
+/// Titles of frames with more columns are shortened.
 const TITLE: usize = 40;
-/// A scene's longer title is cut: a terminal would break the line, and what stands behind the break would look like a row.
+/// Titles of scenes with more columns are shortened: a terminal would break the line, and its rest would look like a
+/// row.
 const HEADING: usize = 60;
 
-/// A longer name of a body is cut.
+/// Names of bodies with more columns are shortened.
 const NAME: usize = 30;
-/// A narrow terminal cuts titles of frames to no less.
+/// On narrow terminals, titles of frames keep at least this many columns.
 const SHORTEST: usize = 8;
 
 /// Titles of frames and names of bodies are first cut to these numbers of columns.
@@ -101,19 +102,19 @@ const READABLE: [usize; 2] = [20, 12];
 /// The column with the names of the two bodies.
 const BETWEEN: usize = 4;
 
-/// How much a table says.
+/// The amount of detail in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Detail {
-    /// What a person wants to know first.
+    /// The most important results only.
     Short,
     /// Also the sums, the proof and the contact tolerance.
     Full(Timing),
 }
 
-/// The table of one scene, for a terminal of `width` columns.
+/// Writes the table of one scene, for a terminal of `width` columns.
 ///
-/// Where the rows would be wider, titles and names are cut as far as it takes; where that is not enough, every value has a
-/// line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.
+/// If the rows would be wider, titles and names are shortened as far as needed. If that is not enough, every value
+/// has a line of its own. The remarks below the rows may be wider than the terminal; [`Page::fitted`] breaks them.
 pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
@@ -170,7 +171,7 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     (0..heads.len()).map(widest).collect()
 }
 
-/// Cuts titles and names so that rows take at most `width` columns; whether that is possible.
+/// Shortens titles and names so that rows have at most `width` columns. Returns false if that is not possible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
     let least = [SHORTEST.max(seen(&heads[0])), seen(&heads[BETWEEN])];
     for (column, least) in [
@@ -201,16 +202,17 @@ fn style(verdict: Verdict) -> Style {
     colour.on_default().bold()
 }
 
-/// Before the first column, and before every other.
+/// The gaps before the first column, and before every other column.
 const GAPS: [&str; 2] = ["  ", "  "];
 
-/// How many columns of a terminal a row takes whose cells are so wide.
+/// Returns the width of a row with cells of these widths, in columns of the terminal.
 fn taken(widths: &[usize]) -> usize {
     let gaps = GAPS[0].len() + GAPS[1].len() * (widths.len() - 1);
     widths.iter().sum::<usize>() + gaps
 }
 
-/// The cells of a row: words to the left, numbers to the right of their columns. The second style is that of the verdict.
+/// Writes the cells of a row. Words are aligned to the left of their columns, and numbers to the right. The second
+/// style is for the verdict.
 fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
@@ -227,7 +229,7 @@ fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2])
     page.end();
 }
 
-/// The same below each other: the frame, and every value behind its name.
+/// Writes the cells of a row below each other: the frame, and then each value after its name.
 fn record(page: &mut Page, heads: &[String], cells: &[String], styles: [Style; 2]) {
     page.line(&format!("  {}", cells[0]));
     let widest = heads.iter().map(|head| seen(head)).max().unwrap_or(0);
@@ -240,7 +242,7 @@ fn record(page: &mut Page, heads: &[String], cells: &[String], styles: [Style; 2
     }
 }
 
-/// Words in no more columns than this; what is cut off leaves a mark.
+/// Shortens text to at most `most` columns; the mark `…` replaces the rest.
 fn shortened(words: &str, most: usize) -> String {
     if seen(words) <= most {
         return words.into();
@@ -256,7 +258,7 @@ fn shortened(words: &str, most: usize) -> String {
     short + "…"
 }
 
-/// A frame by its letter, where it needs one, and its title.
+/// Names a frame by its title, and by its letter if there are several frames.
 fn label(scene: &Scene, number: usize, title: &str) -> String {
     let title = heading(title, TITLE);
     match (scene.frames.len(), title.is_empty()) {
@@ -267,7 +269,8 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
 }
 
 fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
-    // The forces of a frame that falls do not exist: they include what would have to stick.
+    // A frame that falls has no balanced forces: the forces found include the missing forces. Therefore they are not
+    // shown.
     let stands = frame.verdict == Verdict::Stable;
     let exists = |cell: String| if stands { cell } else { "-".into() };
     let force = |contact: &Contact| contact.resultant.force.norm();
@@ -295,7 +298,7 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
     ]
 }
 
-/// The sums, the proof and the time, in one line.
+/// Writes the sums, the proof and the time in one line.
 fn sums(frame: &FrameAnalysis, timing: Timing) -> String {
     let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
         (true, _) => "unknown".into(),
@@ -313,13 +316,13 @@ fn sums(frame: &FrameAnalysis, timing: Timing) -> String {
     words
 }
 
-/// Whether a frame falls and what would have to stick was not found out.
+/// True if a frame falls and its missing forces were not computed.
 fn is_left_out(frame: &FrameAnalysis) -> bool {
     let falls = frame.verdict == Verdict::Unstable;
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
-/// What a reader needs to know of a frame beyond its line, a sentence each.
+/// Returns the remarks below the row of a frame, one sentence each.
 fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Detail::Full(timing) = detail {
@@ -350,7 +353,10 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
         remarks.push(frame.doubt());
     }
     if frame.only_by_wedging == Some(true) {
-        remarks.push("stands only by wedging: nothing that acts on it builds up the forces that would hold it".into());
+        remarks.push(
+            "stands only by wedging: its loads alone do not build up the forces that hold it"
+                .into(),
+        );
     }
     let wedging = frame
         .effects
@@ -387,7 +393,7 @@ mod tests {
 
     #[test]
     fn words_are_explained_beside_them_at_any_width() {
-        for (width, lines) in [(None, 23), (Some(100), 23), (Some(60), 28), (Some(40), 45)] {
+        for (width, lines) in [(None, 24), (Some(100), 24), (Some(60), 28), (Some(40), 46)] {
             let page = explained(width);
             let found: Vec<&str> = page.text().lines().collect();
             let widest = found.iter().map(|line| seen(line)).max();

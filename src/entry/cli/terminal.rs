@@ -38,7 +38,7 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// The streams of the process with these output options.
+    /// Returns the streams of the process with these output options.
     pub(crate) fn new(voice: OutputArgs) -> Terminal {
         let choice = match voice.color {
             Colour::Auto => ColorChoice::Auto,
@@ -49,27 +49,27 @@ impl Terminal {
         Terminal { quiet: voice.quiet }
     }
 
-    /// Whether only errors are printed.
+    /// True if only errors are printed.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
-    /// Whether a progress bar is wanted and visible.
+    /// True if a progress bar is wanted and visible.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()
     }
 
-    /// Whether standard output is a terminal. Binary data such as a PNG must not be written to it.
+    /// True if standard output is a terminal. Binary data such as a PNG must not be written to a terminal.
     pub(crate) fn is_watched(&self) -> bool {
         io::stdout().is_terminal()
     }
 
-    /// The number of columns of standard output; `None` if it is not a terminal.
+    /// Returns the number of columns of standard output; `None` if it is not a terminal.
     pub(crate) fn width(&self) -> Option<usize> {
         columns(terminal_size::terminal_size_of(io::stdout()))
     }
 
-    /// Prints a result for a person, at most as wide as the terminal.
+    /// Prints a result for people, at most as wide as the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
@@ -80,7 +80,7 @@ impl Terminal {
         )
     }
 
-    /// Prints bytes without change: a picture, or JSON that is already escaped.
+    /// Prints bytes unchanged: a picture, or JSON that is already escaped.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
         let mut stream = io::stdout().lock();
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
@@ -107,12 +107,12 @@ impl Terminal {
     pub(crate) fn complain(&self, page: &Page) {
         let page = fitted(page, error_width());
         let mut stream = anstream::stderr().lock();
-        // If standard error is closed, only the exit code is left.
+        // If standard error is closed, only the exit code reports the error.
         let _ = writeln!(stream, "{}", page.text().trim_end()).and_then(|()| stream.flush());
     }
 }
 
-/// The number of columns of standard error; `None` if it is not a terminal.
+/// Returns the number of columns of standard error; `None` if it is not a terminal.
 pub(crate) fn error_width() -> Option<usize> {
     columns(terminal_size::terminal_size_of(io::stderr()))
 }
@@ -129,7 +129,7 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
     }
 }
 
-/// Treats a closed pipe as success: its reader has read enough.
+/// Converts an error of writing. A closed pipe counts as success: its reader has read enough.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {

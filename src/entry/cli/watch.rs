@@ -1,6 +1,6 @@
 //! `--watch`: repeats a command whenever one of its input files changes.
 //!
-//! Looked for by size and time of change, a few times a second: that works on every system and on network drives.
+//! It compares size and time of the files a few times a second. This works on every system and on network drives.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,15 +11,15 @@ use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 
-/// How long to wait between two looks.
+/// The time between two comparisons.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// What is known of a file: when it changed, and how long it is; `None` while an editor replaces it.
+/// The time of change and the size of a file in bytes; `None` while an editor replaces the file.
 type Mark = Option<(SystemTime, u64)>;
 
 /// Runs a command, and runs it again after every change of a file, until the process is ended.
 ///
-/// What is wrong is reported, and watching goes on: the next save may mend it.
+/// Errors are printed, and watching continues: the next change may correct them.
 pub(crate) fn repeat(
     files: &[PathBuf],
     terminal: &Terminal,
@@ -32,7 +32,7 @@ pub(crate) fn repeat(
                 terminal.refuse(complaint);
             }
         }
-        // A change during the run counts. If a file is still being written, wait until it is complete.
+        // A change during the run counts too. If a file is still being written, wait until it is complete.
         let mut last = marks(files);
         loop {
             thread::sleep(PAUSE);

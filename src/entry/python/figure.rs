@@ -1,4 +1,4 @@
-//! Pictures and reports of an analysis for Python.
+//! Draws pictures and writes reports of an analysis for Python.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,7 +17,8 @@ use crate::report::entry::{Entry, File, ReportOptions};
 use crate::report::page::{Form, Piece, Report};
 use crate::scene::Scene;
 
-/// The bytes of a figure of all frames, or of one.
+/// Draws a figure of all frames, or of the frame with this number from 0, and returns its bytes. `words` are options
+/// of `render`.
 pub(super) fn drawn(
     found: &Analysis,
     words: &[String],
@@ -30,7 +31,7 @@ pub(super) fn drawn(
     }
 }
 
-/// An analysis cut down to one of its frames.
+/// Reduces an analysis to one of its frames, counted from 0.
 fn alone(found: &Analysis, frame: usize) -> Analysis {
     let mut one = found.clone();
     let mut scene = (*found.scene).clone();
@@ -40,7 +41,7 @@ fn alone(found: &Analysis, frame: usize) -> Analysis {
     one
 }
 
-/// The bytes of the outlines of a refused scene with its problems marked.
+/// Draws the outlines of a scene that is not valid, with its problems marked, and returns the bytes.
 #[pyfunction]
 pub(super) fn sketch(
     py: Python<'_>,
@@ -52,7 +53,8 @@ pub(super) fn sketch(
         .map_err(|why| fault(py, &why))
 }
 
-/// Names and rings of the bodies; parts of the ground have no name.
+/// Returns names and rings of the parts of the ground, then of the blocks, in metres. Parts of the ground have no
+/// name.
 pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     let rings = |polygon: &Polygon| {
         let rings = polygon.rings().iter();
@@ -67,7 +69,8 @@ pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     ground.chain(blocks).collect()
 }
 
-/// Writes a report on one scene, of which the name and the text are given.
+/// Writes a report on one scene. `name` and `text` are those of the scene file, and the ending of `path` selects the
+/// form.
 pub(super) fn report(
     found: &Analysis,
     path: &str,
@@ -99,7 +102,7 @@ pub(super) fn report(
     };
     let mut found = found.clone();
     if form == Form::Pdf {
-        // Its words are drawn here, in our fonts.
+        // A PDF contains text in the fonts of drystone, so characters that they lack are replaced.
         found.scene = Arc::new(script::legible(&found.scene, &Fonts::default()));
     }
     let wanted = ReportOptions {

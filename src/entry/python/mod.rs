@@ -1,4 +1,4 @@
-//! The private module `drystone._drystone` of the Python package: scenes go in as JSON text, answers come out.
+//! The private module `drystone._drystone` of the Python package. It takes scenes as JSON text and returns results.
 //!
 //! Nothing is computed here. The public names, their arguments and their documentation are in `python/drystone`.
 
@@ -23,7 +23,7 @@ use crate::result::{self, Layout, Timing};
 use crate::scene::format::{SceneFile, parsed};
 use crate::scene::{Scene, SceneError, isolate};
 
-/// What an analysis is asked; read once, used for many scenes.
+/// The options of an analysis, read once and used for many scenes.
 #[pyclass(frozen, module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 struct Options {
@@ -31,7 +31,7 @@ struct Options {
     time_limit: Option<Duration>,
     contact_tolerance: Option<f64>,
     notes: bool,
-    /// Whether problems have a line and a column: the text is a file that somebody wrote.
+    /// Whether problems have a line and a column, because the text is a file that somebody wrote.
     located: bool,
 }
 
@@ -100,7 +100,7 @@ impl Options {
 }
 
 impl Options {
-    /// The analysis of a scene; a fault of the program is a problem of that scene.
+    /// Analyses a scene. If the program itself fails, this becomes a problem of the scene.
     fn analysis(&self, text: &str) -> Result<analysis::Analysis, SceneError> {
         let mut asked = self.asked;
         asked.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
@@ -119,7 +119,7 @@ impl Options {
     }
 }
 
-/// A scene and what was found out about it.
+/// A scene and its results.
 #[pyclass(frozen, module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 struct Analysis {
@@ -136,17 +136,17 @@ impl Analysis {
 
 #[pymethods]
 impl Analysis {
-    /// The verdict of each frame.
+    /// Returns the verdict of each frame.
     fn verdicts(&self) -> Vec<&'static str> {
         self.found.frames.iter().map(|f| f.verdict.word()).collect()
     }
 
-    /// Whether every frame stands.
+    /// Returns true if every frame stands.
     fn stands(&self) -> bool {
         self.found.verdict() == Verdict::Stable
     }
 
-    /// The result as `check --json` prints it.
+    /// Returns the result as `check --json` prints it.
     fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
         let timing = match timing {
             true => Timing::Included,
@@ -162,24 +162,24 @@ impl Analysis {
         })
     }
 
-    /// One of the tables, of one frame or of all.
+    /// Returns one of the tables, for one frame or for all.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
         table::Table::new(&self.found, name, frame)
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
-    /// Names, outer rings and holes of the bodies: the parts of the ground, then the blocks.
+    /// Returns names, outer rings and holes of the bodies, in metres: the parts of the ground, then the blocks.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
         figure::outlines(&self.found.scene)
     }
 
-    /// The numbers of the blocks that are placed in a frame.
+    /// Returns the numbers of the blocks that are placed in a frame; empty if there is no such frame.
     fn placed(&self, frame: usize) -> Vec<usize> {
         let frame = self.found.scene.frames().get(frame);
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 
-    /// The bytes of a figure, by the words that `render` takes; of one frame or of all.
+    /// Draws a figure of one frame or of all, and returns its bytes. `words` are options of `render`.
     fn figure(
         &self,
         py: Python<'_>,
@@ -209,15 +209,15 @@ impl Analysis {
 /// Corners of an outline, metres.
 type Ring = Vec<[f64; 2]>;
 
-/// An error of the package: `drystone.DrystoneError`.
+/// Makes an error of the package: `drystone.DrystoneError`.
 fn fault(py: Python<'_>, why: &str) -> PyErr {
     raised(py, "DrystoneError", (why,))
 }
 
-/// What is wrong with a scene: `drystone.SceneError`.
+/// Makes the error for the problems of a scene: `drystone.SceneError`.
 fn refused(py: Python<'_>, mut problems: SceneError, located: bool) -> PyErr {
     if !located {
-        // A scene made in Python has no text that its author knows.
+        // The author of a scene made in Python does not know its text.
         for problem in &mut problems.list {
             (problem.line, problem.column) = (0, 0);
         }
@@ -245,8 +245,8 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
         .map_err(|problems| refused(py, problems, options.located))
 }
 
-/// Analyses scenes on all cores, and returns analyses and errors in their order. `progress` is called with the number of
-/// scenes that are done; what it raises ends the work.
+/// Analyses scenes on several threads, and returns analyses and errors in the order of the scenes. Calls `progress`
+/// with the number of finished scenes; an exception in it ends the work.
 #[pyfunction]
 fn check_many(
     py: Python<'_>,
@@ -316,7 +316,7 @@ fn check_many(
     answers.into_iter().flatten().map(one).collect()
 }
 
-/// Reads a scene, and raises what is wrong with it.
+/// Reads a scene, and raises an error if it is not valid.
 #[pyfunction]
 fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     match py.detach(|| Scene::from_json(text)) {
@@ -325,33 +325,33 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     }
 }
 
-/// A scene file in the layout in which the program writes it.
+/// Returns a scene file in the layout in which the program writes it.
 #[pyfunction]
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
     let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
     Ok(file.to_json())
 }
 
-/// The JSON Schema of scene files.
+/// Returns the JSON Schema of scene files.
 #[pyfunction]
 fn schema() -> String {
     crate::scene::schema()
 }
 
-/// Kinds of figures, each with a line of help.
+/// Returns the kinds of figures, each with a line of help.
 #[pyfunction]
 fn kinds() -> Vec<(&'static str, &'static str)> {
     let all = crate::figure::Kind::ALL.into_iter();
     all.map(|kind| (kind.name(), kind.help())).collect()
 }
 
-/// Names of themes.
+/// Returns the names of the themes.
 #[pyfunction]
 fn themes() -> Vec<&'static str> {
     Theme::NAMES.to_vec()
 }
 
-/// Runs the program with these words, its name first, and returns its exit code.
+/// Runs the program with a command line, whose first word is its name, and returns its exit code.
 #[pyfunction]
 fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| cli::run_with(words.into_iter()))

@@ -20,7 +20,7 @@ pub(super) struct Session {
 impl Session {
     #[new]
     fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
-        // Problems of the whole scene have their places, which the session itself does not know.
+        // Check the whole scene first: only its reader knows the places of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
         let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
         let now = py.detach(|| session::Session::with(file, options.asked));
@@ -57,7 +57,7 @@ impl Session {
         self.now.verdict().word()
     }
 
-    /// The placed blocks, in the order of placing.
+    /// Returns the placed blocks, in the order of placing.
     #[getter]
     fn blocks(&self) -> Vec<&str> {
         let scene = self.now.scene();
@@ -65,7 +65,7 @@ impl Session {
         placed.map(|b| scene.blocks()[b.0].id.as_str()).collect()
     }
 
-    /// The robots that hold a block, each with that block.
+    /// Returns the robots that hold a block, each with its block.
     #[getter]
     fn holds(&self) -> Vec<(&str, &str)> {
         let scene = self.now.scene();
@@ -78,7 +78,7 @@ impl Session {
             .collect()
     }
 
-    /// The complete analysis of the placed blocks.
+    /// Returns the complete analysis of the placed blocks.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.now.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))

@@ -1,4 +1,4 @@
-//! [`Table`]: rows of a result by column, as bytes for numpy and as a C stream of Arrow.
+//! [`Table`]: the rows of a result, stored by column, as bytes for numpy and as a C stream of Arrow.
 
 use std::sync::Arc;
 
@@ -37,12 +37,12 @@ impl Table {
         self.rows
     }
 
-    /// The names of the columns.
+    /// Returns the names of the columns.
     fn names(&self) -> Vec<&'static str> {
         self.columns.iter().map(|column| column.0).collect()
     }
 
-    /// For each column its type for numpy, and bytes or a list of texts.
+    /// Returns the numpy type of each column, and its values as bytes or a list of texts.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
         let bytes = |bytes: Vec<u8>| PyBytes::new(py, &bytes).into_any();
         let one = |(_, column): &(&'static str, Column)| {
@@ -61,7 +61,7 @@ impl Table {
         self.columns.iter().map(one).collect()
     }
 
-    /// The table as a C stream of Arrow, whose schema is always its own.
+    /// Returns the table as a C stream of Arrow. It ignores the requested schema, as the protocol allows.
     #[pyo3(signature = (requested_schema = None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -101,7 +101,7 @@ impl Table {
         RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)
     }
 
-    /// The table of this name, of one frame or of all; `None` where there is no such table.
+    /// Makes the table with this name, for one frame or for all; `None` if there is no such table.
     pub(super) fn new(found: &Analysis, name: &str, frame: Option<usize>) -> Option<Table> {
         let numbers = (0..found.frames.len()).filter(|n| frame.is_none_or(|f| f == *n));
         let numbers: Vec<usize> = numbers.collect();
@@ -115,7 +115,7 @@ impl Table {
     }
 }
 
-/// A row for each frame of several analyses; `None` stands for a scene that is not valid.
+/// Makes a table with a row for each frame of several analyses. Scenes that are not valid are `None` and have no row.
 #[pyfunction]
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let found = analyses.iter().enumerate();
@@ -151,7 +151,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     rows.table()
 }
 
-/// The column of a margin, and where the margin is.
+/// The column of a margin, and the function that returns the margin.
 type NamedMargin = (&'static str, fn(&Margins) -> &Margin);
 
 /// The margins of a frame that are one number.
@@ -165,7 +165,7 @@ const MARGINS: [NamedMargin; 7] = [
     ("load_factor", |m| &m.load_factor),
 ];
 
-/// A margin as a number: infinite where it has no end, and no number where there is none.
+/// Converts a margin to a number: infinite if it has no end, and NaN if there is no margin.
 fn value(margin: &Margin) -> f64 {
     match margin {
         Margin::Unbounded => f64::INFINITY,
@@ -189,7 +189,7 @@ impl<T> Rows<T> {
     }
 
     fn real(&mut self, name: &'static str, of: impl Fn(&T) -> f64) {
-        // Adding 0 turns −0 into 0, as the result does.
+        // Adding 0 turns −0 into 0, as in the JSON result.
         let all = self.rows.iter().map(|(_, row)| of(row) + 0.0).collect();
         self.columns.push((name, Column::Real(all)));
     }
@@ -209,7 +209,7 @@ impl<T> Rows<T> {
         self.columns.push((name, Column::Word(all.collect())));
     }
 
-    /// Names of two bodies, and the numbers of the blocks among them, −1 for others.
+    /// Adds columns with the names of two bodies and their block numbers, which are −1 for the ground or no body.
     fn bodies(&mut self, scene: &Scene, of: impl Fn(&T) -> [Option<BodyId>; 2]) {
         let name = |id: Option<BodyId>| id.map_or_else(String::new, |id| scene.name(id).to_owned());
         self.word("body_0", |row| name(of(row)[0]));

@@ -1,4 +1,4 @@
-//! [`accuracy_json`]: a study as JSON for other programs.
+//! [`accuracy_json`]: writes an accuracy study as JSON for other programs.
 
 use serde::Serialize;
 
@@ -71,7 +71,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// A study as one JSON object that ends with a line feed. Times are in seconds, forces in newtons, and errors are relative.
+/// Writes an accuracy study as one JSON object that ends with a line feed. Times are in seconds, forces in newtons,
+/// and errors are relative.
 pub fn accuracy_json(study: &Study) -> String {
     let page = Page {
         drystone: env!("CARGO_PKG_VERSION"),

@@ -1,4 +1,4 @@
-//! Forces, missing forces and motions of a frame as JSON.
+//! The forces, missing forces and motions of a frame, as written in JSON.
 
 use serde::Serialize;
 
@@ -38,7 +38,7 @@ pub(super) struct Robot<'a> {
     limit_used: Number,
 }
 
-/// A failure. Exactly one of `bodies` and `robot` is there, and exactly one of `force` and `torque`.
+/// A failure. It has either `bodies` or `robot`, and either `force` or `torque`.
 #[derive(Serialize)]
 pub(super) struct Missing<'a> {
     kind: &'static str,

@@ -1,4 +1,4 @@
-//! The log of an import as JSON.
+//! [`import_json`]: writes the log of an import as JSON.
 
 use serde::Serialize;
 
@@ -6,8 +6,8 @@ use crate::import::Imported;
 use crate::scene::format::Lines;
 use crate::text;
 
-/// The log of an import as one JSON object that ends with a line feed: how the drawing was interpreted, what was ignored,
-/// and what was moved to close gaps.
+/// Writes the log of an import as one JSON object that ends with a line feed. It states how the drawing was
+/// interpreted, which elements were ignored, and which corners were moved to close gaps.
 ///
 /// # Units
 /// Metres.

@@ -1,6 +1,7 @@
-//! [`KEYS`]: every key of a result with its kind, unit and meaning, and the JSON Schema made from them.
+//! [`KEYS`]: every key of a result with its type, unit and meaning. [`schema`] makes a JSON Schema from them.
 //!
-//! A test walks the results of many scenes and fails where a key is missing here, or where one here never occurs.
+//! A test reads the results of many scenes. It fails if one of their keys is missing here, or if a key listed here
+//! never occurs.
 
 use serde_json::{Value, json};
 
@@ -19,9 +20,9 @@ pub enum Type {
     FlagOrOpen,
     /// A whole number, at least 0.
     Count,
-    /// A whole number from 1, or `null` where there is no text to count in.
+    /// A whole number from 1, or `null` if there is no text.
     Place,
-    /// A number; `null` where it could not be computed, which happens in undecided frames only.
+    /// A number; `null` if it could not be computed, which happens only in undecided frames.
     Number,
     /// A number, or `"unbounded"`.
     Bound,
@@ -56,7 +57,7 @@ pub struct Key {
     pub path: &'static str,
     /// The type of its value.
     pub kind: Type,
-    /// Its unit; empty where it has none.
+    /// Its unit; empty if it has none.
     pub unit: &'static str,
     /// When the key is present; empty for always.
     pub when: &'static str,
@@ -255,7 +256,7 @@ pub const REFUSAL_KEYS: &[Key] = &[
 ];
 
 impl Type {
-    /// The type in words, for the table of keys.
+    /// Describes the type in words, for the table of keys.
     pub fn words(self) -> String {
         let fixed = match self {
             Type::Word(words) => {
@@ -325,10 +326,10 @@ impl Type {
     }
 }
 
-/// The JSON Schema (draft 2020-12) of the output of `check --json` for one file: a result, or the problems of a refused
-/// file.
+/// Returns the JSON Schema (draft 2020-12) of the output of `check --json` for one file: a result, or the problems of
+/// a file that is not a valid scene.
 ///
-/// Later versions add keys; so a program should not refuse those it does not know, and neither does the schema.
+/// Later versions add keys, so programs should accept unknown keys. The schema accepts them too.
 ///
 /// ```
 /// assert!(drystone::result::schema().contains("\"total_sticking\""));
@@ -366,7 +367,7 @@ fn described(kind: Type, meaning: &str) -> Value {
     schema
 }
 
-/// The schema of an object with these keys and of the objects inside it.
+/// Makes the schema of an object with these keys, and of the objects inside it.
 fn object(keys: &[Key]) -> Value {
     let mut root = json!({ "type": "object" });
     for key in keys {

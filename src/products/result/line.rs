@@ -1,4 +1,4 @@
-//! A result as one line of a batch: the origin of the scene, and the selected fields.
+//! Writes a result as one line of a batch: the origin of the scene, and the selected fields.
 
 mod name;
 
@@ -11,17 +11,17 @@ use crate::analysis::{Analysis, Verdict};
 use crate::text;
 use name::{NAMES, Name};
 
-/// Which scene a line is about.
+/// The place of a scene in the input of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The file, as given.
     pub file: Option<String>,
-    /// The line in it, or of standard input, from 1; absent where the scene is a file of its own.
+    /// The line in the file or in standard input, from 1. `None` if the whole file is one scene.
     pub line: Option<usize>,
 }
 
 impl Origin {
-    /// The origin in a line of a batch; `None` if the line is not JSON.
+    /// Reads the origin from a line that a batch has written; `None` if the line is not JSON.
     pub fn of_line(line: &[u8]) -> Option<Origin> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let line = value["line"].as_u64().and_then(|n| usize::try_from(n).ok());
@@ -32,7 +32,7 @@ impl Origin {
     }
 }
 
-/// As a person reads it: `a.ndjson, line 3`.
+/// Writes the origin for people: `a.ndjson, line 3`.
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.file {
@@ -46,16 +46,16 @@ impl fmt::Display for Origin {
     }
 }
 
-/// What of a result is written: names of the result of [`to_json`], parts of parts behind a dot, as `frames.proof.power`;
-/// of a list the part of each of its entries. There are also `verdict`, the worst of all frames, `picture`, and
-/// `all`.
+/// The selected fields of a result: keys of the result of [`to_json`], joined by dots, such as `frames.proof.power`.
+/// A key below a list selects this key of every entry. `verdict` (the worst verdict of all frames) and `all` are
+/// fields too.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {
     chosen: Vec<Vec<&'static str>>,
 }
 
 impl Default for Fields {
-    /// The default fields: the title and the worst verdict.
+    /// Selects the title and the worst verdict.
     fn default() -> Fields {
         Fields {
             chosen: vec![vec!["scene"], vec!["verdict"]],
@@ -63,13 +63,13 @@ impl Default for Fields {
     }
 }
 
-/// A field that is not there.
+/// A name that is not a field.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no field {typed}{}", match near { Some(near) => format!("; did you mean {near}?"), None => String::new() })]
 pub struct UnknownField {
-    /// As it was typed.
+    /// The name as it was typed.
     pub typed: String,
-    /// The nearest that there is.
+    /// The most similar field.
     pub near: Option<String>,
 }
 
@@ -77,7 +77,7 @@ impl Fields {
     /// Reads a list such as `verdict,frames.total_force`.
     ///
     /// # Errors
-    /// Every name that is not a field.
+    /// All names that are not fields.
     ///
     /// # Example
     /// ```
@@ -103,8 +103,8 @@ impl Fields {
         }
     }
 
-    /// Whether a field is selected: by its own name, by the name of a part of it, or by the name of the object that
-    /// contains it. `all` and `frames` do not select fields that a result has on request only.
+    /// True if a field is selected by its own name, by the name of a part of it, or by the name of an object that
+    /// contains it. `all` and `frames` do not count: they do not select fields that a result has only on request.
     pub fn ask(&self, path: &[&str]) -> bool {
         let within = |chosen: &Vec<&str>| {
             let short = chosen.len().min(path.len());
@@ -113,13 +113,13 @@ impl Fields {
         self.chosen.iter().any(within)
     }
 
-    /// These fields and the margins of every frame, unless some margins are already selected.
+    /// Adds the margins of every frame, unless some margins are already selected.
     #[must_use]
     pub fn with_margins(self) -> Fields {
         self.with(&["frames", "margins"])
     }
 
-    /// These fields, and whether each frame stands by wedging only.
+    /// Adds the field that states whether a frame stands only by wedging.
     #[must_use]
     pub fn with_wedging(self) -> Fields {
         self.with(&["frames", "only_by_wedging"])
@@ -136,14 +136,14 @@ impl Fields {
         self.chosen.iter().any(|path| path == &["all"])
     }
 
-    /// Whether only the title and the worst verdict are selected. Then [`verdict_line`] is sufficient.
+    /// True if only the title or the worst verdict are selected. Then [`verdict_line`] is sufficient.
     pub fn are_few(&self) -> bool {
         let few = |path: &Vec<&str>| matches!(path[..], ["scene"] | ["verdict"]);
         self.chosen.iter().all(few)
     }
 }
 
-/// The list as it may be typed.
+/// Writes the list in the form that [`Fields::read`] reads.
 impl fmt::Display for Fields {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<String> = self.chosen.iter().map(|path| path.join(".")).collect();
@@ -151,18 +151,19 @@ impl fmt::Display for Fields {
     }
 }
 
-/// The picture of a scene, if one was wanted.
+/// The picture of a scene, if it was requested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PictureOutcome {
-    /// None was.
+    /// No picture was requested.
     NotAsked,
-    /// The name of its file in its folder.
+    /// The name of the picture file, without its folder.
     Drawn(String),
-    /// Why there is no picture.
+    /// The reason why no picture could be drawn.
     Refused(String),
 }
 
-/// The line for an analysis, with a line feed. The same analysis gives the same bytes, unless `solve.seconds` is selected.
+/// Writes the line for an analysis, with a line feed. The same analysis gives the same bytes, unless
+/// `frames.solve.seconds` is selected.
 ///
 /// # Example
 /// ```
@@ -220,7 +221,7 @@ pub fn line_of(
     ended(out)
 }
 
-/// The line for a verdict and the title of the scene, with a line feed.
+/// Writes a line with the title of the scene and its verdict, as far as they are selected, with a line feed.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
     let mut out = begun(origin);
     put_few(&mut out, title, verdict, fields);
@@ -269,13 +270,13 @@ fn put(out: &mut String, name: &str, value: &Value) {
     out.push_str(&value.to_string());
 }
 
-/// The rest of each selected path below a name. The rest is empty if the name itself is selected.
+/// Returns the rest of each selected path that begins with `name`. The rest is empty if the name itself is selected.
 fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     let under = chosen.iter().filter(|path| path.first() == Some(&name));
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value, in the order of the names.
+/// Writes the selected parts of a value, in the order of `parts`.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

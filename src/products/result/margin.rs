@@ -1,10 +1,12 @@
-//! Margins as JSON: a number; `null` if the frame falls at every value; `"unbounded"` if it stands at every value.
+//! Writes margins as JSON. A margin is a number, `null` if the frame falls at every value, or `"unbounded"` if it
+//! stands at every value.
 //!
-//! A tilt of `null` says that the frame falls unturned; it may stand turned. A margin that no verdict confirms is `null` as
-//! well, and a notice of the frame says between which values it lies. What was not requested is absent.
+//! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict
+//! confirms is `null` too; a notice of the frame then states between which values it lies. Margins that were not
+//! requested are absent.
 //!
-//! `intervals` has both ends of each parameter. There `null` is an end that is not there, `"withheld"` one that no verdict
-//! confirms, and `null` in place of an interval says that the frame stands at no value.
+//! `intervals` has both ends of each parameter. An end is `null` if the interval has no end there, and `"withheld"`
+//! if no verdict confirms it. An interval is `null` if the frame stands at no value.
 
 use serde::{Serialize, Serializer};
 
@@ -15,7 +17,7 @@ use crate::analysis::{
 use crate::scene::Scene;
 use crate::text;
 
-/// The margins of a frame as one JSON object on one line, as in `margins` of the frame's result.
+/// Writes the margins of a frame as one line of JSON, as in `margins` of the frame's result.
 pub fn margins_json(scene: &Scene, margins: &Found) -> String {
     let json = serde_json::to_string(&Margins::new(scene, margins));
     text::json(&json.expect("plain structures with text keys always serialise into memory"))
@@ -40,7 +42,7 @@ pub(super) struct Margins<'a> {
     mechanisms: Mechanisms<'a>,
 }
 
-/// At which values of each parameter the frame stands. A parameter without meaning in the scene is left out.
+/// The values of each parameter at which the frame stands. Parameters that have no meaning in the scene are left out.
 #[derive(Serialize)]
 struct Intervals<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,7 +59,7 @@ struct Intervals<'a> {
     robots: Named<'a, Limits<Range>>,
 }
 
-/// An interval: two ends, or `null` where it is empty.
+/// An interval: two ends, `null` if it is empty, or `"withheld"`.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Range {
@@ -74,10 +76,10 @@ enum RangeEnd {
     Withheld(&'static str),
 }
 
-/// What stands in place of a value that no verdict confirms.
+/// This word replaces a value that no verdict confirms.
 const WITHHELD: &str = "withheld";
 
-/// How the blocks begin to move just beyond each edge.
+/// How the blocks begin to move just beyond each margin.
 #[derive(Serialize)]
 struct Mechanisms<'a> {
     friction: Vec<Motion<'a>>,
@@ -135,7 +137,7 @@ impl Sides<End> {
     }
 }
 
-/// An object whose keys stand in the order of the list.
+/// An object whose keys keep the order of the list.
 struct Named<'a, T>(Vec<(&'a str, T)>);
 
 impl<T> Named<'_, T> {

@@ -1,13 +1,12 @@
-//! [`to_json`]: an analysis as a JSON object for other programs.
+//! [`to_json`]: writes an analysis as a JSON object for other programs.
 //!
-//! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
-//! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
-//! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
-//! does not name them: `unsupported`, `notices`, `doubt`. What was not requested is absent: `margins`,
-//! `only_by_wedging`.
+//! Invariant: the same analysis gives the same bytes, apart from times, which [`Timing::LeftOut`] omits. Numbers are
+//! written as the shortest decimal that reads back as the same f64, and never as −0. A number that could not be
+//! computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are absent if
+//! they are empty. `margins` and `only_by_wedging` are absent if they were not requested.
 //!
-//! serde is used here and in `scene::format`: that module reads a person's file, this one writes for programs,
-//! and the two change for different reasons.
+//! serde is used here and in `scene::format`. That module reads the files of people, and this one writes for
+//! programs, so the two change for different reasons.
 
 #[cfg(feature = "report")]
 mod accuracy;
@@ -52,29 +51,29 @@ pub use crate::wording::verdict::word;
 /// Whether a result contains solving times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timing {
-    /// `solve.seconds` is there, and differs from run to run.
+    /// `solve.seconds` and `solve.stages` are present, and differ from run to run.
     Included,
-    /// `solve.seconds` is absent: the same scene gives the same bytes.
+    /// `solve.seconds` and `solve.stages` are absent: the same scene gives the same bytes.
     LeftOut,
 }
 
-/// How much white space a result has.
+/// The white space in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// One line per property, and one per interface, robot or failure. Ends with a line feed.
     Lines,
-    /// All of it on one line, as JSON Lines want it. Ends with a line feed.
+    /// Everything on one line, as JSON Lines requires. Ends with a line feed.
     OneLine,
 }
 
-/// The result of an analysis as one JSON object.
+/// Writes the result of an analysis as one JSON object.
 ///
-/// Forces are those on `bodies[0]`, `normal` points into `bodies[0]`, `"ground"` names the ground. The `amount` of a
-/// failure is its share of `total_sticking` in newtons, `|F_x| + |F_y|` for a robot, whose limits are per component;
-/// the amount of a missing torque is in N·m.
+/// Forces act on `bodies[0]`, `normal` points into `bodies[0]`, and `"ground"` names the ground. The `amount` of a
+/// failure is its contribution to `total_sticking`, in newtons. For the force of a robot it is `|F_x| + |F_y|`,
+/// because its limits are per component. The amount of a missing torque is in N·m.
 ///
 /// # Units
-/// Metres, newtons, N·m; a spin is per metre, because the fastest point moves with speed 1.
+/// Metres, newtons and N·m. A spin is in 1/m, because velocities are relative to the fastest point.
 ///
 /// # Example
 /// ```
@@ -124,7 +123,8 @@ struct Result<'a> {
     frames: Vec<Frame<'a>>,
 }
 
-/// Within how many metres edges touch and within how many they are made one, how that was found, and what was moved.
+/// The distances within which edges touch and are merged, in metres, the source of these distances, and the corners
+/// that were moved.
 #[derive(Serialize)]
 struct Tolerance {
     gap: Number,
@@ -136,7 +136,7 @@ struct Tolerance {
     largest_move: Number,
 }
 
-/// For serde: the key is left out if the total is the least.
+/// True if serde leaves the key out: the total is proved to be the least.
 fn is_least(least: &bool) -> bool {
     *least
 }
@@ -163,7 +163,7 @@ struct Frame<'a> {
     mechanism: Vec<Motion<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margins: Option<Margins<'a>>,
-    /// `null` if it was requested and could not be decided.
+    /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -183,7 +183,7 @@ struct Effect<'a> {
     unknowns: usize,
 }
 
-/// A plain number: −0 is written 0.0, a number that is not finite is written null.
+/// A number for JSON: −0 is written as 0.0, and a number that is not finite as `null`.
 #[derive(Clone, Copy)]
 struct Number(f64);
 
@@ -298,7 +298,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Whether an effect was simulated.
+/// True if the effect was simulated.
 fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
     frame
         .effects

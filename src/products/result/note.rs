@@ -1,4 +1,4 @@
-//! Notes as JSON.
+//! Notes of an analysis, as written in JSON.
 
 use serde::Serialize;
 

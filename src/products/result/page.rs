@@ -1,29 +1,31 @@
-//! [`report_json`]: a report as JSON: the number of scenes per verdict, and the result of every scene.
+//! [`report_json`]: writes a report as JSON, with the number of scenes for each verdict and the result of every
+//! scene.
 
 use serde::Serialize;
 
 use crate::text;
 
-/// How the scenes of a report came out.
+/// The number of scenes with each verdict in a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
-    /// Scenes of which every step stands.
+    /// Scenes in which every step stands.
     pub stable: usize,
-    /// Scenes of which some step falls.
+    /// Scenes in which at least one step falls.
     pub unstable: usize,
-    /// Scenes of which no step falls and some is undecided.
+    /// Scenes in which no step falls and at least one is undecided.
     pub undecided: usize,
-    /// Files that are no scene.
+    /// Files that are not valid scenes.
     pub refused: usize,
 }
 
-/// Text as a JSON string.
+/// Writes text as a JSON string, with its quotation marks.
 pub fn quoted(words: &str) -> String {
     let string = serde_json::to_string(words).expect("a string always serialises into memory");
     text::json(&string)
 }
 
-/// A report as one JSON object that ends with a line feed: the counts, and the JSON objects of the scenes, one per line.
+/// Writes a report as one JSON object that ends with a line feed: the counts, and the JSON `objects` of the scenes
+/// under the key `list`, one per line.
 ///
 /// ```
 /// use drystone::result::{Counts, report_json};

@@ -1,4 +1,4 @@
-//! [`ProofNumbers`]: the numbers of a proof in a result.
+//! [`ProofNumbers`]: the numbers of a proof, as written in a result.
 
 use serde::Serialize;
 
@@ -21,7 +21,8 @@ pub(super) enum ProofNumbers {
     },
 }
 
-/// Below which sum of forces, in loads of what moves, none balance: a number, or `"unbounded"` where none do at all.
+/// The sum of forces, relative to the loads of the moving blocks, below which no forces balance. `"unbounded"` if no
+/// forces balance at all.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum Below {

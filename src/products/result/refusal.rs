@@ -1,4 +1,4 @@
-//! The problems of a refused file as a JSON object, which takes the place of its result.
+//! Writes the problems of a file that is not a valid scene as a JSON object, which replaces its result.
 
 use serde::Serialize;
 
@@ -26,9 +26,10 @@ struct Entry<'a> {
     hint: &'a str,
 }
 
-/// The problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message, hint }] }`.
+/// Writes the problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message,
+/// hint }] }`.
 ///
-/// Lines and columns count from 1, columns in characters; both are `null` where the problem has no place in a text.
+/// Lines and columns count from 1, columns in characters. Both are `null` if the problem has no place in a text.
 ///
 /// # Example
 /// ```
@@ -50,9 +51,10 @@ pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
     )
 }
 
-/// The problems of one scene of a batch, as one line that ends with a line feed.
+/// Writes the problems of one scene of a batch as one line that ends with a line feed.
 ///
-/// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
+/// Lines and columns count in the input file, so that an editor finds them. If the scene is one line of the input,
+/// the problems are on this line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
     written(
@@ -65,7 +67,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     )
 }
 
-/// The problems of a text that starts after this number of lines of its file.
+/// Makes the entries for the problems of a text that begins after `before` lines of its file.
 fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
     problems

@@ -1,4 +1,4 @@
-//! [`Solve`]: the solution method and its cost, as in the result.
+//! [`Solve`]: the solution method and its cost, as written in a result.
 
 use serde::Serialize;
 

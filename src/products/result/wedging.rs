@@ -1,7 +1,7 @@
-//! The proof that a frame stands by wedging only, as JSON.
+//! The proof that a frame stands only by wedging, as written in JSON.
 //!
-//! Each motion tells the place about which a block's spin counts, so that it can be checked against the interfaces and
-//! their forces in the same result, without the scene.
+//! Each motion includes the point about which a block spins. It can therefore be checked against the interfaces and
+//! forces in the same result, without the scene.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 
 #[derive(Serialize)]
 pub(super) struct Wedging<'a> {
-    /// The faces that have to press.
+    /// The interfaces that must press.
     must_press: Vec<Face<'a>>,
     /// The least sum of normal forces, N.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -21,7 +21,7 @@ pub(super) struct Wedging<'a> {
     gives_way: Vec<Moving<'a>>,
     presses_nothing: bool,
     cases: usize,
-    /// Each of these cases: springs at rest press and slide in none of these ways, and there is no other.
+    /// The cases that were excluded. They cover all ways in which contacts of springs at rest can press and slide.
     ruled_out: Vec<Case>,
 }
 
@@ -33,18 +33,18 @@ struct Case {
 
 #[derive(Serialize)]
 struct PointCase {
-    /// Its interface, as a number in `interfaces`.
+    /// The index of its interface in `interfaces`, from 0.
     interface: usize,
-    /// Which of its two application points, 0 or 1.
+    /// The index of the application point, 0 or 1.
     point: usize,
     presses: bool,
 }
 
 #[derive(Serialize)]
 struct FaceCase {
-    /// Its number in `interfaces`.
+    /// Its index in `interfaces`, from 0.
     interface: usize,
-    /// Along (-normal y, normal x), against it, or not at all.
+    /// `forth` along (−n_y, n_x) of the normal n, `back` against it, or `sticks`.
     slides: &'static str,
 }
 

@@ -19,17 +19,17 @@ impl Double {
         low: 0.0,
     };
 
-    /// The nearest f64.
+    /// Returns the nearest f64.
     pub fn near(self) -> f64 {
         self.high
     }
 
-    /// The absolute value.
+    /// Returns the absolute value.
     pub fn abs(self) -> Double {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The exact sum of two f64: Knuth's two-sum.
+    /// Adds two f64 exactly, by Knuth's two-sum.
     fn sum(a: f64, b: f64) -> Double {
         let high = a + b;
         let other = high - a;

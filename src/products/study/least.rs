@@ -1,4 +1,5 @@
-//! The optimum with the least Σ force², in extended precision: the reference for the largest single force.
+//! Computes the optimum with the least Σ force² in extended precision. It is the reference for the largest single
+//! force.
 //!
 //! Among all optima of a program, the one with the least sum of squares is unique. The unknowns are N1, N2, T of each
 //! contact and three components of each grip.
@@ -28,7 +29,8 @@ struct Axis {
     square: Double,
 }
 
-/// The norm of the largest resultant of the unique forces, if they can be certified.
+/// Returns the norm of the largest resultant of the unique forces, in scaled numbers. `None` if they cannot be
+/// certified, or if a robot is at its limit.
 pub(super) fn largest_of_unique(
     program: &Program,
     columns: &[Column],
@@ -44,7 +46,7 @@ pub(super) fn largest_of_unique(
         if answer.status != Status::Solved {
             continue;
         }
-        // The multipliers of −x ≤ 0: one row per column, and a second row for each column with a limit.
+        // Read the multipliers of −x ≤ 0. Each column has one row for them; a column with a limit has a second row.
         let mut row = program.loads.len();
         let mut multiplier = Vec::with_capacity(face.len());
         for column in &face {
@@ -96,7 +98,8 @@ fn dot(a: &[Double; 3], b: &[Double; 3]) -> Double {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Orthogonal axes of the spaces that the used columns span, place by place, by Gram-Schmidt.
+/// Orthogonalises the used columns of each contact or grip by Gram-Schmidt. Columns of the same place must follow
+/// each other.
 fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Axis> {
     let mut axes: Vec<Axis> = Vec::new();
     for column in used {
@@ -114,8 +117,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
             }
         }
         let square = dot(&direction, &direction);
-        // The directions are rounded to 1e-16, so a dependent direction leaves a square of about 1e-32 of the whole. The
-        // threshold 1e-20 separates it from independent ones.
+        // Directions are rounded to 1e-16, so the square that a dependent direction leaves is about 1e-32 of the
+        // whole. The threshold 1e-20 separates dependent from independent directions.
         if square.near() > 1e-20 * whole {
             axes.push(Axis {
                 place,
@@ -128,7 +131,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
     axes
 }
 
-/// Solves for the forces on the axes, and checks the certificate.
+/// Solves for the forces along the axes, and returns the largest resultant if the certificate holds. `total` is the
+/// certified optimum.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes

@@ -11,7 +11,7 @@ use crate::solve::{
     least_adhesion_in, solve,
 };
 
-/// Sticking below this share of the largest is solver noise and no failure.
+/// Sticking below this share of the largest sticking is a rounding error of the solver, not a failure.
 const MIN_FAILURE_SHARE: f64 = 1e-6;
 
 /// A solution method.
@@ -43,7 +43,7 @@ impl Method {
         Method::Level(Accuracy::Proved),
     ];
 
-    /// The name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Method::Source(2) => "source, β = 10²",
@@ -58,7 +58,7 @@ impl Method {
         }
     }
 
-    /// Solves a frame.
+    /// Solves a frame at this tolerance of the solver.
     pub(super) fn solve(self, task: &Task, tolerance: f64) -> Outcome {
         if let Method::Level(accuracy) = self {
             return level(task, accuracy, tolerance);
@@ -79,8 +79,8 @@ impl Method {
     }
 }
 
-/// Sticking above this (in scaled numbers) means that the frame falls: the band of the proofs, but at least ten times the
-/// tolerance of the solver.
+/// Returns the sticking, in scaled numbers, above which the frame counts as falling. It is the tolerance of the
+/// proofs, but at least ten times the tolerance of the solver.
 fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
@@ -92,7 +92,7 @@ fn effort(iterations: usize) -> Effort {
     }
 }
 
-/// The largest unbalanced component of the loads.
+/// Returns the largest unbalanced component of the loads.
 fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
@@ -101,7 +101,7 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
-/// The program of the source: it stands if no adhesion is needed.
+/// Solves the program of the source. The frame stands if no adhesion is needed.
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
@@ -155,7 +155,7 @@ fn adhesion_cost(column: &Column) -> f64 {
     f64::from(u8::from(column.force.is_adhesion()))
 }
 
-/// Forces as unknowns, without a penalty: two programs in sequence.
+/// Solves for forces without a penalty: first without adhesion, then for the least adhesion and the least force.
 fn force(program: &Program, tolerance: f64) -> Outcome {
     let loads = &program.loads;
     let admissible = columns(program);
@@ -228,7 +228,7 @@ fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
     }
 }
 
-/// The dual alone: without adhesion and, if that is unbounded, with the least adhesion.
+/// Solves the dual program only: without adhesion and, if that has no solution, for the least adhesion.
 fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
@@ -266,7 +266,7 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// The dual, then the unique forces: like `check`, but without proofs.
+/// Solves the dual program, then for the unique forces, like `check` but without proofs.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Unique);
     let hard = balance_in(program, settings);
@@ -304,7 +304,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// The analysis at a level. The time starts after the interfaces are found.
+/// Runs the complete analysis at a level. Its time begins after the interfaces are found.
 fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
     let options = Options {
         accuracy,

@@ -110,7 +110,7 @@ pub(super) struct Task {
     programs: Vec<Program>,
 }
 
-/// Runs the study on all frames of some scenes. `tick` is called with the name of each frame before it starts.
+/// Runs the study on all frames of some scenes. Calls `tick` with the name of each frame before the frame starts.
 pub fn study(scenes: &[Scene], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -> Study {
     let mut cases = Vec::new();
     for scene in scenes {
@@ -159,7 +159,7 @@ impl Task {
     }
 }
 
-/// The reference for a frame from those of its independent parts.
+/// Combines the references of the independent parts of a frame.
 fn truth(programs: &[Program]) -> Truth {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();
@@ -208,7 +208,8 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
     }
 }
 
-/// Repeats a run three times, and up to nine times while it takes less than 0.02 s in total. The time is the median.
+/// Runs a method three times, or up to nine times while the total time is below 0.02 s. The time of the run is the
+/// median.
 fn run(method: Method, tolerance: f64, task: &Task, truth: &Truth) -> Run {
     let mut times = Vec::with_capacity(9);
     let mut outcome = Outcome::empty();

@@ -1,4 +1,4 @@
-//! [`optimum`]: the certified optimum of a linear program in extended precision.
+//! [`optimum`]: computes the certified optimum of a linear program in extended precision.
 //!
 //! The program is min Σ cost·amount over amounts ≥ 0 (up to a limit) that balance the loads. The method is a crossover from
 //! an interior-point solution with a certificate by weak duality:
@@ -48,7 +48,7 @@ const AT_LIMIT: f64 = 1e-6;
 /// The smallest weight of a column in the refinement, relative to the largest amount.
 const MIN_WEIGHT: f64 = 1e-12;
 
-/// The certified optimum of a program, if one of the guesses leads to it.
+/// Returns the certified optimum of a program; `None` if no guess leads to it.
 pub(super) fn optimum(
     loads: &[f64],
     columns: &[Column],
@@ -175,7 +175,7 @@ impl Guess<'_> {
         }
     }
 
-    /// The loads together with the columns at their limit, which act like loads.
+    /// Returns the loads less the forces of the columns at their limit, which act like loads.
     fn loads_with(&self, limited: &[usize]) -> Vec<Double> {
         let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
         for j in limited {
@@ -187,7 +187,7 @@ impl Guess<'_> {
         loads
     }
 
-    /// Checks feasibility and the duality gap of a refined solution.
+    /// Checks feasibility and the duality gap of a refined solution; `None` if the check fails.
     fn checked(&self, refined: Refined) -> Option<Optimum> {
         let Refined {
             limited,
@@ -197,7 +197,8 @@ impl Guess<'_> {
             rest,
             largest,
         } = refined;
-        // Both objective values: Σ cost·amount, and the power of the loads plus the limits times their multipliers.
+        // Compute both objective values: Σ cost·amount, and the power of the loads plus the limits times their
+        // multipliers.
         let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
             sum + Double::from(self.costs[*j]) * *x
         });
@@ -207,18 +208,18 @@ impl Guess<'_> {
             let limit = Double::from(self.columns[*j].limit);
             forces = forces + limit * Double::from(self.costs[*j]);
             bound = bound + limit * self.reduced_cost(*j, &y);
-            // The multiplier of a limit must not be negative.
+            // A column at its limit must not have a positive reduced cost.
             if self.reduced_cost(*j, &y).near() > EXACT * speed {
                 return None;
             }
         }
-        // Primal feasibility: the loads balance, and amounts lie between 0 and their limits.
+        // Check primal feasibility: the loads balance, and amounts lie between 0 and their limits.
         let balanced = rest.iter().all(|r| r.abs().near() <= EXACT * largest);
         let presses = face.iter().zip(&x).all(|(j, x)| {
             (x.near() >= -EXACT * largest || self.may_be_negative(*j, &face))
                 && x.near() <= self.columns[*j].limit
         });
-        // Dual feasibility: no column has a negative reduced cost.
+        // Check dual feasibility: no other column has a negative reduced cost.
         let free = || (0..self.columns.len()).filter(|j| !limited.contains(j));
         let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -EXACT * speed);
         let scale = forces
@@ -226,8 +227,8 @@ impl Guess<'_> {
             .abs()
             .max(bound.near().abs())
             .max(EXACT * largest * speed);
-        // Weak duality: the value is wrong by at most the gap, plus the largest dual violation times the sum of all amounts,
-        // plus the unbalanced forces times the velocities.
+        // By weak duality, the error of the value is at most the gap, plus the largest dual violation times the sum
+        // of all amounts, plus the unbalanced forces times the velocities.
         let violation = free()
             .map(|j| -self.reduced_cost(j, &y).near())
             .fold(0.0, f64::max);
@@ -247,13 +248,13 @@ impl Guess<'_> {
         })
     }
 
-    /// The reduced cost of a column: its cost less the work of its force along the velocities.
+    /// Returns the reduced cost of a column: its cost less the power of its unit force along the velocities.
     fn reduced_cost(&self, j: usize, y: &[Double]) -> Double {
         Double::from(self.costs[j]) - product(&self.sparse[j], y)
     }
 
-    /// Whether a column without cost may have a negative amount: its opposite is on the face too, so only their difference
-    /// matters. This holds for grips without limits.
+    /// True if a column without cost may have a negative amount, because the opposite column is on the face too. Then
+    /// only their difference matters. This holds for grips without limits.
     fn may_be_negative(&self, j: usize, face: &[usize]) -> bool {
         let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
         let partner = |k: &usize| {
@@ -268,7 +269,7 @@ impl Guess<'_> {
     }
 }
 
-/// The entries of a column in extended precision: row and value.
+/// Returns the entries of a column in extended precision: row and value.
 pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
     column
         .entries()
@@ -276,7 +277,7 @@ pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
         .collect()
 }
 
-/// The scalar product of a sparse column and a vector.
+/// Returns the scalar product of a sparse column and a vector.
 pub(super) fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
     entries
         .iter()
@@ -290,7 +291,7 @@ pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Doubl
     }
 }
 
-/// The power of the loads along velocities.
+/// Returns the power of the loads along velocities.
 pub(super) fn power(loads: &[f64], y: &[Double]) -> Double {
     loads
         .iter()

@@ -26,7 +26,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The result for a frame without loads: it stands.
+    /// Returns the result for a frame without loads, which stands.
     pub(super) fn empty() -> Outcome {
         Outcome {
             verdict: Verdict::Stable,
@@ -107,7 +107,7 @@ impl Outcome {
     }
 }
 
-/// The largest resultant of a contact or grip.
+/// Returns the largest resultant of a contact or grip, in scaled numbers.
 fn largest(amounts: &Amounts) -> f64 {
     let contacts = amounts
         .normal

@@ -1,4 +1,4 @@
-//! [`Reference`]: the true solution of a program to at least twelve digits, with a certificate.
+//! [`Reference`]: computes the true solution of a program to at least twelve digits, with a certificate.
 //!
 //! 1. If a balance without adhesion has a certified optimum ([`optimum`]), the program is stable. Its value is the least
 //!    total force.
@@ -62,8 +62,8 @@ impl Reference {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
             return match least > EXACT * largest {
-                // The total is positive as soon as its relative error is below 1; 0.5 leaves a factor of 2. A small total of
-                // large forces may not be known to twelve digits then.
+                // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of
+                // 2. A small total of large forces is then perhaps not known to twelve digits.
                 true if optimum.gap < 0.5 => Reference {
                     verdict: Verdict::Unstable,
                     total: (optimum.gap <= MAX_GAP).then_some(least),
@@ -71,7 +71,8 @@ impl Reference {
                     ..unknown
                 },
                 true => unknown,
-                // No adhesion is needed, but the dual of step 1 has no optimum: it stands exactly on the edge.
+                // No adhesion is needed, but step 1 found no certified optimum: the structure stands exactly at its
+                // limit.
                 false => Reference {
                     verdict: Verdict::Stable,
                     ..unknown
@@ -88,7 +89,7 @@ impl Reference {
     }
 }
 
-/// Whether there is a motion that even adhesion does not resist.
+/// True if the solver finds a motion that even adhesion does not resist.
 fn falls_despite_adhesion(loads: &[f64], all: &[Column]) -> bool {
     let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
     let solved = dual(

@@ -21,7 +21,7 @@ pub(super) struct Skyline {
 }
 
 impl Skyline {
-    /// Factorises the sum of weight · v vᵀ over sparse vectors v.
+    /// Factorises the matrix Σ weight · v vᵀ over sparse vectors v. `size` is its number of rows.
     pub(super) fn new<'a>(
         size: usize,
         terms: impl Iterator<Item = (Double, &'a [(usize, Double)])> + Clone,
@@ -85,7 +85,7 @@ impl Skyline {
         }
     }
 
-    /// Solves M w = r. If M is singular, r must be in its range.
+    /// Solves M w = `right`. If M is singular, `right` must be in its range.
     pub(super) fn solve(&self, right: &[Double]) -> Vec<Double> {
         // Forward substitution with L, division by D, backward substitution with Lᵀ.
         let mut w = right.to_vec();

@@ -36,10 +36,10 @@ fn median(mut list: Vec<f64>) -> Option<f64> {
     list.get(list.len() / 2).copied()
 }
 
-/// Summarises a study, in the order of methods and tolerances.
+/// Summarises a study: one entry for each method and tolerance, in their order.
 ///
-/// Times are divided by that of `standard` at the tolerance nearest to the default, frame by frame. Large frames therefore
-/// do not dominate small ones.
+/// The time of a frame is divided by the time of `standard` on the same frame, at the tolerance nearest to the
+/// default. Large frames therefore do not dominate small ones.
 pub fn summary(study: &Study) -> Vec<Summary> {
     let Some(first) = study.cases.first() else {
         return Vec::new();

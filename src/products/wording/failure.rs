@@ -1,4 +1,4 @@
-//! Describes failures: in a table row, below a figure, in a caption.
+//! Describes failures for tables, captions and sentences.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,10 +6,10 @@ use super::number::{NO_BREAK, digits, listed, place, quantity};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// More unsupported blocks than this are counted, not named.
+/// At most this many unsupported blocks are named; the rest is counted.
 const MAX_LISTED_BLOCKS: usize = 6;
 
-/// The size of the missing force (N) or torque (N·m).
+/// Returns the size of the missing force (N) or torque (N·m).
 pub fn amount(failure: &Failure) -> f64 {
     match failure {
         Failure::Tension { force, .. }
@@ -19,7 +19,7 @@ pub fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// The size of the missing force or torque, with its unit.
+/// Returns the size of the missing force or torque with its unit.
 pub fn amount_with_unit(failure: &Failure) -> String {
     let unit = match failure {
         Failure::RobotTorque { .. } => "N·m",
@@ -28,14 +28,14 @@ pub fn amount_with_unit(failure: &Failure) -> String {
     quantity(amount(failure), unit)
 }
 
-/// The failures by size, largest first. Equal failures keep their order.
+/// Sorts the failures of a frame by size, largest first. Equal failures keep their order.
 pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     failures
 }
 
-/// The name of a body: `block 2`, `the ground`.
+/// Names a body: `block 2`, `the ground`.
 pub fn named(scene: &Scene, body: BodyId) -> String {
     match body {
         BodyId::Ground(_) => "the ground".to_owned(),
@@ -43,7 +43,7 @@ pub fn named(scene: &Scene, body: BodyId) -> String {
     }
 }
 
-/// The names of the two bodies of an interface: `2 and the ground`.
+/// Names the two bodies of an interface: `2 and the ground`.
 pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     let [a, b] = bodies.map(|id| match id {
         BodyId::Ground(_) => "the ground",
@@ -52,7 +52,7 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     format!("{a} and {b}")
 }
 
-/// A sentence that describes a failure and where it occurs.
+/// Describes a failure and its place, as a sentence without a full stop.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     match *failure {
         Failure::Tension {
@@ -60,7 +60,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             at,
             force,
         } => format!(
-            "{} comes off {} at {}: holding on would take a pull of {} N",
+            "{} comes off {} at {}: to hold it would need a pull of {} N",
             scene.name(a),
             scene.name(b),
             place(at),
@@ -71,7 +71,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             at,
             force,
         } => format!(
-            "{} slides along {} at {}: holding on would take {} N more than friction gives",
+            "{} slides along {} at {}: to hold it would need {} N more than friction can give",
             scene.name(a),
             scene.name(b),
             place(at),
@@ -103,7 +103,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// The missing force as a noun phrase, for a list: `a pull of 8 N between a and b`.
+/// Describes the missing force as a noun phrase, for a list: `a pull of 8 N between a and b`.
 pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     match failure {
         Failure::Tension { bodies, force, .. } => format!(
@@ -129,7 +129,7 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// A clause that says which body or robot would have to provide the missing force.
+/// Writes a clause that names the bodies or the robot that would have to provide the missing force.
 pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
@@ -148,7 +148,7 @@ pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
             force,
             ..
         } => format!(
-            "{} would have to hold on to {} against sliding with {}",
+            "{} slides along {}, and friction would have to give {} more",
             named(a),
             named(b),
             quantity(force.norm(), "N")
@@ -179,7 +179,8 @@ pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String
     })
 }
 
-/// A sentence for each reason why blocks are unsupported, with at most `max` names; empty if all blocks are supported.
+/// Writes a sentence for each reason why blocks are unsupported, with at most `max` names. Empty if all blocks are
+/// supported.
 pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<String> {
     let reached = reached(found);
     let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = found
@@ -187,10 +188,13 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<Stri
         .iter()
         .partition(|id| reached.contains(id));
     let reasons = [
-        (apart, "no way from there to the ground or to a robot"),
+        (
+            apart,
+            "no contacts lead from there to the ground or to a robot",
+        ),
         (
             touching,
-            "where it touches or is held, nothing that sticks could stop it",
+            "even if all contacts and robots stuck, the fall would not stop",
         ),
     ];
     let mut sentences = Vec::new();
@@ -209,7 +213,8 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<Stri
     sentences
 }
 
-/// The blocks that contacts connect to the ground or to a block that a robot holds: a search through the graph of contacts.
+/// Returns the blocks that contacts connect to the ground or to a block that a robot holds. It searches the graph of
+/// contacts.
 fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     let mut next: Vec<BlockId> = found.robots.iter().map(|robot| robot.block).collect();
@@ -233,7 +238,7 @@ fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     reached
 }
 
-/// The first `max` parts, and the number of parts that are left out.
+/// Keeps the first `max` parts, and replaces the others by their number: `3 more`.
 pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
     if parts.len() > max {
         let left = parts.len() - max;
@@ -243,7 +248,7 @@ pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
     parts
 }
 
-/// A number and its unit, joined by a space at which no line breaks.
+/// Writes a number and its unit, joined by no-break spaces.
 fn unbroken(value: f64, unit: &str) -> String {
     quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

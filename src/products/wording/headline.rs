@@ -1,11 +1,11 @@
-//! [`headline`]: the margin that matters most, as one sentence.
+//! [`headline`]: describes the most important margin in one sentence.
 
 use super::margin::{Parameter, StatedMargin, confirmed};
 use super::number::three;
 use crate::analysis::{End, Interval, Verdict};
 
-/// The margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33 of its load`.
-/// `loads` is the number of loads of the frame.
+/// Describes a margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33
+/// of its load`. `loads` is the number of loads of the frame.
 pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> String {
     let load = if loads == 1 { "load" } else { "loads" };
     match (verdict, margin.parameter) {
@@ -17,7 +17,8 @@ pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> St
     }
 }
 
-/// An upper end in words: `2.40`, `at least 2.40` where the end is not confirmed; `None` without an end.
+/// Writes an upper end: `2.40`, or `at least 2.40` if the end is not confirmed. `None` if there is no end. `write`
+/// formats the number.
 fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
     let end = end?;
     let value = write(confirmed(end)?);
@@ -31,9 +32,9 @@ fn carries(margin: &StatedMargin<'_>, load: &str) -> String {
     match end(margin.interval.high(), &three) {
         Some(value) => format!("It carries {value} times its {load}"),
         None if matches!(margin.interval, Interval::Undecided) => {
-            format!("It carries its {load}; how much more, no proof shows")
+            format!("It carries its {load}; no proof shows how much more")
         }
-        None => format!("It carries its {load}, however often they are multiplied"),
+        None => format!("It carries its {load} times any factor"),
     }
 }
 
@@ -47,11 +48,11 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
             format!("It falls: it needs {} times its {load}", three(low))
         }
         (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
-        _ => format!("It falls, whatever the factor on its {load}"),
+        _ => format!("It falls at every factor on its {load}"),
     }
 }
 
-/// The nearest end of a margin other than that of the loads, of a structure that stands.
+/// Describes the nearest end of a margin other than the load factor, for a structure that stands.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     let nearest = || {
         let ends = [
@@ -71,11 +72,11 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
                     three(angle)
                 )
             }
-            None => "It stands however gravity turns".to_owned(),
+            None => "It stands however far gravity turns".to_owned(),
         },
         Parameter::HorizontalLoad => match nearest() {
             Some((share, side)) => format!(
-                "It stands until {} of its weight pushes it to the {side}",
+                "It stands until a horizontal force of {} of its weight pushes it to the {side}",
                 three(share)
             ),
             None => "It stands under any horizontal push".to_owned(),
@@ -105,7 +106,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             three(least)
         ),
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty) => {
-            "It falls, whatever the friction".to_owned()
+            "It falls at every friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),
     }

@@ -1,20 +1,20 @@
-//! Margins in words: the values of a parameter at which a frame stands, and the present value.
+//! Describes margins in words: the values of a parameter at which a frame stands, and the present value.
 //!
-//! [`StatedMargin`] is the one source for the terminal's lines, for tables, bars and captions, and for the headline.
+//! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
 use super::number::{NO_BREAK, digits};
 use crate::analysis::{End, FrameAnalysis, Interval, Intervals, Verdict};
 use crate::scene::Scene;
 use crate::text;
 
-/// What a margin varies.
+/// The parameter that a margin varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// One friction coefficient for every interface.
     Friction,
-    /// The turn of gravity, degrees.
+    /// The rotation of gravity, degrees.
     Tilt,
-    /// The share of each weight that acts across gravity.
+    /// The horizontal force on each block, relative to its weight.
     HorizontalLoad,
     /// The safety kernel.
     Kernel,
@@ -27,7 +27,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// The unit of a value, with a space before it if needed.
+    /// Returns the unit of a value, with a space before it if needed.
     fn unit(self) -> &'static str {
         match self {
             Parameter::Tilt => "°",
@@ -37,12 +37,12 @@ impl Parameter {
         }
     }
 
-    /// Whether the values of the parameter may be negative.
+    /// True if the values of the parameter may be negative.
     pub fn is_signed(self) -> bool {
         matches!(self, Parameter::Tilt | Parameter::HorizontalLoad)
     }
 
-    /// A value with its unit and, for a signed parameter, its side.
+    /// Writes a value with its unit and, for a signed parameter, its side: `5° left`.
     fn value(self, value: f64) -> String {
         let unit = self.unit();
         if !self.is_signed() {
@@ -57,34 +57,34 @@ impl Parameter {
     }
 }
 
-/// Where the present value is.
+/// The position of the present value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
-    /// Among the values at which the frame stands.
+    /// The frame stands at this value.
     Inside,
-    /// Elsewhere.
+    /// The frame falls at this value.
     Outside,
-    /// Neither was shown.
+    /// It is undecided whether the frame stands at this value.
     Unknown,
 }
 
 /// One margin of a frame: its interval and its present value.
 #[derive(Clone, Debug)]
 pub struct StatedMargin<'a> {
-    /// What varies.
+    /// The parameter.
     pub parameter: Parameter,
-    /// The same in words.
+    /// The name of the parameter in words.
     pub name: String,
     /// The values at which the frame stands.
     pub interval: &'a Interval,
-    /// The least and the largest present value: they differ where interfaces differ in friction, and are infinite where a
-    /// robot has no limit. `None` where a frame has no interface.
+    /// The least and the largest present value. They differ if interfaces have different friction, and are infinite
+    /// if a robot has no limit. `None` for the friction of a frame without interfaces.
     pub present: Option<(f64, f64)>,
-    /// Where the present value is.
+    /// The position of the present value.
     pub position: Position,
 }
 
-/// All margins of a frame that were computed. The headline comes first.
+/// Returns all computed margins of a frame. The headline margin comes first.
 pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
     let Some(margins) = &found.margins else {
         return Vec::new();
@@ -103,7 +103,7 @@ pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'
     list
 }
 
-/// The margins that belong to the whole frame.
+/// Returns the margins of the whole frame.
 fn whole_frame<'a>(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -145,7 +145,7 @@ fn whole_frame<'a>(
     list
 }
 
-/// The margins of the limits of each robot.
+/// Returns the margins of the limits of each robot.
 fn robot_limits<'a>(
     scene: &Scene,
     intervals: &'a Intervals,
@@ -172,7 +172,8 @@ fn robot_limits<'a>(
     list
 }
 
-/// The index of the most important margin: the load factor if there are loads, otherwise the margin with the least reserve.
+/// Returns the index of the most important margin: the load factor if there is one, otherwise the margin with the
+/// least reserve.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list
         .iter()
@@ -185,7 +186,7 @@ fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     })
 }
 
-/// The least and the largest friction coefficient of the frame's interfaces.
+/// Returns the least and the largest friction coefficient of the frame's interfaces; `None` without interfaces.
 fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     let all = found
         .contacts
@@ -197,7 +198,8 @@ fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// The position of different friction coefficients relative to an interval that holds for one common coefficient.
+/// Returns the position of the friction coefficients relative to an interval for one common coefficient. `alike` is
+/// the position if all coefficients are equal.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,
@@ -216,7 +218,7 @@ fn friction_position(
 }
 
 impl StatedMargin<'_> {
-    /// The interval and the present value: `stands from 0.3 to 2.4; now 1`.
+    /// Describes the interval and the present value: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         match self.present_words() {
             None => self.stands(),
@@ -224,12 +226,12 @@ impl StatedMargin<'_> {
         }
     }
 
-    /// The interval in words, without the present value.
+    /// Describes the interval without the present value.
     pub fn stands(&self) -> String {
         stands(self.parameter, self.interval)
     }
 
-    /// The present value in words, and whether it lies in the interval.
+    /// Describes the present value, and its position if it is not inside the interval.
     fn present_words(&self) -> Option<String> {
         let (low, high) = self.present?;
         let value = |value: f64| self.parameter.value(value);
@@ -246,10 +248,11 @@ impl StatedMargin<'_> {
         })
     }
 
-    /// The relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is no end.
+    /// Returns the relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is
+    /// no end.
     ///
-    /// A value that may grow counts in parts of its end, one that may shrink in parts of itself, tilts in parts of a right
-    /// angle and horizontal shares in parts of the whole weight.
+    /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the
+    /// present value. Tilts are relative to 90°. Horizontal forces are already relative to the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
             return 0.0;
@@ -276,7 +279,8 @@ impl StatedMargin<'_> {
     }
 }
 
-/// The end of the interval, or the farthest value at which the frame is known to stand.
+/// Returns the end of the interval, or, if it is not confirmed, the farthest value at which the frame is known to
+/// stand. `None` if there is no end.
 pub fn confirmed(end: &End) -> Option<f64> {
     match end {
         End::At { value, .. } => Some(*value),
@@ -285,18 +289,18 @@ pub fn confirmed(end: &End) -> Option<f64> {
     }
 }
 
-/// An interval in words: `stands from 0.3 to 2.4`.
+/// Describes an interval: `stands from 0.3 to 2.4`.
 pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     let (low, high) = match interval {
         Interval::Between { low, high } => (low, high),
         Interval::Empty => {
             return match parameter {
-                Parameter::LoadFactor => "stands at no factor on its loads",
+                Parameter::LoadFactor => "stands with no factor on its loads",
                 _ => "stands at no value",
             }
             .to_owned();
         }
-        Interval::Undecided => return "no verdict confirms at which values it stands".to_owned(),
+        Interval::Undecided => return "no verdict shows at which values it stands".to_owned(),
     };
     let unconfirmed = [("lower", low), ("upper", high)]
         .into_iter()
@@ -316,7 +320,7 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     format!("stands {}{unconfirmed}", range(parameter, low, high))
 }
 
-/// The values between two ends in words.
+/// Describes the values between two ends.
 fn range(parameter: Parameter, low: &End, high: &End) -> String {
     // Leave out a lower end of 0 for a parameter that cannot be negative.
     let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
@@ -343,14 +347,14 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
         }
         (None, Some(high)) => format!("up to {}", value(high)),
         (Some(low), None) => format!("at {} and more", value(low)),
-        // Two ends with the same text are one value at the printed precision.
+        // Ends with the same text are one value at the printed precision.
         (Some(low), Some(high)) if value(low) == value(high) => format!("only at {}", value(low)),
         (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
     }
 }
 
-/// What a frame that falls lacks, as far as its margins were computed: `falls: carries 33 % of its load`. `None` for a frame
-/// that does not fall, and where no margin says more than the verdict.
+/// Describes how far a falling frame is from standing: `falls: carries 33 % of its load`. `None` if the frame does
+/// not fall, or if no computed margin says more than the verdict.
 pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     if found.verdict != Verdict::Unstable {
         return None;
@@ -363,7 +367,8 @@ pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     Some(format!("falls: {lack}"))
 }
 
-/// How much of its loads a frame carries, or how much more it needs, where the present loads let it fall.
+/// Describes which share of its loads a frame carries, or which factor on its loads it needs. `None` if neither is
+/// known.
 fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     let loads = match scene.loads.len() {
         1 => "load",
@@ -371,7 +376,7 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     };
     let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
     match (low, high) {
-        // Rounded down: so much it carries.
+        // Round down: the frame carries at least this share.
         (_, Some(high)) if high < 1.0 => {
             let share = libm::floor(100.0 * high + 1e-4);
             Some(match share >= 1.0 {
@@ -384,7 +389,8 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     }
 }
 
-/// The friction coefficient with which a frame would stand, where its own is too small.
+/// Describes the friction coefficient with which a frame would stand. `None` if its own friction is large enough, or
+/// if no value is known.
 fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(found)?;
     match interval {
@@ -398,12 +404,12 @@ fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     }
 }
 
-/// A number above 0 to two decimals, rounded up: with it the frame stands.
+/// Writes a positive number with two decimals, rounded up, so that the frame stands with it.
 fn above(value: f64) -> String {
     format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
 }
 
-/// The margins of a frame, one line each, the headline first. Remarks follow.
+/// Describes the margins of a frame, one line each, the headline margin first. Notes follow.
 pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, found);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());

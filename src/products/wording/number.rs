@@ -5,7 +5,7 @@ use crate::geometry::{Point, Vector};
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// A value with three significant digits, an SI prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
+/// Writes a value with three significant digits, an SI prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
 pub fn quantity(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 {
@@ -14,14 +14,15 @@ pub fn quantity(value: f64, unit: &str) -> String {
             format!("unlimited {unit}")
         };
     }
-    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. The factor lifts values that solver
-    // noise (below 1e-9) has put just under a tie, so that equal forces get equal digits.
+    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. A rounding error of the solver
+    // (below 1e-9) may lie on either side of a tie. The factor moves values just below a tie above it, so that equal
+    // forces get equal digits.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
     let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
-    // From 0.01 to 1 use no prefix: 0.05 N is easier to compare with 3 N than 50 mN.
+    // Values from 0.01 to 1 have no prefix: 0.05 N is easier to compare with 3 N than 50 mN.
     if (-2..0).contains(&exponent) {
         let digits = mantissa.replace('.', "");
         let zeros = "0".repeat((-1 - exponent) as usize);
@@ -61,20 +62,21 @@ fn superscript(value: i32) -> String {
     value.to_string().chars().map(raised).collect()
 }
 
-/// The norm and direction of a force: `7.1 N at 30°`, anticlockwise from the positive x axis.
+/// Writes the norm and direction of a force: `7.1 N at 30°`, anticlockwise from the positive x axis.
 pub fn force(force: Vector) -> String {
     // Round before reducing to 0 … 359, so that an angle just below 0 gives 0° and neither −0° nor 360°.
     let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
     format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
 
-/// An angle in degrees with two digits: `5.3°`, `12°`.
+/// Writes an angle in degrees with two digits: `5.3°`, `12°`.
 pub fn degrees(angle: f64) -> String {
     let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
     format!("{angle:.decimals$}°")
 }
 
-/// A ratio in whole percent: `97 %`. Only a ratio of at least [`FULL`] gives 100 %, and only one of at most 1 − `FULL` 0 %.
+/// Writes a ratio in whole percent: `97 %`. Ratios of at least [`FULL`] give `100 %`, and ratios of at most 1 −
+/// `FULL` give `0 %`. Between them are `over 99 %` and `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;
@@ -86,10 +88,10 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// Ratios above this count as 100 %: the difference is solver noise.
+/// Ratios of at least this count as 100 %: the difference is a rounding error of the solver.
 pub const FULL: f64 = 1.0 - 1e-6;
 
-/// A number and its noun: `1 hinge`, `2 hinges`.
+/// Writes a number and a noun: `1 hinge`, `2 hinges`.
 pub fn counted(count: usize, what: &str) -> String {
     if count == 1 {
         format!("1 {what}")
@@ -98,7 +100,7 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is at most `value`; 0 if there is none.
+/// Returns the largest number at most `value` that is 1, 2 or 5 times a power of ten; 0 if there is none.
 pub fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 0.0;
@@ -122,7 +124,7 @@ pub fn listed(parts: &[String]) -> String {
     }
 }
 
-/// The letter of a panel, counted from 0: a … z, then aa, ab ….
+/// Returns the letter of a panel, counted from 0: a … z, then aa, ab ….
 pub fn letter(number: usize) -> String {
     let mut rest = number + 1;
     let mut letters = Vec::new();
@@ -134,7 +136,7 @@ pub fn letter(number: usize) -> String {
     letters.iter().rev().collect()
 }
 
-/// Four significant digits without trailing zeros, for columns of numbers of one unit.
+/// Writes a number with four significant digits, without trailing zeros.
 pub fn digits(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -143,7 +145,7 @@ pub fn digits(x: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{x:.3e}");
     }
-    // The exponent of the first digit. Three more digits follow it.
+    // `first` is the exponent of the first digit; three more digits follow.
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
     let text = format!("{x:.decimals$}");
@@ -154,7 +156,7 @@ pub fn digits(x: f64) -> String {
     }
 }
 
-/// Three significant digits, with trailing zeros: `2.40`, `0.334`, `12.0`.
+/// Writes a number with three significant digits, with trailing zeros: `2.40`, `0.334`, `12.0`.
 pub fn three(x: f64) -> String {
     if x == 0.0 || !(1e-4..1e5).contains(&x.abs()) {
         return digits(x);
@@ -165,7 +167,8 @@ pub fn three(x: f64) -> String {
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
-/// One unit for a column of numbers up to `largest`: the unit with its SI prefix, and the factor for the numbers.
+/// Chooses one unit for a column of numbers up to `largest`. Returns the unit with its SI prefix, and the factor for
+/// the numbers.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     let (prefix, factor) = match largest {
         x if x >= 2e9 => ("G", 1e-9),
@@ -176,7 +179,7 @@ pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     (format!("{prefix}{unit}"), factor)
 }
 
-/// One significant digit, for orders of magnitude: `3e-12`.
+/// Writes a number with one significant digit, for orders of magnitude: `3e-12`.
 pub fn rough(x: f64) -> String {
     if x == 0.0 {
         "0".into()
@@ -185,12 +188,12 @@ pub fn rough(x: f64) -> String {
     }
 }
 
-/// A ratio in percent with one decimal: `66.7 %`.
+/// Writes a ratio in percent with one decimal: `66.7 %`.
 pub fn tenths(share: f64) -> String {
     format!("{} %", digits((share * 1000.0).round() / 10.0))
 }
 
-/// A time in ms or s with four digits.
+/// Writes a time in ms or s with four digits.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{} ms", digits(seconds * 1e3))
@@ -199,7 +202,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A point in metres: `(2, 1.5) m`.
+/// Writes a point in metres: `(2, 1.5) m`.
 pub fn place(p: Point) -> String {
     format!("({}, {}) m", digits(p.x), digits(p.y))
 }

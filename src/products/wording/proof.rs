@@ -3,7 +3,7 @@
 use super::number::{digits, rough};
 use crate::analysis::Proof;
 
-/// A short description of a proof, for one line of a table.
+/// Describes a proof in a few words, for one line of a table.
 pub fn short(proof: Proof) -> String {
     match proof {
         Proof::Forces {
@@ -27,7 +27,7 @@ pub fn short(proof: Proof) -> String {
     }
 }
 
-/// The numbers of a proof, each with a label.
+/// Returns the numbers of a proof, each with a label.
 pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     match proof {
         Proof::Forces {
@@ -54,7 +54,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
             worst_violation,
         } => vec![
             (
-                "power of the loads along the motion, relative to the loads that move",
+                "power of the loads along the motion, relative to the loads of the moving blocks",
                 digits(power),
             ),
             (
@@ -62,7 +62,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
                 rough(worst_violation),
             ),
             (
-                "lower bound on the sum of balancing forces, relative to the loads that move",
+                "lower bound on the sum of balancing forces, relative to the loads of the moving blocks",
                 match proof.excluded_force_sum() {
                     sum if sum.is_finite() => rough(sum),
                     _ => "unbounded".into(),
@@ -100,7 +100,7 @@ pub fn sentence(proof: Proof) -> String {
         Proof::Mechanism { .. } => {
             let ruled_out = match proof.excluded_force_sum() {
                 sum if sum.is_finite() => format!(
-                    "so no forces balance the structure if their sum is less than {} times the loads that move",
+                    "so no forces balance the structure if their sum is less than {} times the loads of the moving blocks",
                     rough(sum)
                 ),
                 _ => "so no forces balance the structure, however large".into(),

@@ -10,12 +10,13 @@ const MAX_FAILURES_IN_SENTENCE: usize = 4;
 /// The line below a figure has less space, and names at most this many.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
-/// The word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Readers see `plain` and `counted`.
+/// Returns the word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Text for people uses [`plain`]
+/// and [`counted`].
 pub fn word(verdict: Verdict) -> &'static str {
     verdict.word()
 }
 
-/// The word for a verdict in tables, figures and sentences: `stands`, `falls`, `undecided`.
+/// Returns the word for a verdict in tables, figures and sentences: `stands`, `falls`, `undecided`.
 pub fn plain(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "stands",
@@ -24,7 +25,7 @@ pub fn plain(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A number of frames or scenes and their verdict: `1 stands`, `3 fall`.
+/// Writes a number of frames or scenes with their verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {
         (Verdict::Stable, 1) => "stands",
@@ -36,7 +37,8 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
     format!("{count} {word}")
 }
 
-/// A short reason why a frame does not stand, for the line below a figure. Empty if it stands.
+/// Describes briefly why a frame does not stand, or that it stands only by wedging, for the line below a figure.
+/// Empty if it stands otherwise.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut sentences = Vec::new();
     sentences.extend(unsupported_phrase(scene, found));
@@ -59,7 +61,8 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-/// The reasons why a frame does not stand, as clauses of a sentence. Empty if it stands.
+/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty if it
+/// stands otherwise.
 pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, found));
@@ -78,7 +81,7 @@ pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
     parts.join("; ")
 }
 
-/// A sentence with the verdict and its reasons, for readers who do not program.
+/// Writes a sentence with the verdict and its reasons, for readers who do not program.
 pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     match found.verdict {
         Verdict::Stable if found.only_by_wedging == Some(true) => {

@@ -17,13 +17,13 @@ impl Affine {
         Affine([x, 0.0, 0.0, y, 0.0, 0.0])
     }
 
-    /// A rotation from the x axis towards the y axis; exact at multiples of 90°.
+    /// Makes a rotation from the x axis towards the y axis. It is exact at multiples of 90°.
     pub(super) fn rotation(degrees: f64) -> Affine {
         let (sin, cos) = sin_cos_degrees(degrees);
         Affine([cos, sin, -sin, cos, 0.0, 0.0])
     }
 
-    /// The composition: `inner` first, then this map.
+    /// Returns the composition: `inner` is applied first, then this map.
     pub(super) fn after(&self, inner: &Affine) -> Affine {
         let [a, b, c, d, e, f] = inner.0;
         let (x, y) = (

@@ -4,15 +4,15 @@ use serde_json::{Map, Value};
 
 use crate::geometry::{Bounds, Point};
 
-/// Real drawings lie near their origin. Coordinates that are farther from it than this, relative to their own extent, are
-/// taken for places on the globe if they are in its range.
+/// Drawings usually lie near their origin. Coordinates count as places on the globe if their distance from the
+/// origin, relative to their extent, exceeds this, and if they are in the range of degrees.
 const FAR_FROM_ORIGIN: f64 = 20.0;
 /// A structure on the globe extends at most this many degrees, about 100 km.
 const MAX_EXTENT: f64 = 1.0;
 /// Collections are not nested deeper.
 const MAX_DEPTH: usize = 50;
 
-/// The reason why the coordinates are taken for degrees, with the remedy; `None` if they are lengths.
+/// Returns the reason why the coordinates count as degrees, with the remedy; `None` if they count as lengths.
 pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let remedy = "drystone needs lengths: draw the structure in its own plane, or project it first, for example with \
         ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, say so with --unit m";
@@ -60,7 +60,7 @@ fn collect(object: &Map<String, Value>, depth: usize, points: &mut Vec<Point>) {
     }
 }
 
-/// The points in nested lists. The parser limits their depth.
+/// Adds the points in nested lists to `points`. The parser limits the depth of the lists.
 fn numbers(value: &Value, points: &mut Vec<Point>) {
     let Some(list) = value.as_array() else { return };
     let number = |i: usize| list.get(i).and_then(Value::as_f64);

@@ -31,7 +31,7 @@ pub(super) struct Part {
     pub(super) kind: Role,
     /// The name in the drawing, possibly empty or a duplicate.
     pub(super) name: String,
-    /// A description with which the user finds the element in the drawing.
+    /// A description by which the user finds the element in the drawing.
     pub(super) element: String,
     pub(super) form: Form,
     pub(super) fill: Option<[u8; 3]>,
@@ -73,7 +73,8 @@ pub(super) struct Values {
 }
 
 impl Role {
-    /// The role that a name asks for by its beginning, in upper or lower case.
+    /// Returns the role that the beginning of a name gives to an element, in upper or lower case; `None` if it gives
+    /// no role.
     pub(super) fn from_name(name: &str) -> Option<Role> {
         let begins = |with: &str| {
             name.get(..with.len())

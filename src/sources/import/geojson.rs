@@ -8,7 +8,8 @@ use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
-/// Reads a GeoJSON text.
+/// Reads a GeoJSON text. `scale` is in metres per unit. Coordinates that look like degrees are refused unless the
+/// scale is given.
 ///
 /// # Errors
 /// The reason why the text cannot be read as GeoJSON.
@@ -177,7 +178,7 @@ impl Reader<'_> {
         about
     }
 
-    /// A physical value of a feature. A value that is not a number is reported.
+    /// Reads a physical value of a feature; `None` if it is missing. A value that is not a number is reported.
     fn number(
         &mut self,
         properties: &Map<String, Value>,

@@ -1,8 +1,8 @@
 //! Limits for drawings with too many overlapping outlines.
 //!
-//! Tests for contact, holes and overlap compare pairs of outlines. For blocks side by side, an index finds the few pairs
-//! that matter. A thousand outlines in one place are half a million pairs, and not a structure. Such drawings are refused
-//! before the comparisons begin.
+//! Tests for contact, holes and overlap compare pairs of outlines. For blocks that lie next to each other, an index
+//! finds the few pairs that matter. A thousand outlines in one place are half a million pairs, and they are not a
+//! structure. Such drawings are refused before the comparisons begin.
 
 use super::Remark;
 use crate::geometry::Bounds;
@@ -17,7 +17,8 @@ const MAX_PAIRS_PER_BODY: usize = 10;
 /// The largest number of comparisons of a corner with an edge for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
-/// The reason why a drawing is refused, if it exceeds a limit. `boxes` are those of the blocks and of the parts of the ground.
+/// Returns the reason why a drawing is refused; `None` if it is within the limits. `boxes` are the bounding boxes of
+/// the blocks, and those of the parts of the ground.
 pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
     let count: usize = boxes.iter().map(Vec::len).sum();
     if count > MAX_BODIES {
@@ -33,7 +34,7 @@ pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
     })
 }
 
-/// The remark about a drawing with too many outlines.
+/// Makes the remark about a drawing with too many outlines.
 pub(super) fn too_many(count: usize) -> Remark {
     Remark {
         element: String::new(),
@@ -44,7 +45,7 @@ pub(super) fn too_many(count: usize) -> Remark {
     }
 }
 
-/// Whether the outlines of one path have too many corners to find the holes among them.
+/// True if the outlines of one path have too many corners to search them for holes.
 pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
     let mut boxes: Vec<(Bounds, usize)> = rings
         .iter()
@@ -66,11 +67,11 @@ pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
             }
         }
     }
-    // `regions` compares the boxes of all pairs.
+    // `regions` compares the bounding boxes of all pairs.
     rings.len().saturating_mul(rings.len()) > MAX_COMPARISONS
 }
 
-/// The number of pairs of boxes with a common area. Counting stops at `max` + 1.
+/// Counts the pairs of boxes with a common area. Counting stops at `max` + 1.
 fn pairs(mut boxes: Vec<Bounds>, max: usize) -> usize {
     boxes.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
     let mut count = 0;

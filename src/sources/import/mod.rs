@@ -41,8 +41,8 @@ use naming::Naming;
 use outline::Outlines;
 use scale::Scale;
 
-/// The default for chords and gaps, relative to the size of the drawing: about a pixel on a screen, what a person cannot
-/// draw more accurately by hand.
+/// The default for chords and gaps, relative to the size of the drawing: about a pixel on a screen. Nobody draws more
+/// accurately by hand.
 const LENGTH_TOL: f64 = 1e-3;
 /// The default gap relative to the thinnest body. Both faces of a body may move, so the body keeps half its thickness.
 const MAX_GAP_TO_THICKNESS: f64 = 0.25;
@@ -71,7 +71,8 @@ pub struct Options {
     /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit that the
     /// drawing states; a drawing that states no unit needs `scale` too.
     pub ratio: Option<f64>,
-    /// Names of layers and elements that are ground, besides those that begin with `ground`. Upper and lower case are the same.
+    /// Names of further layers and elements that are ground; names that begin with `ground` always are. Upper and
+    /// lower case are equal.
     pub ground_layers: Vec<String>,
     /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
@@ -146,8 +147,8 @@ pub struct DrawingProblems {
 /// becomes the origin.
 ///
 /// # Errors
-/// If the text does not have the format, if no element is a block, if blocks overlap, or if [`Scene::from_json`] reports
-/// another problem.
+/// If an option is not valid, if the text does not have the format, if no element is a block, if blocks overlap, or
+/// if [`Scene::from_json`] reports another problem.
 ///
 /// # Example
 /// ```
@@ -230,7 +231,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
     Ok(draft)
 }
 
-/// Step 1.
+/// Performs step 1: reads the drawing with the given rules for names.
 fn read_draft(
     text: &str,
     format: Format,
@@ -258,7 +259,7 @@ fn read_draft(
     }
 }
 
-/// At most eight names with commas between them.
+/// Lists at most eight names, and counts the others.
 fn listed(names: &[String]) -> String {
     let shown: Vec<&str> = names.iter().take(8).map(String::as_str).collect();
     match names.len() - shown.len() {
@@ -292,7 +293,8 @@ fn option_problems(options: &Options) -> Vec<Remark> {
     problems
 }
 
-/// The reason why outlines are no structure: there is no block, or too many outlines overlap.
+/// Returns the reason why the outlines are not a structure: there is no block, or too many outlines overlap. `None`
+/// if they are one.
 fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         return Some(Remark {
@@ -304,7 +306,7 @@ fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     limit::problem([Role::Block, Role::Ground].map(|kind| outlines.boxes(kind)))
 }
 
-/// Steps 2 to 6: makes a scene from a draft.
+/// Performs steps 2 to 6: makes a scene from a draft.
 fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
@@ -336,8 +338,8 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     let text = scene.to_json();
-    // Blocks were snapped together, so an overlap that remains is a mistake in the drawing: check the scene again with the
-    // tolerance as a hard limit.
+    // Blocks were snapped together, so a remaining overlap is an error of the drawing. Check the scene again, with
+    // the tolerance as a strict limit.
     let read = Scene::from_json(&text).and_then(|read| match read.penetrations.is_empty() {
         true => Ok(read),
         false => Scene::from_json_within(&text, Some(read.tolerance.gap)),

@@ -7,14 +7,14 @@ use super::outline::Outlines;
 
 /// The names of bodies and robots in the scene and in messages.
 pub(super) struct Names {
-    /// One per body: a block's id, `ground[0]` for a part of the ground.
+    /// One name for each body: the id of a block, or `ground[0]` for a part of the ground.
     pub(super) bodies: Vec<String>,
     pub(super) robots: Vec<String>,
 }
 
-/// Unique names. A duplicate gets a number after its name, and a body without a name is named by its number.
+/// Makes unique names. A duplicate gets a number after its name. The name of a body without a name is its number.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
-    // The name "ground" is reserved: results use it for the ground.
+    // The name "ground" is reserved, because results use it for the ground.
     let mut taken = Taken::with("ground");
     let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
@@ -43,7 +43,7 @@ pub(super) fn unique_names(outlines: &Outlines) -> Names {
 #[derive(Default)]
 struct Taken {
     names: BTreeSet<String>,
-    /// The next number to try for each stem. Smaller numbers are taken, so that naming n twins takes n steps.
+    /// The next number to try for each stem. Smaller numbers are taken. Naming n duplicates therefore takes n steps.
     last: BTreeMap<String, usize>,
 }
 
@@ -55,7 +55,7 @@ impl Taken {
         }
     }
 
-    /// The name with the first number, at least `from`, that is neither taken nor a name in the drawing.
+    /// Returns `stem` with the first number, at least `from`, for which the name is neither taken nor in the drawing.
     fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
         let last = self.last.entry(stem.to_owned()).or_default();
         let mut number = from.max(*last);

@@ -1,11 +1,11 @@
-//! [`Naming`]: what the names in a drawing make of its elements.
+//! [`Naming`]: decides by their names which elements of a drawing are ground, robots or ignored.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use super::draft::Role;
 
-/// Words that usually name the ground, in lower case. They count only in a drawing that names no ground otherwise.
+/// Words that usually name the ground, in lower case. They are used only for drawings without other ground.
 const GROUND_WORDS: [&str; 21] = [
     "abutment",
     "abutments",
@@ -32,14 +32,14 @@ const GROUND_WORDS: [&str; 21] = [
 /// The largest number of names that are kept for messages.
 const MAX_KEPT: usize = 1000;
 
-/// What the names in a drawing make of its elements.
+/// The rules that give roles to elements by their names.
 #[derive(Debug, Default)]
 pub(super) struct Naming<'o> {
-    /// Layers and elements that the user calls ground.
+    /// Names of layers and elements that are ground by an option.
     pub(super) ground: &'o [String],
-    /// Whether words such as "abutment" make an element ground.
+    /// Whether a name such as "abutment" makes an element ground.
     pub(super) guess: bool,
-    /// The names that became ground because of `ground` or a guess, and all names.
+    /// The names that became ground because of `ground` or a guess.
     made_ground: RefCell<BTreeSet<String>>,
     seen: RefCell<BTreeSet<String>>,
 }
@@ -53,7 +53,7 @@ impl<'o> Naming<'o> {
         }
     }
 
-    /// The role that a name asks for; `None` if the name says nothing.
+    /// Returns the role that a name gives to an element; `None` if it gives no role.
     pub(super) fn role(&self, name: &str) -> Option<Role> {
         let name = name.trim();
         keep(&self.seen, name);
@@ -64,17 +64,17 @@ impl<'o> Naming<'o> {
         Role::from_name(name)
     }
 
-    /// The names that became ground because the user or a guess says so, in alphabetical order.
+    /// Returns the names that became ground by an option or a guess, in alphabetical order.
     pub(super) fn made_ground(&self) -> Vec<String> {
         self.made_ground.borrow().iter().cloned().collect()
     }
 
-    /// The names of the drawing, in alphabetical order.
+    /// Returns the names of the drawing, in alphabetical order.
     pub(super) fn seen(&self) -> Vec<String> {
         self.seen.borrow().iter().cloned().collect()
     }
 
-    /// The layers given by the user that the drawing does not have.
+    /// Returns the names in `ground` that the drawing does not have.
     pub(super) fn missing(&self) -> Vec<&'o String> {
         let made = self.made_ground.borrow();
         let is_missing = |wanted: &&String| !made.iter().any(|name| same(wanted, name));
@@ -89,12 +89,12 @@ fn keep(names: &RefCell<BTreeSet<String>>, name: &str) {
     }
 }
 
-/// Whether two names are equal in upper or lower case.
+/// True if two names are equal, apart from upper and lower case.
 fn same(a: &str, b: &str) -> bool {
     a.trim().to_lowercase() == b.trim().to_lowercase()
 }
 
-/// Whether a name is a word for the ground, possibly with a number or a side after it: `Abutments`, `support_2`.
+/// True if a name is a word for the ground, perhaps followed by a number or other words: `Abutments`, `support_2`.
 fn is_ground_word(name: &str) -> bool {
     let name = name.to_lowercase();
     GROUND_WORDS.iter().any(|word| {

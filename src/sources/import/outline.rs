@@ -35,8 +35,8 @@ pub(super) struct Robot {
     pub(super) at: Point,
 }
 
-/// The size of the drawing: the diagonal of the bounding box of all blocks, in metres. Removes parts with coordinates that
-/// are too large or not numbers.
+/// Returns the size of the drawing: the diagonal of the bounding box of all blocks, in metres. Removes parts with
+/// coordinates that are too large or not numbers.
 pub(super) fn size(draft: &mut Draft) -> f64 {
     let hull = |part: &Part| match &part.form {
         Form::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
@@ -69,7 +69,8 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
 }
 
 impl Outlines {
-    /// Flattens the parts of a draft and splits them into regions.
+    /// Flattens the parts of a draft and splits them into regions. `flatten` is the largest distance of a chord from
+    /// its curve, and `close` the largest gap of an outline that is closed, in metres.
     pub(super) fn new(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
         let mut outlines = Outlines {
             bodies: Vec::new(),
@@ -128,7 +129,8 @@ impl Outlines {
         }
     }
 
-    /// The thickness of the thinnest body in metres: that of a long strip with the same area and perimeter, 2 A / P.
+    /// Returns the thickness of the thinnest body in metres. The thickness is 2 A / P, as of a long strip with this
+    /// area and perimeter.
     pub(super) fn thinnest(&self) -> f64 {
         let thickness = |body: &Body| {
             let polygon = polygon(&body.rings).ok()?;
@@ -139,7 +141,7 @@ impl Outlines {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// The bounding boxes of the blocks, or of the parts of the ground.
+    /// Returns the bounding boxes of the blocks, or of the parts of the ground.
     pub(super) fn boxes(&self, kind: Role) -> Vec<Bounds> {
         let bodies = self.bodies.iter().filter(|b| b.kind == kind);
         bodies
@@ -147,7 +149,7 @@ impl Outlines {
             .collect()
     }
 
-    /// The number of parts of the ground.
+    /// Returns the number of parts of the ground.
     pub(super) fn ground(&self) -> usize {
         self.bodies
             .iter()
@@ -155,7 +157,7 @@ impl Outlines {
             .count()
     }
 
-    /// A problem of the scene as a remark about the element of the drawing.
+    /// Converts a problem of the scene to a remark about the element of the drawing.
     pub(super) fn located(&self, problem: &Problem) -> Remark {
         let ground = self.ground();
         let number = |list: &str| -> Option<usize> {
@@ -172,7 +174,7 @@ impl Outlines {
                 .and_then(|i| self.robots.get(i))
                 .map(|r| r.element.clone())
         };
-        // The user does not know the numbers of the ground: replace `ground[2]` by the name of its element.
+        // The user does not know the numbers of the ground, so `ground[2]` is replaced by the name of its element.
         let mut message = String::new();
         let mut segments = problem.message.split("ground[");
         message.extend(segments.next());
@@ -192,7 +194,7 @@ impl Outlines {
     }
 }
 
-/// The closed outlines of a part. Open outlines are reported.
+/// Returns the closed outlines of a part. Open outlines are reported.
 fn closed_rings(
     draft: &mut Draft,
     part: &Part,
@@ -251,7 +253,7 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
 }
 
 impl Body {
-    /// Its polygon. [`Outlines::new`] has checked that it is valid.
+    /// Returns the polygon of the body. [`Outlines::new`] has checked that it is valid.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         polygon(&self.rings).ok()
     }

@@ -2,14 +2,14 @@
 //!
 //! 1. Sort the rings by area, so that a ring comes after all rings around it.
 //! 2. The winding number just outside a ring is the sum of the directions of the rings around it; inside, its own is added.
-//! 3. A ring with filled area inside only begins a region. A ring with filled area outside only is a hole of the innermost
-//!    region around it. Any other ring bounds nothing.
+//! 3. A ring begins a region if the area inside it is filled and the area outside is not. If only the area outside is
+//! filled, the ring is a hole of the innermost region around it. All other rings are ignored.
 
 use super::draft::FillRule;
 use crate::geometry::snap::{Corner, Rings, area};
 use crate::geometry::{Bounds, Point};
 
-/// The regions that rings enclose by a fill rule.
+/// Returns the regions that rings enclose by a fill rule: the outline and the holes of each.
 pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
     let filled = |winding: i64| match rule {
         FillRule::NonZero => winding != 0,
@@ -42,14 +42,14 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
                     kept[region].push(rings[i].clone());
                 }
             }
-            // Both sides are filled, or neither.
+            // Both sides are filled, or neither is: the ring is ignored.
             _ => {}
         }
     }
     kept
 }
 
-/// Whether a box is large enough to contain another, and meets it.
+/// True if the outer box is large enough to contain the inner one, and intersects it.
 fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     let (Some(outer), Some(inner)) = (outer, inner) else {
         return false;
@@ -57,8 +57,8 @@ fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     outer.intersects(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
 }
 
-/// Whether most corners of a ring are inside another ring: a single corner may lie on an edge of the other ring. The test
-/// counts crossings of a horizontal ray (even-odd).
+/// True if most corners of a ring are inside another ring; single corners may lie on an edge of the other ring. The
+/// test counts crossings of a horizontal ray (even-odd).
 fn lies_in(ring: &[Corner], other: &[Corner]) -> bool {
     let inside = |p: Point| {
         let mut odd = false;

@@ -1,8 +1,8 @@
-//! [`Scale`]: how many metres a unit of the drawing is.
+//! [`Scale`]: computes the length of a unit of the drawing in metres.
 
 use super::scene_file::six_digits;
 
-/// What the user says about the size of the drawing.
+/// The options for the size of the drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Scale {
     /// Metres per unit of the drawing.
@@ -12,10 +12,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Metres per unit, and the sentence that says why. `stated` is the unit that the drawing states, with the reason.
+    /// Returns metres per unit of the drawing, and a sentence with the reason. `stated` is the unit that the drawing
+    /// states, in metres, with the reason. `silent` is the reason if it states none.
     ///
     /// # Errors
-    /// A ratio does not say what a unit of the drawing is.
+    /// If only a ratio is given, and the drawing states no unit.
     pub(super) fn of(
         self,
         stated: Option<(f64, String)>,

@@ -14,7 +14,8 @@ use crate::scene::format::{
 /// times larger, so rounding opens no contact.
 const COORDINATE_STEP: f64 = 1e-9;
 
-/// The scene file. `given` contains the properties of the whole scene.
+/// Makes the scene file. `size` is the size of the drawing in metres. `given` contains the properties of the whole
+/// scene.
 pub(super) fn scene(
     outlines: &Outlines,
     names: &Names,
@@ -87,7 +88,7 @@ fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
     }
 }
 
-/// The robots, each with the block that contains its centre.
+/// Makes the robots, each with the block that contains its centre.
 fn robots(
     outlines: &Outlines,
     names: &Names,
@@ -141,12 +142,12 @@ fn material(fill: [u8; 3]) -> String {
     format!("fill-{}", &hex(fill)[1..])
 }
 
-/// A length with three significant digits.
+/// Writes a length with three significant digits.
 pub(super) fn short(x: f64) -> String {
     rounded(format!("{x:.2e}"))
 }
 
-/// A scale with six significant digits.
+/// Writes a scale with six significant digits.
 pub(super) fn six_digits(x: f64) -> String {
     rounded(format!("{x:.5e}"))
 }
@@ -162,10 +163,11 @@ struct Rounding {
 }
 
 impl Rounding {
-    /// Rounds to the largest power of ten that is at most `step`.
+    /// Rounds to multiples of the largest power of ten that is at most `step`, in metres.
     fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
-        // f64 has 16 digits: beyond 10^15 rounding would change nothing, and below 1 whole metres would be lost.
+        // Factors above 10^15 would change nothing, because f64 has 16 digits. Factors below 1 would round to more
+        // than a metre.
         let factor = if (0.0..=15.0).contains(&power) {
             libm::pow(10.0, power)
         } else {

@@ -1,4 +1,4 @@
-//! Snaps the bodies of a drawing together, so that blocks that were drawn side by side touch.
+//! Snaps the bodies of a drawing together, so that blocks that nearly touch do touch.
 
 use super::Snapped;
 use super::draft::{Draft, Role};
@@ -7,11 +7,11 @@ use super::outline::Outlines;
 use crate::geometry::snap::{self, Rings};
 use crate::geometry::{Bounds, Tolerance};
 
-/// More bodies than this share one remark.
+/// If there are more bodies than this, they share one remark.
 const MAX_LISTED_BODIES: usize = 12;
 
 impl Outlines {
-    /// Snaps edges and corners within `gap` together, and returns the bodies that moved.
+    /// Snaps edges and corners within `gap` metres together, and returns the bodies that moved.
     pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
         if !(gap > 0.0) {
             return Vec::new();
@@ -39,7 +39,7 @@ impl Outlines {
         snapped
     }
 
-    /// Remarks on the bodies that were left as drawn.
+    /// Adds remarks about the bodies that were left as drawn.
     fn remark_kept(&self, draft: &mut Draft, kept: &[usize]) {
         if kept.len() > MAX_LISTED_BODIES {
             let message = format!(
@@ -59,7 +59,7 @@ impl Outlines {
         }
     }
 
-    /// The depth of an overlap that a scene of these blocks tolerates, in metres.
+    /// Returns the depth of an overlap that a scene of these blocks tolerates, in metres.
     fn tolerance(&self) -> f64 {
         let boxes = self.boxes(Role::Block);
         let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();

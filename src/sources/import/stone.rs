@@ -3,10 +3,11 @@
 /// A material for a whole scene: `drystone import --material limestone`.
 ///
 /// # Sources
-/// Density: EN 1991-1-1:2002, table A.1 (concrete) and A.2 (natural stone), the middle of the range in kN/m³ divided by
-/// 9.81 m/s². Friction: the lower end of the dry range of the basic friction angle of sawn rock surfaces in Barton and Choubey,
-/// "The shear strength of rock joints in theory and practice", Rock Mechanics 10 (1977), pages 1 to 54; for concrete the smooth
-/// joint of EN 1992-1-1:2004, 6.2.5. Stones differ: measure the density and the friction if the answer depends on them.
+/// Density: EN 1991-1-1:2002, table A.1 (concrete) and A.2 (natural stone), the middle of the range in kN/m³ divided
+/// by 9.81 m/s². Friction: the lower end of the dry range of the basic friction angle of sawn rock surfaces in Barton
+/// and Choubey, "The shear strength of rock joints in theory and practice", Rock Mechanics 10 (1977), pages 1 to 54;
+/// for concrete the smooth joint of EN 1992-1-1:2004, 6.2.5. Stones differ: measure density and friction if the
+/// result depends on them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stone {
@@ -61,7 +62,7 @@ pub const STONES: [Stone; 6] = [
 ];
 
 impl Stone {
-    /// The material with this name, in upper or lower case.
+    /// Returns the material with this name, in upper or lower case.
     pub fn from_name(name: &str) -> Option<Stone> {
         let is_it = |stone: &&Stone| stone.name.eq_ignore_ascii_case(name.trim());
         STONES.iter().find(is_it).copied()

@@ -1,8 +1,9 @@
-//! [`Subpath`]: a connected sequence of lines and curves, and its flattening into corners.
+//! [`Subpath`]: a connected sequence of lines and curves, which can be flattened into corners.
 //!
-//! A curve is divided into equal steps of its parameter. The number of steps follows from a bound on the distance between
-//! chord and curve. Adaptive subdivision would need fewer steps, but equal steps give the same corners when the curve is
-//! drawn in the other direction, as in the outline of the neighbouring block. So both blocks keep touching everywhere.
+//! A curve is divided into equal steps of its parameter. The number of steps follows from a bound on the distance
+//! between chord and curve. Adaptive subdivision would need fewer steps. Equal steps give the same corners if the
+//! curve is drawn in the other direction, as in the outline of the neighbouring block. The two blocks therefore touch
+//! along the whole curve.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -31,8 +32,8 @@ pub(super) enum Segment {
     Arc(Arc),
 }
 
-/// An elliptical arc: `centre + u cos θ + v sin θ` for θ from `from` over `sweep`. `to` is the end as it was given, free of
-/// rounding.
+/// An elliptical arc: `centre + u cos θ + v sin θ` for θ from `from` over `sweep`. `to` is the end as it was given,
+/// without rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) centre: Point,
@@ -53,7 +54,7 @@ impl Subpath {
         })
     }
 
-    /// An ellipse parallel to the axes, starting at its rightmost point.
+    /// Makes an ellipse with axes parallel to x and y. It starts at the end of `rx` in the direction of x.
     pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Subpath {
         let start = centre + Vector::new(rx, 0.0);
         let arc = Arc {
@@ -92,7 +93,7 @@ impl Subpath {
         }
     }
 
-    /// The same curve from its end to its start.
+    /// Returns the same curve from its end to its start.
     pub(super) fn reversed(&self) -> Subpath {
         let mut ends = vec![self.start];
         ends.extend(self.segments.iter().map(Segment::end));
@@ -113,13 +114,13 @@ impl Subpath {
         }
     }
 
-    /// Whether it contains a curve.
+    /// True if it contains a curve.
     pub(super) fn has_curves(&self) -> bool {
         let straight = |segment: &Segment| matches!(segment, Segment::Line(_));
         !self.segments.iter().all(straight)
     }
 
-    /// Points whose bounding box contains the subpath.
+    /// Returns points whose bounding box contains the subpath.
     pub(super) fn hull(&self) -> Vec<Point> {
         let mut points = vec![self.start];
         for segment in &self.segments {
@@ -136,8 +137,8 @@ impl Subpath {
         points
     }
 
-    /// The corners after flattening: no chord is farther than `tolerance` from its curve. A last corner within `close` of the
-    /// first is merged with it. `None` if the subpath is open.
+    /// Returns the corners after flattening. No chord is farther than `tolerance` from its curve. A last corner
+    /// within `close` of the first corner is merged with it. `None` if the subpath is open.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
         let mut corners = vec![Corner {
             at: self.start,
@@ -172,12 +173,12 @@ impl Segment {
         }
     }
 
-    /// The corners between the ends of a segment.
+    /// Returns the corners between the ends of a segment that begins at `from`.
     fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
         match self {
             Segment::Line(_) => Vec::new(),
             Segment::Cubic(a, b, to) => {
-                // The distance of a chord over 1/n of the parameter is at most |second derivative| / 8n². The second
+                // A chord over 1/n of the parameter is at most |second derivative| / 8n² from the curve. The second
                 // derivative of a cubic is at most 6 times the larger second difference of its control points.
                 let bend = (a.coords * 2.0 - from.coords - b.coords)
                     .norm()
@@ -200,7 +201,7 @@ impl Segment {
                 } else {
                     FRAC_PI_2
                 };
-                // At most 45° per chord, so that a circle has at least 8 corners at any tolerance.
+                // A chord spans at most 45°, so that a circle has at least 8 corners at any tolerance.
                 let widest = (2.0 * half).min(TAU / 8.0);
                 let n = steps((arc.sweep.abs() / widest) * (1.0 - 1e-9));
                 let at = |k: f64| {
@@ -226,7 +227,8 @@ fn inner_steps(n: f64) -> impl Iterator<Item = f64> {
     (1..n as u32).map(f64::from)
 }
 
-/// Sine and cosine, exact at multiples of 90°. The tolerance 1e-12 allows for the rounding of angles from `atan2`.
+/// Returns sine and cosine, exact at multiples of 90°. The tolerance 1e-12 allows for rounding errors of angles from
+/// `atan2`.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / FRAC_PI_2;
     let whole = quarters.round();
@@ -241,7 +243,8 @@ fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// The largest radius of the ellipse `u cos θ + v sin θ`: the larger singular value of the matrix (u v).
+/// Returns the largest radius of the ellipse `u cos θ + v sin θ`, which is the larger singular value of the matrix (u
+/// v).
 fn largest_radius(u: Vector, v: Vector) -> f64 {
     let (sum, det) = (u.norm_squared() + v.norm_squared(), cross(u, v));
     let inner = (sum * sum - 4.0 * det * det).max(0.0).sqrt();

@@ -8,7 +8,7 @@ use crate::geometry::Point;
 /// The largest nesting depth of collections; deeper ones could overflow the stack.
 const MAX_DEPTH: usize = 50;
 
-/// Reads lines of well-known text. Lines that begin with `#` are comments.
+/// Reads lines of well-known text. `scale` is in metres per unit. Lines that begin with `#` are comments.
 pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     let mut draft = Draft::default();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

@@ -5,8 +5,8 @@ use crate::scene::format::{Pair, SceneFile};
 
 /// A semicircular arch of equal voussoirs on level ground.
 ///
-/// A thin one falls: with much friction, and as many voussoirs as one likes, it has to be 0.1075 times as thick as the
-/// radius of its middle line.
+/// A thin arch falls. With sufficient friction and many voussoirs, its thickness must be at least 0.1075 times the
+/// radius of its centre line.
 ///
 /// # Example
 /// ```
@@ -18,18 +18,18 @@ use crate::scene::format::{Pair, SceneFile};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arch {
-    /// How many voussoirs, at least 2.
+    /// The number of voussoirs, at least 2.
     pub voussoirs: usize,
     /// Clear width, metres.
     pub span: f64,
-    /// From the inner to the outer face, metres.
+    /// The thickness from the inner to the outer face, metres.
     pub thickness: f64,
     /// Friction coefficient.
     pub friction: f64,
 }
 
 impl Default for Arch {
-    /// 13 voussoirs over 4 m, 0.4 m thick, with a friction of 0.7: it stands.
+    /// Returns an arch of 13 voussoirs over 4 m, 0.4 m thick, with a friction coefficient of 0.7. It stands.
     fn default() -> Arch {
         Arch {
             voussoirs: 13,
@@ -41,12 +41,12 @@ impl Default for Arch {
 }
 
 impl Arch {
-    /// The scene file.
+    /// Makes the scene file.
     pub fn scene(&self) -> SceneFile {
         let (inner, outer) = (0.5 * self.span, 0.5 * self.span + self.thickness);
         let least = self.thickness.min(self.span);
         let joint = |number: usize, radius: f64| -> Pair {
-            // The springings are level to the last digit.
+            // The springings have exactly the same height.
             let angle = match number {
                 0 => return [rounded(-radius, least), 0.0],
                 n if n == self.voussoirs => return [rounded(radius, least), 0.0],

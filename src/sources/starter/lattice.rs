@@ -5,12 +5,13 @@ use crate::scene::format::{
     BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile,
 };
 
-/// A pile of triangular cells, point up and point down in turn, one row less at each level.
+/// A pile of triangular cells that point up and down alternately. Each row has one upward triangle fewer than the row
+/// below.
 ///
-/// Contacts on a lattice are decided in whole numbers, and coordinates are whole.
+/// Contacts on a lattice are computed exactly, from whole coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LatticePile {
-    /// How many rows; the lowest has as many triangles that stand on the ground.
+    /// The number of rows, which is also the number of triangles that stand on the ground.
     pub rows: usize,
     /// Edge length of a cell, metres.
     pub side: f64,
@@ -19,7 +20,7 @@ pub struct LatticePile {
 }
 
 impl Default for LatticePile {
-    /// 3 rows of cells of 1 m with a friction of 0.7: it stands.
+    /// Returns a pile of 3 rows of cells of 1 m, with a friction coefficient of 0.7. It stands.
     fn default() -> LatticePile {
         LatticePile {
             rows: 3,
@@ -30,7 +31,7 @@ impl Default for LatticePile {
 }
 
 impl LatticePile {
-    /// The scene file.
+    /// Makes the scene file.
     ///
     /// # Example
     /// ```
@@ -57,7 +58,7 @@ impl LatticePile {
                 });
             }
         }
-        // A strip of cells below y = 0, one cell wider than the pile at its right end.
+        // The ground is a strip of cells below y = 0, one cell wider than the pile at its right end.
         let strip = (0..=self.rows).flat_map(|x| [up(x, -1.0), down(x, 0.0)]);
         SceneFile {
             title: Some(format!("A pile of triangles in {} rows", self.rows)),

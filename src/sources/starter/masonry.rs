@@ -3,12 +3,12 @@
 use super::{STONE, block, floor, rectangle, rounded};
 use crate::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
 
-/// A wall in running bond, half bricks at its ends.
+/// A wall in running bond, with half bricks at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// How many courses.
+    /// The number of courses.
     pub courses: usize,
-    /// Bricks in a course.
+    /// The number of bricks in a course.
     pub bricks: usize,
     /// Length of a brick, metres.
     pub length: f64,
@@ -19,7 +19,7 @@ pub struct Wall {
 }
 
 impl Default for Wall {
-    /// 6 courses of 5 bricks, 0.25 m by 0.08 m each, with a friction of 0.7: it stands.
+    /// Returns a wall of 6 courses of 5 bricks, 0.25 m by 0.08 m each, with a friction coefficient of 0.7. It stands.
     fn default() -> Wall {
         Wall {
             courses: 6,
@@ -32,7 +32,7 @@ impl Default for Wall {
 }
 
 impl Wall {
-    /// The scene file.
+    /// Makes the scene file.
     ///
     /// # Example
     /// ```
@@ -48,7 +48,7 @@ impl Wall {
         let y = |course: usize| rounded(self.height * course as f64, least);
         let mut blocks = Vec::new();
         for course in 0..self.courses {
-            // Joints in half bricks from the left end.
+            // The positions of the joints, in half bricks from the left end.
             let joints: Vec<usize> = if course % 2 == 0 {
                 (0..=self.bricks).map(|i| 2 * i).collect()
             } else {
@@ -79,7 +79,7 @@ impl Wall {
 /// A stack of blocks, each shifted to the right relative to the one below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tower {
-    /// How many blocks.
+    /// The number of blocks.
     pub blocks: usize,
     /// Width of a block, metres.
     pub width: f64,
@@ -92,7 +92,8 @@ pub struct Tower {
 }
 
 impl Default for Tower {
-    /// 8 blocks of 1 m by 0.5 m, each 0.1 m to the right of the one below: it stands, by 0.025 m.
+    /// Returns a tower of 8 blocks of 1 m by 0.5 m, each 0.1 m to the right of the block below. It stands; the
+    /// largest possible shift is 0.125 m.
     fn default() -> Tower {
         Tower {
             blocks: 8,
@@ -105,7 +106,7 @@ impl Default for Tower {
 }
 
 impl Tower {
-    /// The scene file.
+    /// Makes the scene file.
     ///
     /// # Example
     /// ```
@@ -147,7 +148,7 @@ impl Tower {
 /// Two jambs and a lintel, built in three steps. A robot holds the free end of the lintel until the second jamb is placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doorway {
-    /// Blocks in each jamb.
+    /// The number of blocks in each jamb.
     pub courses: usize,
     /// Clear width, metres.
     pub width: f64,
@@ -162,7 +163,7 @@ pub struct Doorway {
 }
 
 impl Default for Doorway {
-    /// 1 m wide and 2 m high, with jambs of 4 blocks: every step stands.
+    /// Returns a doorway 1 m wide and 2 m high, with jambs of 4 blocks. Every step stands.
     fn default() -> Doorway {
         Doorway {
             courses: 4,
@@ -176,7 +177,7 @@ impl Default for Doorway {
 }
 
 impl Doorway {
-    /// The scene file.
+    /// Makes the scene file.
     ///
     /// # Example
     /// ```
@@ -238,7 +239,7 @@ impl Doorway {
         }
     }
 
-    /// The steps: the left jamb, then the lintel with the robot, then the right jamb.
+    /// Returns the steps: the left jamb, then the lintel with the robot, then the right jamb.
     fn steps(&self, grip: GripEntry) -> Vec<StepEntry> {
         let jamb = |side: &str| {
             let blocks = (0..self.courses).map(|i| jamb_block(side, i));
@@ -267,7 +268,7 @@ impl Doorway {
     }
 }
 
-/// The id of a block in a jamb: `left 1`.
+/// Returns the id of a block in a jamb: `left 1`.
 fn jamb_block(side: &str, course: usize) -> String {
     format!("{side} {}", course + 1)
 }

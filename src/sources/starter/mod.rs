@@ -17,7 +17,7 @@ use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 /// joint.
 const DIGITS: f64 = 4.0;
 
-/// Rounds a coordinate of a structure whose smallest length is `least` metres.
+/// Rounds a coordinate, in metres, of a structure whose smallest length is `least` metres.
 fn rounded(x: f64, least: f64) -> f64 {
     let decimals = DIGITS - 1.0 - libm::floor(libm::log10(least));
     let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
@@ -26,7 +26,7 @@ fn rounded(x: f64, least: f64) -> f64 {
     whole + 0.0
 }
 
-/// The rectangle between two opposite corners.
+/// Returns the rectangle between two opposite corners, in metres.
 fn rectangle(from: Pair, to: Pair) -> Vec<Pair> {
     vec![from, [to[0], from[1]], to, [from[0], to[1]]]
 }
@@ -39,7 +39,7 @@ fn block(id: String, polygon: Vec<Pair>) -> BlockEntry {
     }
 }
 
-/// Ground from `left` to `right`, its surface at y = 0, `depth` thick.
+/// Makes ground from `left` to `right` with its surface at y = 0, and `depth` metres thick.
 fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
     GroundEntry {
         polygon: Some(rectangle([left, -depth], [right, 0.0])),

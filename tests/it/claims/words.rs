@@ -315,10 +315,10 @@ fn what_nothing_carries_is_told_with_its_true_reason() {
     let table = tables(&[told]).remove(0);
     let says = |part: &str| table.lines().any(|line| line.trim() == part);
     assert!(
-        says("nothing carries a, b: no way from there to the ground or to a robot"),
+        says("nothing carries a, b: no contacts lead from there to the ground or to a robot"),
         "{table}"
     );
     let touches =
-        "nothing carries tip: where it touches or is held, nothing that sticks could stop it";
+        "nothing carries tip: even if all contacts and robots stuck, the fall would not stop";
     assert!(says(touches), "{table}");
 }

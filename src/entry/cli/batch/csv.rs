@@ -1,4 +1,4 @@
-//! The answers of a batch as CSV: one row for each frame, with the same columns in every file.
+//! Writes the answers of a batch as CSV: one row for each frame, with the same columns in every file.
 
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::result::Origin;
@@ -6,10 +6,10 @@ use crate::scene::Problem;
 use crate::text;
 use crate::wording::verdict::word;
 
-/// The first row. Forces are in newtons; a share of 1 is the whole of the friction or of a robot's limit.
+/// The first row. Forces are in newtons; a share of 1 is all of the available friction, or a robot at its limit.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 
-/// The rows of a scene.
+/// Writes the rows of a scene, one for each frame.
 pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     let scene = &analysis.scene;
     let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
@@ -35,7 +35,7 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     frames.map(row).collect()
 }
 
-/// The row of a scene that is wrong: its first problem.
+/// Writes the row of a scene that is not valid, with its first problem.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
     let words = problems.first().map_or(String::new(), |problem| {
         match (problem.line, problem.message.is_empty()) {

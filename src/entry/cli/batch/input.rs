@@ -19,7 +19,8 @@ pub(super) struct Inputs {
     pub bytes: Option<u64>,
 }
 
-/// Collects the inputs of some paths. If pictures are drawn, two inputs must not have pictures of the same name.
+/// Collects the inputs of some paths. If pictures are drawn, it refuses inputs whose pictures would have the same
+/// name.
 pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>> {
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
@@ -42,7 +43,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         return Err(complaints);
     }
     let sizes = files.iter().map(|path| match path == stdin {
-        // The file that a shell redirects to standard input has a size too, if the system has a path for it.
+        // A file that a shell redirects to standard input has a size too, if the system has a path for it.
         true => size(Path::new("/dev/stdin")),
         false => size(path),
     });
@@ -62,7 +63,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     })
 }
 
-/// The origin of a record: its file and line.
+/// Returns the origin of a record: its file and line.
 pub(super) fn origin(record: &Record) -> Origin {
     Origin {
         file: record.file.as_ref().map(|f| f.display().to_string()),
@@ -70,7 +71,7 @@ pub(super) fn origin(record: &Record) -> Origin {
     }
 }
 
-/// The place of a record in words, for messages.
+/// Describes the place of a record in messages.
 pub(super) fn shown(record: &Record) -> String {
     let file = match &record.file {
         Some(file) => file.display().to_string(),
@@ -82,7 +83,7 @@ pub(super) fn shown(record: &Record) -> String {
     }
 }
 
-/// The file name of a record's picture, without its ending.
+/// Returns the file name of a record's picture, without its ending.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);
     match (stem, record.line) {
@@ -104,7 +105,7 @@ fn size(path: &Path) -> Option<u64> {
         .map(|found| found.len())
 }
 
-/// Whether a file contains a single scene, and not one scene per line.
+/// True if a file contains a single scene, and not one scene per line.
 fn is_whole(path: &Path) -> bool {
     path.extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
@@ -116,7 +117,7 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// The path itself, or the scene files in the folder in the order of their names.
+/// Returns the path itself, or, for a folder, the scene files in it in the order of their names.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),

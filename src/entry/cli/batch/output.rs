@@ -39,8 +39,8 @@ pub(super) struct Target<'a> {
 }
 
 impl Output {
-    /// Opens standard output or a file. If an earlier run has written answers to the file, they are checked against the
-    /// scenes in `records`, and new answers follow them.
+    /// Opens standard output or a file. With `--resume`, the answers that an earlier run has written to the file are
+    /// checked against the scenes in `records`, and new answers follow them.
     pub fn open(
         target: &Target<'_>,
         inputs: &[PathBuf],
@@ -71,7 +71,7 @@ impl Output {
             output.waiting.extend_from_slice(csv::HEADER.as_bytes());
             return Ok(output);
         }
-        // A device or a pipe keeps nothing that a later run could continue.
+        // A device or a pipe does not keep the answers, so a later run cannot continue them.
         let is_kept = file.metadata().map_err(not_written)?.is_file();
         let log = match is_kept {
             true => Some(ResumeFile::create(path, &target.settings)?),
@@ -94,7 +94,7 @@ impl Output {
         }
     }
 
-    /// The number of lines that an earlier run has written.
+    /// Returns the number of lines that an earlier run has written.
     pub fn done(&self) -> usize {
         self.done
     }
@@ -121,7 +121,7 @@ impl Output {
         self.waiting.clear();
         match written.and_then(|()| self.stream.flush()) {
             Ok(()) => Ok(ControlFlow::Continue(())),
-            // A reader that closes the pipe has read enough. This is not an error.
+            // A reader closes the pipe when it has read enough, so this is not an error.
             Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => {
                 Ok(ControlFlow::Break(()))
             }

@@ -124,7 +124,7 @@ impl<'t> Pace<'t> {
     }
 }
 
-/// A duration in words.
+/// Describes a duration.
 fn span(seconds: f64) -> String {
     let whole = seconds.round().max(0.0) as u64;
     match (whole / 3600, whole / 60 % 60, whole % 60) {
@@ -138,7 +138,7 @@ fn span(seconds: f64) -> String {
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),
-        _ => Err("it is a time in seconds, from 0.01 to 86400".into()),
+        _ => Err("it must be a time in seconds, from 0.01 to 86400".into()),
     }
 }
 

@@ -1,9 +1,9 @@
 //! [`ResumeFile`]: a file next to the output that records the options and the scenes of its lines.
 //!
-//! The output keeps one line of JSON per scene and nothing else, so the record has a file of its own: `answers.ndjson` has
-//! `answers.ndjson.resume`. It begins with the options, one `name: value` per line, and an empty line. Each line after that
-//! holds two hashes in hexadecimal: that of a scene as it was read, and that of the line that answers it. `--resume` goes on
-//! only where all of them agree.
+//! The output contains only one line of JSON for each scene, so the record has a file of its own:
+//! `answers.ndjson.resume` for `answers.ndjson`. It begins with the options, one `name: value` per line, and an empty
+//! line. Each line after that has two hashes in hexadecimal: the hash of a scene as it was read, and the hash of the
+//! line that answers it. `--resume` continues only if all of them agree.
 
 use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
@@ -16,17 +16,17 @@ use crate::cli::complaint::CliError;
 use crate::result::Origin;
 use crate::text;
 
-/// What the path of an output gets at its end.
+/// The ending that is added to the path of an output.
 const ENDING: &str = ".resume";
 /// Bytes of an entry: two hashes of 16 digits, a space and a line feed.
 const ENTRY_BYTES: usize = 34;
 
-/// The options of a run that its answers depend on, each by name.
+/// The options on which the answers of a run depend: name and value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Settings(pub Vec<(&'static str, String)>);
 
 impl Settings {
-    /// The header of a resume file.
+    /// Writes the header of a resume file.
     fn header(&self) -> String {
         let mut header = String::new();
         for (name, value) in &self.0 {
@@ -36,7 +36,8 @@ impl Settings {
         header
     }
 
-    /// The differences from an earlier run, given by its header: a name, its earlier value and its present value.
+    /// Describes the differences from an earlier run, given by its header. Each has a name, the earlier value and the
+    /// present value.
     fn differences(&self, earlier: &str) -> Vec<String> {
         let value_then = |name: &str| {
             let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));
@@ -67,7 +68,7 @@ fn read_header(entries: &mut impl BufRead) -> Option<String> {
     }
 }
 
-/// The hash of a scene as it was read, or of the reason why it could not be read.
+/// Returns the hash of a scene as it was read, or of the reason why it could not be read.
 pub(super) fn record_hash(record: &Record) -> u64 {
     match &record.bytes {
         Ok(bytes) => text::hash(bytes),
@@ -85,7 +86,7 @@ pub(super) struct ResumeFile {
 }
 
 impl ResumeFile {
-    /// The path of the resume file of an output.
+    /// Returns the path of the resume file of an output.
     pub fn path_for(output: &Path) -> PathBuf {
         let mut path = output.as_os_str().to_owned();
         path.push(ENDING);
@@ -115,8 +116,8 @@ impl ResumeFile {
         let _ = writeln!(self.waiting, "{}", entry(scene, line));
     }
 
-    /// Writes the entries to the file. Call it before the answers themselves are written: then a run that is killed leaves
-    /// at least as many entries as answers.
+    /// Writes the entries to the file. Call it before the answers are written. A run that is killed then leaves at
+    /// least as many entries as answers.
     pub fn flush(&mut self) -> Result<(), CliError> {
         let written = self.file.write_all(self.waiting.as_bytes());
         self.waiting.clear();
@@ -124,7 +125,7 @@ impl ResumeFile {
     }
 }
 
-/// The entry of a line, without its line feed.
+/// Makes the entry of an output line, without a line feed.
 fn entry(scene: u64, line: &[u8]) -> String {
     format!("{scene:016x} {:016x}", text::hash(line))
 }
@@ -143,22 +144,22 @@ fn not_read(path: &Path, error: &io::Error) -> CliError {
     }
 }
 
-/// The answers that an output has already, checked against the scenes that they answer.
+/// The answers that an earlier run has written, checked against the scenes in the input.
 #[derive(Debug)]
 pub(super) struct Checked {
-    /// How many there are.
+    /// The number of answers.
     pub answers: usize,
-    /// Their bytes; what follows is a line cut short.
+    /// Their length in bytes; an incomplete line may follow.
     pub bytes: u64,
-    /// How many bytes of the resume file belong to them.
+    /// The length of the part of the resume file that belongs to them, in bytes.
     resume_bytes: u64,
 }
 
-/// Reads one scene from the input for each complete line of the output, and checks that they belong together. Changes no
-/// file.
+/// Reads one scene from the input for each complete line of the output, and checks that they belong together. It
+/// changes no file.
 ///
 /// # Errors
-/// What differs, with the remedy.
+/// The first difference, with the remedy.
 pub(super) fn check(
     output: &Path,
     settings: &Settings,
@@ -175,7 +176,7 @@ pub(super) fn check(
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(refuse(format!(
-                "{name} cannot be resumed: {}, which says what it was made from, is missing",
+                "{name} cannot be resumed: {}, which records its options and scenes, is missing",
                 path.display()
             )));
         }
@@ -220,7 +221,7 @@ pub(super) fn check(
         let number = checked.answers + 1;
         if entry_line.len() != ENTRY_BYTES {
             return Err(refuse(format!(
-                "{name} has more lines than drystone batch wrote: line {number} is the first of them"
+                "{name} has more lines than drystone batch wrote: line {number} is the first extra line"
             )));
         }
         let Some(record) = records.next() else {
@@ -237,13 +238,14 @@ pub(super) fn check(
     }
 }
 
-/// Checks that a line is the line that was written, and that it answers this scene. The error says what is wrong.
+/// Checks that a line is unchanged since it was written, and that it answers this scene. The error states the
+/// difference.
 fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
     let expected = entry(scene, line);
     let (expected, found) = (expected.as_bytes(), &entry_line[..ENTRY_BYTES - 1]);
     if found[16..] != expected[16..] {
-        return Err("is not the one that drystone batch wrote: it was changed".into());
+        return Err("is not the one that drystone batch wrote: it was changed later".into());
     }
     let now = input::origin(record);
     let then = Origin::of_line(line).unwrap_or_default();
@@ -276,7 +278,7 @@ fn cut(path: &Path, bytes: u64) -> io::Result<File> {
     Ok(file)
 }
 
-/// Whether the output contains lines that a run can continue.
+/// True if the output contains lines that a run can continue.
 pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
     match fs::metadata(output) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

@@ -103,6 +103,6 @@ pub(crate) struct Render {
 fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=600.0).contains(&seconds) => Ok(seconds),
-        _ => Err("it is a time in seconds, from 0.01 to 600".into()),
+        _ => Err("it must be a time in seconds, from 0.01 to 600".into()),
     }
 }

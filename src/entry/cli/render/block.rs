@@ -1,11 +1,11 @@
-//! Blocks that the command line names.
+//! Finds the blocks that the command line names.
 
 use super::Render;
 use crate::scene::{BlockId, Scene};
 use crate::text::nearest;
 
 impl Render {
-    /// The block that is cut free, and the last frame in which it stands.
+    /// Returns the last frame in which the block of the free-body diagram is placed, and the block.
     pub(super) fn cut_free(&self, scene: &Scene) -> Result<(usize, BlockId), String> {
         let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
         let Some(name) = &self.block else {
@@ -24,11 +24,11 @@ impl Render {
         let block = self.found(scene, name)?;
         match placed(block) {
             Some(frame) => Ok((frame, block)),
-            None => Err(format!("block {name} is not placed in the frames shown")),
+            None => Err(format!("block {name} is not placed in these frames")),
         }
     }
 
-    /// The block of a name.
+    /// Finds the block with a name.
     pub(super) fn found(&self, scene: &Scene, name: &str) -> Result<BlockId, String> {
         let number = scene.blocks.iter().position(|b| b.id == name);
         number.map(BlockId).ok_or_else(|| {

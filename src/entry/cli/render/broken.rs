@@ -1,4 +1,4 @@
-//! `drystone render --broken`: outlines with the problems of a refused scene marked.
+//! `drystone render --broken`: draws the outlines of a scene that is not valid, and marks its problems.
 
 use std::fs;
 use std::io::{self, Read};
@@ -18,7 +18,7 @@ use crate::output::fonts::Fonts;
 use crate::scene::Sketch;
 
 impl Render {
-    /// Draws the outlines of all scenes, writes them, and then complains of whatever is wrong with them.
+    /// Draws and writes the outlines of all scenes, and then returns their problems as errors.
     pub(super) fn sketched(
         &self,
         scenes: &[PathBuf],
@@ -61,7 +61,8 @@ impl Render {
         }
     }
 
-    /// Reads and draws one scene. The inner error is a fault of the program on this scene; the others can still be drawn.
+    /// Reads and draws one scene. The inner error means that the program itself failed on this scene; the others can
+    /// still be drawn.
     fn sketch(
         &self,
         path: &Path,
@@ -111,7 +112,7 @@ impl Render {
     }
 }
 
-/// A path for each scene; an empty one on standard output.
+/// Returns a path for each scene; the paths are empty for standard output.
 fn targets_of(paths: &[PathBuf], count: usize) -> Vec<PathBuf> {
     let mut paths = paths.to_vec();
     paths.resize(count, PathBuf::new());

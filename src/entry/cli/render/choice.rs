@@ -1,4 +1,4 @@
-//! The choices of `drystone render`, and what they are called in a figure.
+//! The choices of `drystone render`, and the corresponding options of a figure.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use clap::builder::PossibleValue;
 use crate::analysis::Toward;
 use crate::figure;
 
-/// What `--kind` names: one of the figure's kinds, or the diagram of a single block.
+/// The value of `--kind`: a kind of figure with panels, or the free-body diagram of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KindChoice {
     /// A figure with a panel for each frame.
@@ -31,7 +31,7 @@ impl ValueEnum for KindChoice {
             KindChoice::Panels(kind) => (kind.name(), kind.help()),
             KindChoice::Freebody => (
                 "freebody",
-                "One block cut free, with every force that may act on it by name",
+                "One block as a free body, with names for all forces that may act on it",
             ),
         };
         Some(PossibleValue::new(name).help(help))
@@ -81,7 +81,7 @@ pub(super) enum Margin {
 }
 
 impl KindChoice {
-    /// What the panels of the figure show; `None` for a free-body diagram, which has none.
+    /// Returns the kind of the panels; `None` for a free-body diagram, which has no panels.
     pub(super) fn panels(self) -> Option<figure::Kind> {
         match self {
             KindChoice::Panels(kind) => Some(kind),
@@ -89,7 +89,7 @@ impl KindChoice {
         }
     }
 
-    /// Whether the figure shows margins.
+    /// True if the figure shows margins.
     pub(super) fn needs_margins(self) -> bool {
         self.panels().is_some_and(figure::Kind::needs_margins)
     }

@@ -1,4 +1,4 @@
-//! Figures for a caller in the same process: the options of `render` as words, and an analysis that is there already.
+//! Draws figures for a caller in the same process, from the options of `render` as words and an existing analysis.
 
 use clap::Parser;
 
@@ -14,7 +14,7 @@ use crate::output::animation;
 use crate::output::fonts::Fonts;
 use crate::scene::Sketch;
 
-/// The options of `render` on a line of their own.
+/// The options of `render` without the program around them.
 #[derive(Debug, Parser)]
 #[command(name = "figure", disable_help_flag = true)]
 struct Line {
@@ -22,7 +22,7 @@ struct Line {
     render: Render,
 }
 
-/// The options, the format by its ending, and the fonts that they name.
+/// Parses the options. Returns them with the format of the file ending, and the fonts that they name.
 fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), String> {
     let output = format!("figure.{ending}");
     let head = ["figure", "scene.json", "-o", output.as_str()];
@@ -45,10 +45,11 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
     Ok((render, format, fonts))
 }
 
-/// The bytes of a figure, or of an animation where the words ask for one.
+/// Draws a figure, or an animation if `words` contains `--animate`, and returns its bytes. `words` are options of
+/// `render`, and `ending` selects the format.
 ///
 /// # Errors
-/// Words that `render` does not take, or a picture that cannot be written; in words.
+/// A message, if `render` does not accept the words, or if the picture cannot be written.
 pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result<Vec<u8>, String> {
     let (render, format, fonts) = parsed(words, ending)?;
     let drawn = || {
@@ -83,7 +84,7 @@ pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result
     drawn().map_err(|error| words_of(&error))
 }
 
-/// The bytes of the outlines of a refused scene, with its problems marked and numbered.
+/// Draws the outlines of a scene that is not valid, with its problems marked and numbered, and returns the bytes.
 ///
 /// # Errors
 /// As [`figure`].
@@ -98,7 +99,7 @@ pub(crate) fn sketch(words: &[String], ending: &str, text: &str) -> Result<Vec<u
     drawn().map_err(|error| words_of(&error))
 }
 
-/// A complaint without what is of use on a command line alone.
+/// Returns the message of an error, without the parts that are useful only on the command line.
 fn words_of(error: &CliError) -> String {
     let page = error.page(None);
     let text = page.text().trim_start_matches("error: ");

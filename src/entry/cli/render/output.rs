@@ -1,4 +1,4 @@
-//! What was rendered, and how it is written.
+//! Writes rendered figures.
 
 use std::path::{Path, PathBuf};
 
@@ -13,15 +13,16 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::wording::verdict::{counted, plain};
 
-/// A figure and what it shows.
+/// A figure, with the exit status and a summary of its scene.
 pub(super) struct Rendered {
-    /// One for each file; more than one where each panel has its own.
+    /// The content of each file; there are several if each panel has its own file.
     pub(super) bytes: Vec<Vec<u8>>,
     pub(super) ending: ExitStatus,
     pub(super) summary: String,
 }
 
-/// The results and the paths they are written to, where the program did not fail; its faults go to `faults`.
+/// Returns the results, and the paths to which they are written, without the scenes on which the program itself
+/// failed. These errors are added to `faults`.
 pub(super) fn without_faults(
     rendered: Vec<Result<Rendered, CliError>>,
     paths: Vec<PathBuf>,
@@ -30,7 +31,7 @@ pub(super) fn without_faults(
     let (mut results, mut targets) = (Vec::new(), Vec::new());
     let mut paths = paths.into_iter();
     for result in rendered {
-        // On standard output there is no path.
+        // There is no path for standard output.
         let path = paths.next();
         match result {
             Err(complaint) if complaint.is_internal_fault() => faults.push(complaint),
@@ -44,7 +45,7 @@ pub(super) fn without_faults(
 }
 
 impl Render {
-    /// Writes the pictures, all or none, and then a line about each scene.
+    /// Writes all pictures or none, and then prints a line about each scene.
     pub(super) fn write(
         &self,
         rendered: Vec<Rendered>,
@@ -76,7 +77,7 @@ impl Render {
         Ok(())
     }
 
-    /// The file of one part of a figure, counted from 0; the path itself if a figure is one file.
+    /// Returns the file for one part of a figure, counted from 0; the path itself if a figure is one file.
     fn target(&self, path: &Path, number: usize) -> PathBuf {
         if self.pages {
             part_path(path, &(number + 1).to_string())
@@ -88,7 +89,7 @@ impl Render {
     }
 }
 
-/// Every result, or every complaint.
+/// Returns all results, or all errors if there are any.
 pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
     let mut good = Vec::with_capacity(results.len());
     let mut complaints = Vec::new();
@@ -105,7 +106,7 @@ pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<Cl
     }
 }
 
-/// `6 frames: 5 stand, 1 falls`.
+/// Counts the verdicts of the frames: `6 frames: 5 stand, 1 falls`.
 pub(super) fn summary(analysis: &Analysis) -> String {
     let count = |verdict| {
         analysis

@@ -1,4 +1,4 @@
-//! Two scenes in one figure that compares them.
+//! Draws two scenes in one figure that compares them.
 
 use super::choice::KindChoice;
 use super::{Render, Rendered, summary};
@@ -14,14 +14,14 @@ use crate::output::fonts::Fonts;
 use std::sync::Arc;
 
 impl Render {
-    /// Whether two scenes become one figure that compares them.
+    /// True if two scenes become one figure that compares them.
     pub(super) fn joins(&self, scenes: usize, destination: &Destination) -> bool {
         self.kind == KindChoice::Panels(figure::Kind::Compare)
             && scenes == 2
             && !matches!(destination, Destination::Folder(_))
     }
 
-    /// The last frames of two scenes side by side, with what changed from the one to the other.
+    /// Draws the last frames of two scenes next to each other, with the changes between them.
     pub(super) fn compared(
         &self,
         sources: [&Source; 2],

@@ -1,4 +1,4 @@
-//! Where figures go: one file a scene, or one for each part of a figure.
+//! Chooses the files for figures: one for each scene, or one for each part of a figure.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::cli::destination::Destination;
 use crate::cli::picture::Format;
 use crate::cli::source::{name, stem};
 
-/// The path of a part of a figure: `name-a.svg` for `name.svg`.
+/// Returns the path of a part of a figure: `name-a.svg` for `name.svg`.
 pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
     let text = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
     let stem = text(path.file_stem()).unwrap_or_default();
@@ -16,7 +16,7 @@ pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
     path.with_file_name(format!("{stem}-{part}{ending}"))
 }
 
-/// Where each scene's figure goes, in the scenes' order.
+/// Returns the path of each scene's figure, in the order of the scenes. Empty for standard output.
 pub(super) fn paths(
     destination: &Destination,
     scenes: &[&Path],

@@ -1,4 +1,4 @@
-//! [`Task`]: which scenes a report is about, and which of them it compares.
+//! [`Task`]: one scene of a report, or two scenes that it compares.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub(super) enum Task {
 }
 
 impl Report {
-    /// The scenes of the report, and notes on files that have no counterpart.
+    /// Returns the tasks of the report, and notes about files without a counterpart.
     pub(super) fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         if self.compare {
             return self.pairs();
@@ -49,7 +49,7 @@ impl Report {
         let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
         let [a, b] = self.scenes.as_slice() else {
             return Err(refuse(
-                "--compare takes two scenes, or two folders of scenes",
+                "--compare needs two scenes, or two folders of scenes",
             ));
         };
         match (a.is_dir(), b.is_dir()) {
@@ -82,7 +82,7 @@ impl Report {
                 Ok((tasks, notes))
             }
             _ => Err(refuse(
-                "--compare takes two files or two folders, not one of each",
+                "--compare needs two files or two folders, not one of each",
             )),
         }
     }
@@ -105,8 +105,8 @@ impl Task {
     }
 }
 
-/// Every .json file below a folder, in the order of their paths. Links to folders are not followed: they may lead in a
-/// circle.
+/// Returns all `.json` files in a folder and its subfolders, sorted by path. Links to folders are not followed: they
+/// may form a cycle.
 fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
     let unread = |path: &Path, error: &std::io::Error| CliError::NotRead {
         what: path.display().to_string(),

@@ -1,5 +1,5 @@
-//! The review in the terminal: shows each snapshot that differs, as text and, if the terminal can, as a picture, and asks a
-//! question.
+//! Reviews snapshots in the terminal. It shows each snapshot that differs, as text and, if the terminal can, as a
+//! picture, and asks whether to accept it.
 
 use std::io::{self, BufRead};
 
@@ -46,13 +46,13 @@ pub(super) fn ask(
             page.words(&format!("{number} of {total}, {}: ", snapshot.name));
             page.ours("accept? y(es), n(o), s(kip), q(uit) ");
             terminal.print(&page).map_err(|c| vec![c])?;
-            // The end of the input does not mean yes.
+            // The end of the input does not count as yes.
             let Some(Ok(answer)) = answers.next() else {
                 break 'all;
             };
             match answer.trim().to_lowercase().as_str() {
                 "y" | "yes" => {
-                    // Lock the folder for each snapshot separately, because a person may take long.
+                    // Lock the folder for each snapshot separately, because people may take long to answer.
                     let _lock = store::lock_folders(snapshot.folders(), Access::Write);
                     if let Err(unwritten) = snapshot.store(Acceptance::Accept) {
                         failed.push(super::not_written(unwritten));
@@ -109,7 +109,7 @@ fn pictures(terminal: &Terminal) -> Pictures {
     }
 }
 
-/// The escape sequence with which a terminal shows a picture. It contains base-64 characters only.
+/// Returns the escape sequence with which a terminal shows a picture. The picture is encoded in base-64.
 fn drawn(png: &[u8], pictures: Pictures) -> Vec<u8> {
     let data = STANDARD.encode(png);
     match pictures {

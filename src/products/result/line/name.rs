@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::result::key::{KEYS, Type};
 use crate::text;
 
-/// A name and those of its parts, or of the parts of each of its entries.
+/// A name, and the names of its parts. The parts of a list are those of its entries.
 #[derive(Debug)]
 pub(super) struct Name {
     pub word: &'static str,
@@ -16,7 +16,7 @@ pub(super) struct Name {
 /// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // Keys below the name of a robot are selected together for all robots.
+    // Keys below the name of a robot have no field of their own; they are selected together.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))
@@ -47,7 +47,7 @@ fn leaf(word: &'static str) -> Name {
     }
 }
 
-/// The path of a typed name.
+/// Returns the path of a typed name; `None` if it is not a field.
 pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     if typed == "all" {
         return Some(vec!["all"]);
@@ -62,10 +62,10 @@ pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     Some(path)
 }
 
-/// The most similar known name.
+/// Returns the most similar field; `None` if no field is similar.
 pub(super) fn nearest(typed: &str) -> Option<String> {
     let known = all();
-    // What newcomers call the forces between bodies, and the forces of robots.
+    // Other common words for interfaces and for the total force.
     let synonym = match typed.rsplit('.').next().unwrap_or(typed) {
         "forces" | "contacts" | "contact_forces" => Some("frames.interfaces"),
         "force" | "sum_of_forces" => Some("frames.total_force"),
@@ -77,7 +77,7 @@ pub(super) fn nearest(typed: &str) -> Option<String> {
     text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// All names, with dots between their parts.
+/// Returns all fields, with dots between the parts of a path.
 fn all() -> Vec<String> {
     fn add(names: &[Name], before: &str, list: &mut Vec<String>) {
         for name in names {

@@ -1,4 +1,4 @@
-//! [`Context`]: what an element of an SVG inherits.
+//! [`Context`]: the properties that an element of an SVG inherits.
 
 use core::str::FromStr;
 
@@ -32,7 +32,7 @@ pub(super) struct UseElement {
 }
 
 impl Context {
-    /// The context of a page: nothing is inherited yet.
+    /// Makes the context of a page, from which nothing is inherited yet.
     pub(super) fn of_page(map: Affine, style: Style, viewport: Viewport) -> Context {
         Context {
             map,

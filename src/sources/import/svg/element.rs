@@ -10,10 +10,10 @@ use super::viewport::{Viewport, length};
 use crate::geometry::{Point, Vector};
 use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// The subpaths of a shape, in its own coordinates.
+/// Returns the subpaths of a shape, in its own coordinates.
 ///
 /// # Errors
-/// A message if the shape has no valid size.
+/// A message if the shape has no valid size, no points, or path data that cannot be read.
 pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     match node.tag_name().name() {
         "rect" => rect(node, viewport),
@@ -33,7 +33,7 @@ pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Sub
     }
 }
 
-/// A point from two attributes; 0 where one is missing.
+/// Reads a point from two attributes; a missing attribute counts as 0.
 fn point(node: Node<'_, '_>, viewport: Viewport, [x, y]: [&str; 2]) -> Point {
     Point::new(
         length(node, x, viewport.width).unwrap_or(0.0),
@@ -65,7 +65,7 @@ fn rect(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> 
 
 fn ellipse(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     let (rx, ry) = if node.tag_name().name() == "circle" {
-        // Percentages of a radius refer to the diagonal of the viewport over √2.
+        // Percentages of a radius refer to the diagonal of the viewport divided by √2.
         let diagonal = libm::hypot(viewport.width, viewport.height) / core::f64::consts::SQRT_2;
         let r = positive("radius", length(node, "r", diagonal))?;
         (r, r)
@@ -107,7 +107,7 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {
     }
     let (u, v) = (Vector::new(radii.x, 0.0), Vector::new(0.0, radii.y));
     let mut segments = Vec::new();
-    // Clockwise on the page, starting after the rounded upper left corner.
+    // The segments run clockwise on the page, from the end of the rounded upper left corner.
     let roundings = [
         (corner(1.0, 0.0) - u + v, -1.0, -v, u),
         (corner(1.0, 1.0) - u - v, 0.0, u, v),

@@ -1,4 +1,4 @@
-//! Reads a figure by drystone: its blocks, ground and robots, but not its forces.
+//! Reads a figure by drystone: blocks, ground and robots, but not forces.
 
 use roxmltree::{Node, NodeType};
 
@@ -14,7 +14,7 @@ use crate::import::draft::{FillRule, Form, Part, Role, Values};
 const SCALE: &str = "data-drystone-scale";
 const ORIGIN: &str = "data-drystone-origin";
 
-/// The frames of a figure by drystone, in order; `None` for other drawings.
+/// Returns the frames of a figure by drystone, in order; `None` for other drawings.
 pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
@@ -25,7 +25,7 @@ pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     (!found.is_empty()).then_some(found)
 }
 
-/// The map from a frame to metres, with y up.
+/// Returns the map from the pixels of a frame to metres, with y up. `scale` is in metres per pixel.
 fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String> {
     let numbers = |name: &str| -> Option<Vec<f64>> {
         let text = picture.attribute(name)?;
@@ -48,7 +48,7 @@ fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    /// Reads one frame of a figure, counted from 0; the last by default.
+    /// Reads one frame of a figure, counted from 0; by default the last.
     pub(super) fn figure(
         &mut self,
         pictures: &[Node<'a, 'd>],
@@ -91,12 +91,12 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn read_groups(&mut self, node: Node<'a, 'd>, around: &Context) {
-        // Figures by drystone are not nested deeper.
+        // Groups in figures by drystone are not nested deeper.
         if around.depth > 4 {
             return;
         }
         for child in node.children().filter(|n| is(*n, "g")) {
-            // The user may have moved groups in an editor.
+            // Apply the transform: the user may have moved groups in an editor.
             let around = Context {
                 map: around.map.after(&self.transform(child, around)),
                 depth: around.depth + 1,
@@ -114,7 +114,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     }
                 }
                 "blocks" => {
-                    // Figures with very many blocks have one path per colour, without names.
+                    // Figures with very many blocks have one path for each colour, without names.
                     for path in child.children().filter(|n| is(*n, "path")) {
                         self.add_body(path, &around, Role::Block, "");
                     }

@@ -34,7 +34,7 @@ use super::scale::Scale;
 /// The largest number of comparisons of a style rule with an element.
 const MAX_RULE_MATCHES: usize = 150_000_000;
 
-/// Reads an SVG, in metres with y up.
+/// Reads an SVG into a draft in metres, with y up. `frame` is the frame of a figure by drystone, from 0.
 ///
 /// # Errors
 /// The reason why the text cannot be read as SVG.
@@ -96,7 +96,7 @@ pub(super) fn read(
     Ok(walk.draft)
 }
 
-/// The text of all style sheets.
+/// Returns the text of all style sheets.
 fn style_text(document: &Document<'_>) -> String {
     let mut css = String::new();
     for node in document.descendants().filter(|n| is(*n, "style")) {
@@ -108,7 +108,7 @@ fn style_text(document: &Document<'_>) -> String {
     css
 }
 
-/// The elements by their ids; of several with one id the first.
+/// Returns the elements by their ids. If several have the same id, the first one counts.
 fn ids<'a, 'd>(document: &'a Document<'d>) -> BTreeMap<&'a str, Node<'a, 'd>> {
     let mut ids = BTreeMap::new();
     for node in document.descendants() {

@@ -7,7 +7,7 @@ use svgtypes::{PathParser, PathSegment};
 use crate::geometry::{Point, Vector, cross};
 use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// The subpaths of a `d` attribute.
+/// Returns the subpaths of a `d` attribute.
 ///
 /// # Errors
 /// The message of the parser.
@@ -30,7 +30,7 @@ struct SubpathBuilder {
     subpaths: Vec<Subpath>,
     at: Point,
     open: Option<Subpath>,
-    /// The second control point of the last command if it was a cubic curve: a smooth curve mirrors it.
+    /// The second control point of the last command if it was a cubic curve; a smooth curve mirrors it.
     handle: Option<Point>,
     /// The control point of the last command if it was a quadratic curve.
     quadratic: Option<Point>,
@@ -46,7 +46,7 @@ impl SubpathBuilder {
         );
     }
 
-    /// Adds a segment. After a `Z`, a new subpath starts at the present point without an `M`.
+    /// Adds a segment. After a `Z` without an `M`, it begins a new subpath at the current point.
     fn add(&mut self, segment: Segment) {
         let start = self.at;
         let subpath = self.open.get_or_insert(Subpath {

@@ -1,4 +1,4 @@
-//! Kinds of remarks about elements of an SVG; each has a limit of its own.
+//! The kinds of remarks about elements of an SVG. Each kind has a limit of its own.
 
 /// At most this many remarks of one kind are listed; the others are counted.
 pub(super) const MAX_LISTED: usize = 20;
@@ -22,7 +22,7 @@ pub(super) enum RemarkKind {
 }
 
 impl RemarkKind {
-    /// The plural for a summary; `None` for elements that the user asked to leave out.
+    /// Returns the plural for a summary; `None` for elements that are hidden or whose name makes them ignored.
     pub(super) fn plural(self) -> Option<&'static str> {
         Some(match self {
             RemarkKind::Skipped => return None,

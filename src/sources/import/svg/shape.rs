@@ -1,4 +1,4 @@
-//! Shapes become parts of the draft.
+//! Adds shapes to the draft.
 
 use roxmltree::Node;
 use svgtypes::{TransformListParser, TransformListToken};
@@ -44,7 +44,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.draft.parts.push(part);
     }
 
-    /// The colour of a shape, if it has one that a material can have.
+    /// Returns the colour of a shape. `None` without a fill, or if a material cannot have it, which is reported.
     fn fill(&mut self, node: Node<'a, 'd>, around: &Context) -> Option<[u8; 3]> {
         let (kind, why, help) = match around.style.fill {
             Fill::Colour(fill) => return Some(fill),
@@ -64,7 +64,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         None
     }
 
-    /// The `transform` of an element.
+    /// Reads the `transform` of an element.
     pub(super) fn transform(&mut self, node: Node<'a, 'd>, around: &Context) -> Affine {
         let mut map = Affine::IDENTITY;
         for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
@@ -91,7 +91,8 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 }
 
-/// The name of a shape: that of its copy, its own, that of its group, or its id.
+/// Returns the name of a shape: the name of the `<use>` element that copies it, its own name, the name of its group,
+/// or its id.
 fn shape_name(node: Node<'_, '_>, around: &Context) -> String {
     let copied = around.copy.as_ref().and_then(|c| c.name.clone());
     copied

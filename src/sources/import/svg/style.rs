@@ -47,7 +47,7 @@ impl Style {
         masked: false,
     };
 
-    /// The style of a child element.
+    /// Returns the style of a child element.
     pub(super) fn of_child(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
         let mut style = Style {
             displayed: true,
@@ -56,7 +56,7 @@ impl Style {
             ..*self
         };
         let own = declarations(node, sheet);
-        // Read `color` first: `currentColor` in a fill refers to it, in any order of the declarations.
+        // Read `color` first, because `currentColor` in a fill refers to it, whatever the order of the declarations.
         for (name, value) in own.iter().filter(|d| d.0 == "color") {
             style.set(name, value, self);
         }
@@ -114,7 +114,7 @@ fn bytes(colour: Color) -> [u8; 3] {
     [colour.red, colour.green, colour.blue]
 }
 
-/// All declarations for an element, in increasing order of precedence.
+/// Returns all declarations for an element, in increasing order of precedence.
 fn declarations<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v str, &'v str)> {
     let mut plain: Vec<(&str, &str)> = node
         .attributes()

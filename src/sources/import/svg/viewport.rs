@@ -1,4 +1,4 @@
-//! [`Viewport`]: lengths, view boxes and the physical size of a drawing.
+//! [`Viewport`]: computes lengths, view boxes and the physical size of a drawing.
 
 use core::str::FromStr;
 
@@ -26,7 +26,7 @@ pub(super) struct Page {
     pub(super) unit: Option<(f64, String)>,
 }
 
-/// The page from the attributes of the root element.
+/// Reads the page from the attributes of the root element.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
     let sizes =
         ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
@@ -67,7 +67,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// The size from which the scale follows, in words.
+/// Describes the size from which the scale follows.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")
@@ -77,7 +77,7 @@ fn described(root: Node<'_, '_>, by_width: bool) -> String {
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
-/// A length in user units; `None` if it is missing or not valid.
+/// Reads a length in user units; `None` if it is missing or not valid. Percentages refer to `whole`.
 pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
     in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
 }
@@ -91,7 +91,7 @@ pub(super) fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
         .then_some(view)
 }
 
-/// The map of a view box into its viewport, by `preserveAspectRatio`.
+/// Returns the map from a view box to its viewport, by `preserveAspectRatio`.
 pub(super) fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
     let (sx, sy) = (width / view.w, height / view.h);
     if ratio.align == Align::None {
@@ -128,7 +128,7 @@ fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
     pixels.is_finite().then_some(pixels)
 }
 
-/// A length in metres, if its unit is absolute.
+/// Converts a length to metres; `None` if its unit is not absolute.
 fn physical(length: Length) -> Option<f64> {
     let metres = match length.unit {
         LengthUnit::Mm => 1e-3,

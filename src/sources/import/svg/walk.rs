@@ -113,7 +113,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.draw(node, around, inner);
     }
 
-    /// Counts an element; whether a limit on their number or depth leaves it out, which is remarked.
+    /// Counts an element. Returns true, and adds a remark, if a limit on the number or depth of elements excludes it.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
         self.seen += 1;
         self.styled = self.styled.saturating_add(self.sheet.rules.len());
@@ -133,7 +133,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         false
     }
 
-    /// Draws an element and its children, whose context is `inner`.
+    /// Reads an element and its children. `around` is its context, and `inner` the context of its children.
     fn draw(&mut self, node: Node<'a, 'd>, around: &Context, mut inner: Context) {
         let tag = node.tag_name().name();
         match tag {
@@ -182,7 +182,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    /// Draws the element that a `<use>` element refers to.
+    /// Reads the element to which a `<use>` element refers.
     fn copy(&mut self, node: Node<'a, 'd>, mut inner: Context) {
         let reference = node
             .attribute("href")
@@ -231,7 +231,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.element(target, &inner);
     }
 
-    /// A description of an element for messages; for a copy, that of its `<use>` element.
+    /// Describes an element for messages; for a copy, describes its `<use>` element.
     pub(super) fn element_label(&self, node: Node<'a, 'd>, around: &Context) -> String {
         match &around.copy {
             Some(copy) => copy.element.clone(),
@@ -239,7 +239,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    /// Notes that an element is left out, and why.
+    /// Adds a note that an element is left out, with the reason.
     pub(super) fn skip(&mut self, node: Node<'a, 'd>, around: &Context, why: &str) {
         let times = self.remarked.entry(RemarkKind::Skipped).or_default();
         *times += 1;
@@ -249,7 +249,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    /// Adds a remark about an element.
+    /// Adds a remark about an element, up to a limit for its kind.
     pub(super) fn remark(
         &mut self,
         kind: RemarkKind,

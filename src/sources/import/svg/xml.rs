@@ -1,18 +1,18 @@
-//! Helpers for SVG elements.
+//! Functions for SVG elements.
 
 use roxmltree::Node;
 
 /// The SVG namespace.
 pub(super) const SVG: &str = "http://www.w3.org/2000/svg";
 
-/// Whether a node is an SVG element with this tag.
+/// True if a node is an SVG element with this tag.
 pub(super) fn is(node: Node<'_, '_>, tag: &str) -> bool {
     node.is_element()
         && node.tag_name().name() == tag
         && node.tag_name().namespace().is_none_or(|n| n == SVG)
 }
 
-/// Whether elements with this tag are never drawn where they are.
+/// True if elements with this tag are never drawn at their own place.
 pub(super) fn is_never_drawn(tag: &str) -> bool {
     matches!(
         tag,
@@ -41,7 +41,7 @@ pub(super) fn is_never_drawn(tag: &str) -> bool {
     )
 }
 
-/// The text of an element, without that of its children.
+/// Returns the text of an element, without the text of its children.
 pub(super) fn words(node: Node<'_, '_>) -> String {
     let text: String = node.children().filter_map(|c| c.text()).collect();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
