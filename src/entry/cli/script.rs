@@ -44,7 +44,7 @@ fn words(scene: &Scene) -> Vec<&str> {
     titles.chain(frames).chain(blocks).chain(robots).collect()
 }
 
-/// Returns the scene with its characters that no font has replaced by their code points.
+/// Returns a copy of the scene in which code points replace the characters that no font has.
 pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     let mut scene = scene.clone();
     let spell = |words: &mut String| {

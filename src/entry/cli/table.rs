@@ -18,7 +18,7 @@ use crate::wording::{failure, margin, proof};
 const MEANINGS: [[&str; 2]; 16] = [
     [
         "stands",
-        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance only by wedging counts.",
+        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance that exists only by wedging counts.",
     ],
     ["falls", "no such set exists, and a motion proves it."],
     [

@@ -76,7 +76,7 @@ pub fn degrees(angle: f64) -> String {
 }
 
 /// Writes a ratio in whole percent: `97 %`. Ratios of at least [`FULL`] give `100 %`, and ratios of at most 1 −
-/// `FULL` give `0 %`. Between them are `over 99 %` and `under 1 %`.
+/// `FULL` give `0 %`. Other ratios that would be rounded to these give `over 99 %` and `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;

@@ -104,7 +104,7 @@ fn orphans_and_lost_references_fail() {
     assert!(
         ran.code == 1
             && ran.out.contains(
-                "a/arch.dark.svg: a reference without a scene: the settings of its scene do not ask for"
+                "a/arch.dark.svg: a reference without a scene: the settings of its scene do not include"
             ),
         "{}",
         ran.out
@@ -430,7 +430,7 @@ fn kinds_themes_and_widths_have_their_own_files() {
     let ran = folder.run(&["."]);
     assert!(
         ran.out.contains(
-            "a.thrust.svg: a reference without a scene: the settings of its scene do not ask for"
+            "a.thrust.svg: a reference without a scene: the settings of its scene do not include"
         ),
         "{}",
         ran.out
