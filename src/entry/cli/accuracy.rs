@@ -16,13 +16,13 @@ use crate::result::accuracy_json;
 use crate::scene::Scene;
 use crate::study::{Study, TOLERANCES, study, summary};
 
-/// Measure what accuracy costs in time: methods, tolerances, errors and wrong verdicts
+/// Measure the time and the errors of solution methods at several tolerances, and count their wrong verdicts
 #[derive(Debug, Args)]
 pub(crate) struct Accuracy {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a file that ends in .html, .csv, .json, .svg or .md. May be given several times
+    /// The file to write; it ends in .html, .csv, .json, .svg or .md. May be given several times
     #[arg(short, long, required = true, value_name = "OUT")]
     output: Vec<PathBuf>,
     /// Tolerances of the solver to measure [default: 1e-2 … 1e-12]
@@ -37,7 +37,7 @@ fn tolerance(typed: &str) -> Result<f64, String> {
     }
 }
 
-/// What a study is written as.
+/// The forms of a study.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Html,

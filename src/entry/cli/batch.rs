@@ -33,38 +33,41 @@ use output::{Output, Target};
 use pace::Pace;
 use resume::Settings;
 
-/// The width of a picture where nothing is given, pixels.
+/// The default width of a picture in pixels.
 const WIDTH: u32 = 400;
 
-/// Examine many scenes, one per line, on all cores: a line of JSON for each, in their order
+/// Analyse many scenes, one per line, on all cores, and print a line of JSON for each, in their order
 ///
-/// A scene that is wrong is answered by { "line", "problems" } in its place, and the others go on. The end is 0, 1, 2 or 3 as
-/// for check, after all of them; 4 where the output could not be written.
+/// A scene that is not valid gets { "line", "problems" } in its place, and the other scenes are still analysed. The
+/// exit code is 0, 1, 2 or 3 as for check, or 4 if the output could not be written.
 #[derive(Debug, Args)]
 pub(crate) struct Batch {
-    /// Files of a scene per line (.ndjson, .jsonl), scene files (.json), or folders of both; - reads lines from standard input
+    /// Files with one scene per line (.ndjson, .jsonl), scene files (.json), or folders with both; - reads lines from
+    /// standard input
     #[arg(value_name = "INPUT", default_value = "-")]
     inputs: Vec<PathBuf>,
-    /// Write the lines to a file, each as soon as it is its turn, in place of standard output; a file that ends in .csv gets a
-    /// table with one row for each frame
+    /// Write the lines to a file instead of standard output, each as soon as possible; a file that ends in .csv gets
+    /// a table with one row for each frame
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Keep the whole lines that the output file has already and answer the scenes that follow; a last line cut short is
-    /// written again. Refused where the lines belong to other scenes or options, which FILE.resume next to it records. The
-    /// exit code then speaks of the scenes answered now
+    /// Continue an output file: keep its complete lines and answer the remaining scenes. It is refused if the lines
+    /// belong to other scenes or options, which FILE.resume records. The exit code covers only the scenes that this
+    /// run answers
     #[arg(long, requires = "output")]
     resume: bool,
-    /// What of a result is written, such as verdict,frames.total_force or all; file and line always are. --margins adds
-    /// frames.margins, --wedging adds frames.only_by_wedging
+    /// The fields of a result to write, such as verdict,frames.total_force or all; file and line are always written.
+    /// --margins adds frames.margins, --wedging adds frames.only_by_wedging
     #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
     fields: Fields,
-    /// Draw every scene into this folder, by default 400 pixels wide as PNG, each file named after its scene's line or file
+    /// Draw every scene into this folder, by default as PNG, 400 pixels wide. The line or the file of a scene gives
+    /// the name of its picture
     #[arg(long, value_name = "FOLDER")]
     render: Option<PathBuf>,
-    /// Threads that work [default: all cores, and half as many more with --render, whose pictures wait for the disk]
+    /// Number of threads [default: the number of cores, or 1.5 times as many with --render, because pictures wait for
+    /// the disk]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Report on standard error every N seconds how many scenes are done, how fast, and how much time is left
+    /// Report progress on standard error every N seconds: finished scenes, speed and remaining time
     #[arg(long, value_name = "SECONDS", value_parser = pace::seconds)]
     progress: Option<f64>,
     #[command(flatten)]
@@ -235,7 +238,7 @@ impl Batch {
     }
 }
 
-/// What is done with every scene.
+/// The work for every scene.
 struct Work {
     level: AnalysisArgs,
     margins: MarginArgs,

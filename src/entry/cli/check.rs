@@ -19,36 +19,38 @@ use crate::result::{Layout, Timing, refusal, to_json_of};
 use crate::scene::Note;
 use crate::wording::verdict::counted;
 
-/// Say whether scenes stand, what fails, and how that is proved
+/// Decide whether scenes stand, show what fails, and prove it
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Print JSON: one object for a scene, or a line for each of several; a file that is wrong gets its problems in its place
+    /// Print JSON: one object for one scene, or a line for each of several scenes; a file that is not valid gets its
+    /// problems in its place
     #[arg(long)]
     json: bool,
-    /// Leave out how long it took, so that the same scene gives the same bytes
+    /// Leave out times, so that the same scene gives the same bytes
     #[arg(long)]
     no_timing: bool,
     #[command(flatten)]
     margins: MarginArgs,
-    /// Compute the verdict with its proof only; leave out what fails and the choice among several sets of balancing forces
+    /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
     #[arg(long)]
     verdict_only: bool,
-    /// Leave out notes of what is allowed and seldom meant; a scene silences single ones by "silence": ["code"]
+    /// Leave out notes about allowed input that is rarely intended; a scene silences single notes with "silence":
+    /// ["code"]
     #[arg(long)]
     no_notes: bool,
-    /// Add the sum of all forces, what would have to stick, the proof, the time and the contact tolerance
+    /// Add the sum of all forces, the sum of the missing forces, the proof, the time and the contact tolerance
     #[arg(long, short, conflicts_with = "json")]
     verbose: bool,
-    /// End with 0 whatever the verdicts are; wrong input still ends with 2
+    /// Exit with 0 for every verdict; wrong input still gives 2
     #[arg(long)]
     exit_zero: bool,
-    /// Say below the tables what their words mean
+    /// Explain the words of the tables below them
     #[arg(long, conflicts_with = "json")]
     explain: bool,
-    /// Examine one frame only, by number from 1, by its letter in the strip, or last
+    /// Analyse only one frame: its number from 1, its letter in the strip, or last
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! [`CliError`]: all errors of a command, and their messages.
 //!
-//! The only file that names ariadne. A problem of a scene is shown in the line of the file where it is; ariadne is handed
-//! that one line and nothing else, so that a long file costs no more than a short one.
+//! No other file uses `ariadne`. It shows a problem of a scene in its line of the file. `ariadne` gets only this
+//! line, so that a long file takes no more time than a short one.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -14,26 +14,28 @@ use crate::drawing::style;
 use crate::scene::{Code, Problem, SceneError};
 use crate::text::line;
 
-/// So many problems of one file are shown; a file with more has one cause, and it is among the first.
+/// At most this many problems of one file are shown. If there are more, they usually have one cause, which is among
+/// the first.
 const SHOWN: usize = 30;
-/// A longer line, in characters, is shown as a window around the problem; so is one that is wider than the terminal.
+/// Only a part of a line with more characters is shown, around the problem. The same holds for lines wider than the
+/// terminal.
 const LONG_LINE: usize = 160;
-/// So many columns of a line are in that window, a third of them before the problem; fewer on a narrower terminal.
+/// The part has this many columns, a third of them before the problem. It has fewer on a narrower terminal.
 const WINDOW: usize = 120;
-/// No window is narrower.
+/// The part has at least this many columns.
 const NARROWEST: usize = 12;
 
-/// Something that is wrong, and that ends the command.
+/// An error that ends the command.
 #[derive(Debug)]
 pub(crate) enum CliError {
-    /// A scene is wrong.
+    /// A scene is not valid.
     Scene {
         /// The file's name.
         name: String,
         /// What is wrong with it.
         problems: SceneError,
     },
-    /// A style file is wrong.
+    /// A style file is not valid.
     Style {
         /// The file's name.
         name: String,
@@ -49,11 +51,11 @@ pub(crate) enum CliError {
     },
     /// A scene does not have the selected frame.
     NoSuchFrame(String),
-    /// A drawing does not become a scene, in a person's words.
+    /// A drawing cannot be imported; the page is the message.
     Drawing(Page),
-    /// Blocks of a book cannot be drawn, each in lines whose parts are [`line`].
+    /// Scenes in a book cannot be drawn. Each entry has lines whose parts are escaped by [`line`].
     Book(Vec<String>),
-    /// The command line asks for something that cannot be.
+    /// The command line is wrong.
     CommandLine(String),
     /// An output cannot be written.
     NotWritten {

@@ -8,12 +8,12 @@ use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 
-/// Print the completions for a shell
+/// Print the completion script for a shell
 ///
 /// For bash: drystone completions bash > ~/.local/share/bash-completion/completions/drystone
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// The shell to complete in
+    /// The shell
     shell: Shell,
 }
 

@@ -7,7 +7,7 @@ use crate::cli::complaint::CliError;
 use crate::cli::picture::Format;
 use crate::output::file::{Existing, same, write_whole};
 
-/// Where a picture goes.
+/// The destination of pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
     /// Standard output, `-`.

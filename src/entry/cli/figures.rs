@@ -18,20 +18,20 @@ use crate::output::format::Settings;
 use crate::output::png::{Compression, Size};
 use crate::output::svg::Words;
 
-/// Draw the gallery: figures 1 to 9 of the work this is built on, each as SVG, PNG and PDF, with captions
+/// Draw the gallery: figures 1 to 9 of Vallat (2023), each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]
 pub(crate) struct Figures {
     /// Folder for the figures; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// One format only
+    /// Only this format
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
     #[command(flatten)]
     look: StyleArgs,
 }
 
-/// Where files go, and what is in them.
+/// The files of the gallery: their paths and contents.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
 impl Figures {

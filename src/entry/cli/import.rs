@@ -23,9 +23,10 @@ const LISTED: usize = 12;
 
 /// Turn a drawing (SVG, DXF, GeoJSON, WKT) into a scene
 ///
-/// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with "ground"
-/// become ground, with "robot" robots, which hold the block in which their centre lies; "ignore" and "guide" are left out.
-/// What nearly touches is made to touch, and what cannot be taken is reported.
+/// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with
+/// "ground" become ground, and those with "robot" become robots, which hold the block that contains their centre.
+/// Names with "ignore" or "guide" are left out. Edges that nearly touch are moved so that they touch. Elements that
+/// cannot be imported are reported.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
@@ -50,27 +51,27 @@ pub(crate) struct Import {
     /// Name of a layer or element that is ground; may be given several times [default: names that begin with ground]
     #[arg(long, value_name = "NAME")]
     ground_layer: Vec<String>,
-    /// Farthest that a chord may lie from its curve, in metres [default: a thousandth of the drawing's size]
+    /// Largest distance of a chord from its curve, in metres [default: a thousandth of the drawing's size]
     #[arg(long, value_name = "M")]
     flatten: Option<f64>,
-    /// What lies no farther apart is made to touch, in metres; 0 for nothing [default: a thousandth of the drawing's size,
-    /// at most a quarter of the thinnest body]
+    /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off [default: a thousandth
+    /// of the drawing's size, at most a quarter of the thickness of the thinnest body]
     #[arg(long, value_name = "M")]
     gap: Option<f64>,
     /// Frame of a figure that drystone drew, by number from 1 or by its letter [default: the last]
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
-    /// Title of the scene [default: that of the drawing]
+    /// Title of the scene [default: the title of the drawing]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
-    /// Friction coefficient of everything that brings none
+    /// Friction coefficient of all blocks and ground without one
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
-    /// Density and friction of everything that brings none, from a table: basalt, concrete, gneiss, granite, limestone or
-    /// sandstone; --density and --friction replace its values
+    /// Density and friction of all blocks and ground without them, from a table: basalt, concrete, gneiss, granite,
+    /// limestone or sandstone; --density and --friction replace its values
     #[arg(long, value_name = "NAME", value_parser = stone)]
     material: Option<Stone>,
-    /// Density in kg/m³ of every block that brings none
+    /// Density in kg/m³ of all blocks without one
     #[arg(long, value_name = "KG/M3")]
     density: Option<f64>,
     /// Thickness of all blocks across the plane, in metres
@@ -82,10 +83,10 @@ pub(crate) struct Import {
     /// Gravity in m/s²: downwards, or as X,Y
     #[arg(long, value_name = "G", value_parser = gravity)]
     gravity: Option<[f64; 2]>,
-    /// Write nothing and end with 2 where anything was not taken as it is drawn
+    /// Write nothing and exit with 2 if any element could not be imported as drawn
     #[arg(long)]
     strict: bool,
-    /// Print what was done as JSON; the scene then needs a file of its own
+    /// Print the log of the import as JSON; the scene then needs a file (-o)
     #[arg(long, requires = "output")]
     json: bool,
 }

@@ -7,20 +7,22 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::analysis::{Accuracy, Options};
 
-/// How accurate, and whether by wedging.
+/// The options of an analysis.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct AnalysisArgs {
-    /// standard: the unique forces. proved: the same, and no verdict without a proof that is a hundred times better
+    /// standard gives the unique forces; proved also demands stricter proofs, by a factor of 100 for forces and 1000
+    /// for motions
     #[arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser())]
     accuracy: Accuracy,
-    /// Find out whether each standing frame stands only by a self-stress that its loads do not build up from rest
+    /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up from
+    /// rest
     #[arg(long)]
     wedging: bool,
-    /// Edges within this many metres touch, and bodies may overlap by as much; replaces the scene's `contact_tolerance`, or
-    /// of what is estimated from how its coordinates are written
+    /// Edges within this many metres touch, and bodies may overlap by as much. It replaces the scene's
+    /// `contact_tolerance`, or the value that is estimated from its coordinates
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) contact_tolerance: Option<f64>,
-    /// Stop solving after this many seconds: what is not decided by then is undecided
+    /// Stop solving after this many seconds; frames that are not decided by then are undecided
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<Duration>,
 }

@@ -10,13 +10,15 @@ use crate::cli::complaint::CliError;
 use crate::drawing::Theme;
 use crate::drawing::style::format::Notation;
 
-/// The theme and what is to differ from it.
+/// The theme, and changes to it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct StyleArgs {
-    /// Colours: the source's, for print also in grey, for all sorts of colour vision, or on a dark page [default: thesis]
+    /// Colours: those of Vallat (2023), for print and greyscale, for all kinds of colour vision, or for a dark page
+    /// [default: thesis]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::NAMES))]
     theme: Option<String>,
-    /// Own colours, widths and sizes: a .json or .toml file, of which `drystone style` prints one to start from
+    /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
+    /// from
     #[arg(long, value_name = "FILE")]
     style: Option<PathBuf>,
 }

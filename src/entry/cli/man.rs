@@ -14,7 +14,7 @@ use crate::output::file::Existing;
 
 /// Write the manual pages into a folder, one for each command
 ///
-/// Where man finds them without further ado: drystone man ~/.local/share/man/man1
+/// In this folder, man finds them without further settings: drystone man ~/.local/share/man/man1
 #[derive(Debug, Args)]
 pub(crate) struct Manual {
     /// The folder; created if it does not exist

@@ -10,8 +10,8 @@ use crate::analysis::{MarginKind, MarginKinds, Options};
 /// Whether margins are computed, and which.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct MarginArgs {
-    /// Compute how far each frame is from the edge: least friction, largest tilt, horizontal load, kernel and factor on the
-    /// loads, least limits of robots; or only some of these, such as friction,tilt
+    /// Compute how far each frame is from its limit: least friction, largest tilt, horizontal load, kernel and factor
+    /// on the loads, least limits of robots; or only some of these, such as friction,tilt
     #[arg(
         long,
         value_enum,

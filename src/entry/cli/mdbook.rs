@@ -9,11 +9,11 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::report::book;
 
-/// Draw the scenes in the chapters of an mdBook: its preprocessor, which mdbook runs itself
+/// Draw the scenes in the chapters of an mdBook; mdbook runs this preprocessor itself
 ///
-/// In book.toml, [preprocessor.drystone] with command = "drystone mdbook"; in a chapter, a fenced block that begins with
-/// drystone and holds a scene, or names one with file=scene.json. More options: kind=, block=, theme=, width=, amounts,
-/// nocaption.
+/// In book.toml, [preprocessor.drystone] with command = "drystone mdbook"; in a chapter, a fenced block that begins
+/// with drystone and contains a scene, or names a file with file=scene.json. More options: kind=, block=, theme=,
+/// width=, amounts, nocaption.
 #[derive(Debug, Args)]
 pub(crate) struct MdBook {
     #[command(subcommand)]
@@ -22,7 +22,7 @@ pub(crate) struct MdBook {
 
 #[derive(Debug, Subcommand)]
 enum Question {
-    /// Whether books are illustrated for a renderer: with 0 for html, with 1 for any other
+    /// Report whether a renderer is supported: exit with 0 for html, with 1 for any other
     Supports {
         /// The renderer's name
         renderer: String,

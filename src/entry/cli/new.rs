@@ -12,18 +12,18 @@ use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 
-/// Write a scene to build on: a small example, or an arch, wall, tower, doorway or lattice to your measures
+/// Write a scene to start from: a small example, or an arch, wall, tower, doorway or lattice with your dimensions
 #[derive(Debug, Args)]
 pub(crate) struct New {
     #[command(subcommand)]
     kind: Option<Structure>,
-    /// Which small example, if no structure is named: one that stands in every step, or one that falls in a step
+    /// The small example, if no structure is named: one that stands in every step, or one that falls in a step
     #[arg(long, value_enum, value_name = "NAME", default_value = "stands")]
     example: Example,
     /// The file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<PathBuf>,
-    /// Replace the file where it is there already
+    /// Replace the file if it exists
     #[arg(long, requires = "output", global = true)]
     force: bool,
 }
@@ -81,7 +81,7 @@ enum Structure {
         /// Height of a block in metres
         #[arg(long, value_name = "M", default_value = "0.5", value_parser = length)]
         height: f64,
-        /// How far each block lies to the right of the one below, in metres
+        /// Shift of each block to the right, relative to the block below, in metres
         #[arg(long, value_name = "M", default_value = "0.1", value_parser = at_least_zero)]
         lean: f64,
         /// Friction coefficient

@@ -16,7 +16,7 @@ use crate::output::pdf;
 use crate::output::png::{self, Compression, PngError, Size};
 use crate::output::svg::{self, Words};
 
-/// Format, size, page and words of a picture.
+/// Format, size, background and text of a picture.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Picture {
     /// Format, if the output is a folder or standard output [default: svg]
@@ -34,15 +34,15 @@ pub(crate) struct Picture {
     /// Pixels of a PNG per inch, with --width-mm [default: 300]
     #[arg(long, value_name = "DPI", value_parser = dots)]
     dpi: Option<f64>,
-    /// Colour of the page: white, #rrggbb, or none for a clear one; seams around arrows keep the theme's [default: the
-    /// theme's]
+    /// Colour of the page: white, #rrggbb, or none for a transparent page; outlines around arrows keep the page
+    /// colour of the theme [default: the page colour of the theme]
     #[arg(long, value_name = "COLOUR", value_parser = background)]
     background: Option<Background>,
-    /// How an SVG writes words: in fonts by their names, in fonts within the file, or as outlines [default: names]
+    /// How an SVG contains text: with names of fonts, with fonts in the file, or as outlines [default: names]
     #[arg(long, value_enum, value_name = "FORM")]
     text: Option<TextForm>,
-    /// A font file (.ttf, .otf, .ttc) for scripts that ours do not have, as often as needed; without one their characters
-    /// are written as their code points wherever the words are drawn here
+    /// A font file (.ttf, .otf, .ttc) for scripts that the built-in fonts lack; may be given several times. Without
+    /// it, drystone writes these characters as code points wherever it lays out the text itself
     #[arg(long = "font", value_name = "FILE")]
     fonts: Vec<PathBuf>,
     /// The compression of a PNG.
@@ -65,11 +65,11 @@ impl ValueEnum for Format {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum TextForm {
-    /// Small; the reader's program sets the text in the fonts it has
+    /// A small file; the reader's program sets the text in its own fonts
     Names,
-    /// For browsers: words that look alike everywhere and can be searched
+    /// For browsers: text that looks the same everywhere and can be searched
     Embed,
-    /// For everything else: alike everywhere, and no words any more
+    /// For all other programs: looks the same everywhere, but the text cannot be searched
     Paths,
 }
 

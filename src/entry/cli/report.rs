@@ -28,10 +28,10 @@ use crate::result::Timing;
 use crate::study::{TOLERANCES, study};
 use crate::wording::number::counted;
 
-/// Report on scenes, on one page: verdicts with their reasons, figures, forces, margins, proofs
+/// Write a report on scenes: verdicts with reasons, figures, forces, margins and proofs
 #[derive(Debug, Args)]
 pub(crate) struct Report {
-    /// Scene files, and folders, of which every .json below is taken; - reads standard input
+    /// Scene files, or folders with .json files in them and their subfolders; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Output: a file that ends in .html, .md (with its figures next to it), .pdf or .json; with --split a folder
@@ -43,25 +43,25 @@ pub(crate) struct Report {
     /// Report what changed from the first SCENE to the second: two files, or two folders with files of the same names
     #[arg(long, conflicts_with = "accuracy_study")]
     compare: bool,
-    /// Compute all margins; without it those of loads, friction and tilt
+    /// Compute all margins; by default only those of loads, friction and tilt
     #[arg(long)]
     margins: bool,
-    /// Add an appendix with everything else: all joints, effects, solver details, charts
+    /// Add an appendix with all other results: all joints, effects, solver details, charts
     #[arg(long)]
     full: bool,
     /// Order the scenes by their headline margin, the smallest first
     #[arg(long)]
     sort: bool,
-    /// Measure on each scene what accuracy costs in time; the times differ from run to run
+    /// Measure the time and the errors of solution methods on each scene; the times differ from run to run
     #[arg(long)]
     accuracy_study: bool,
-    /// Add how long solving took; without it the same scenes give the same bytes
+    /// Add solving times; without them, the same scenes give the same bytes
     #[arg(long)]
     timing: bool,
-    /// What stands above the report
+    /// Title of the report
     #[arg(long, value_name = "WORDS")]
     title: Option<String>,
-    /// End with 1 or 3, as check does, where something is unstable or undecided
+    /// Exit with 1 or 3, as check does, if something is unstable or undecided
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
@@ -87,7 +87,7 @@ type Described = Result<(Piece, ExitStatus), Wrong>;
 struct Collected {
     pieces: Vec<Piece>,
     wrong: Wrong,
-    /// The worst ending.
+    /// The worst exit status.
     ending: ExitStatus,
 }
 

@@ -9,10 +9,11 @@ use crate::result;
 
 /// Print the JSON Schema of scene files, or of results
 ///
-/// An editor that is given it completes and checks a scene while it is written. Put its path into the scene as "$schema".
+/// With the schema, an editor completes and checks a scene while you write it. Put its path into the scene as
+/// "$schema".
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// The schema of what check --json prints, in place of that of scene files
+    /// Print the schema of the output of check --json instead of the schema of scene files
     #[arg(long)]
     result: bool,
 }

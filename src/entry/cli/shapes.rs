@@ -17,7 +17,7 @@ use crate::output::file::Existing;
 /// Draw the built-in shapes of the triangular lattice, with their cells and origins
 #[derive(Debug, Args)]
 pub(crate) struct Shapes {
-    /// Where to: a .svg, .png or .pdf file, a folder, or - for standard output
+    /// The output: a .svg, .png or .pdf file, a folder, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]

@@ -19,27 +19,29 @@ use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review}
 
 /// Compare scenes and their pictures with stored references, and explain what changed
 ///
-/// Every scene under the folders has its references next to it: name.txt (facts), name.svg and name.png. What changed, and
-/// what is new, is written next to them as .new.* and .diff.png until it is accepted. What is checked, how wide and how precisely,
-/// stands in drystone-snapshots.toml.
+/// Every scene in the folders has its references next to it: name.txt (facts), name.svg and name.png. Changed and new
+/// results are written next to them as .new.* and .diff.png until they are accepted. The file drystone-snapshots.toml
+/// sets which layers are checked, at which widths, and with which tolerances.
 ///
-/// Exit codes: 0 everything is as its references say, 1 something is not, 2 a scene or the command line is wrong, 4 a file
-/// could not be written.
+/// Exit codes: 0 everything agrees with the references, 1 something differs, 2 a scene or the command line is wrong,
+/// 4 a file could not be written.
 #[derive(Debug, Args)]
 pub(crate) struct Snapshot {
     /// Folders, or single scenes
     #[arg(value_name = "DIR", default_value = ".")]
     folders: Vec<PathBuf>,
-    /// Write what was found as references; refused where CI is set
+    /// Write the results as references; refused if CI is set
     #[arg(long)]
     accept: bool,
-    /// The same also where CI is set
+    /// Write the results as references, even if CI is set
     #[arg(long)]
     accept_in_ci: bool,
-    /// Only scenes whose path contains this, or fits it where it has a *; the one scene whose path it is, without .json
+    /// Check only scenes whose path, without .json, contains this text or matches it as a pattern with *; if it
+    /// equals the path of a scene, check only this scene
     #[arg(long, value_name = "FILTER")]
     only: Option<String>,
-    /// Write a page to look at: expected, difference and found side by side. Without a file: ask here, one by one
+    /// Write a page that shows the expected picture, the difference and the new picture. Without a file, review the
+    /// changes in the terminal
     #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
     review: Option<Option<PathBuf>>,
     /// Write the result as JUnit XML

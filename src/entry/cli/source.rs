@@ -59,7 +59,7 @@ impl Source {
 pub(crate) enum FrameChoice {
     /// By its number, from 0.
     Number(usize),
-    /// The last, whatever its number.
+    /// The last frame.
     Last,
 }
 

@@ -10,7 +10,7 @@ use crate::drawing::Theme;
 
 /// Print a theme as a style file, for render --style
 ///
-/// Change what you like and leave out the rest: keys that a style file does not have come from the theme that it names.
+/// Change some keys and delete the others: keys that a style file does not have come from the theme that it names.
 #[derive(Debug, Args)]
 pub(crate) struct Style {
     /// The theme to print

@@ -1,7 +1,7 @@
 //! [`Terminal`]: standard output and standard error, with the options for quiet output and colours.
 //!
-//! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream
-//! does not want them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
+//! No other file uses `anstream` and `terminal_size`. All text may contain escape codes for colours. They are removed
+//! here if the stream is not a terminal, or if `NO_COLOR` is set. The option `--color` takes precedence over both.
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
@@ -13,13 +13,13 @@ use terminal_size::{Height, Width};
 use crate::cli::complaint::CliError;
 use crate::cli::page::Page;
 
-/// How loud and how colourful the program is.
+/// The options for messages and colours.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Say nothing but errors; check then answers by its exit code alone
+    /// Print only errors; the result of check is then its exit code
     #[arg(long, short, global = true)]
     quiet: bool,
-    /// Colour the text: auto looks at the terminal and at NO_COLOR
+    /// Colour the text; auto depends on the terminal and on NO_COLOR
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     color: Colour,
 }

@@ -14,7 +14,7 @@ pub type OutputFile = (String, Vec<u8>);
 pub(super) struct Head<'r> {
     /// The title of the page.
     pub title: &'r str,
-    /// How many scenes stand and fall, without a full stop.
+    /// The number of scenes that stand and fall, as a sentence without a full stop.
     pub summary: String,
     /// Further sentences.
     pub notes: &'r [String],

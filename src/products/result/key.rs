@@ -61,7 +61,7 @@ pub struct Key {
     pub unit: &'static str,
     /// When the key is present; empty for always.
     pub when: &'static str,
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 

@@ -86,7 +86,7 @@ pub struct CheckOutcome {
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// Where new content is written.
+/// The place where new content is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acceptance {
     /// Next to the references as `.new.*`, for review.

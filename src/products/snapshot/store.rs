@@ -62,12 +62,12 @@ pub struct FolderLock {
     _folders: Vec<File>,
 }
 
-/// What a run does with the files in a folder.
+/// The access of a run to the files in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
     /// It reads references; others may read at the same time.
     Read,
-    /// It writes references; nobody else may use the folder.
+    /// It writes references; no other run may use the folder.
     Write,
 }
 

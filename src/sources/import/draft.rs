@@ -54,13 +54,13 @@ pub(super) enum FillRule {
     EvenOdd,
 }
 
-/// What an element becomes in the scene.
+/// The role of an element in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Block,
     Ground,
     Robot,
-    /// Nothing: its name begins with `ignore` or `guide`.
+    /// It is left out: its name begins with `ignore` or `guide`.
     Ignored,
 }
 

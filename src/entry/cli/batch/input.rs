@@ -9,13 +9,13 @@ use crate::batch::{Input, Record};
 use crate::cli::complaint::CliError;
 use crate::result::Origin;
 
-/// Everything a batch reads.
+/// The inputs of a batch.
 #[derive(Debug)]
 pub(super) struct Inputs {
     pub list: Vec<Input>,
-    /// The paths of them, `-` for standard input.
+    /// Their paths; `-` for standard input.
     pub files: Vec<PathBuf>,
-    /// How many bytes they have in all, where that is known.
+    /// Their size in bytes, if it is known.
     pub bytes: Option<u64>,
 }
 

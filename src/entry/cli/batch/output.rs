@@ -11,17 +11,17 @@ use crate::batch::Records;
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 
-/// Lines are written together, as soon as they have this many bytes.
+/// Lines are collected, and written as soon as they have this many bytes.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// The lines' way out.
+/// The stream to which the lines are written.
 pub(super) struct Output {
     stream: Box<dyn Write>,
     /// Lines that are not written yet.
     waiting: Vec<u8>,
-    /// What the lines were made from, where they go to a file.
+    /// The record of options and scenes, if the lines go to a file.
     resume: Option<ResumeFile>,
-    /// How complaints name it.
+    /// Its name in error messages.
     name: String,
     is_stdout: bool,
     done: usize,
@@ -29,11 +29,11 @@ pub(super) struct Output {
 
 /// An output as the command line names it.
 pub(super) struct Target<'a> {
-    /// The file; standard output where absent.
+    /// The file; `None` for standard output.
     pub path: Option<&'a Path>,
-    /// Whether the answers that it has already are kept.
+    /// Whether its existing answers are kept.
     pub resume: bool,
-    /// What the answers depend on.
+    /// The settings on which the answers depend.
     pub settings: Settings,
     pub form: Form,
 }

@@ -9,17 +9,17 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::wording::verdict::counted;
 
-/// On a terminal it is reported every so often where nothing is given.
+/// The default interval between two reports on a terminal.
 const OFTEN: Duration = Duration::from_secs(2);
 
 /// The pace of a batch.
 pub(super) struct Pace<'t> {
     terminal: &'t Terminal,
     start: Instant,
-    /// How often it is reported; never where absent.
+    /// The interval between two reports; `None` for no reports.
     every: Option<Duration>,
     reported: Instant,
-    /// Bytes of all inputs, and those read so far and before this run began.
+    /// The bytes of all inputs, the bytes read so far, and those that were read before this run began.
     all: Option<u64>,
     read: Arc<AtomicU64>,
     read_before: u64,
@@ -27,7 +27,7 @@ pub(super) struct Pace<'t> {
     counts: [usize; 4],
 }
 
-/// The kinds of answers in the order in which they are counted; what is wrong comes last.
+/// The kinds of answers, in the order in which they are counted. Scenes that are not valid come last.
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> Pace<'t> {

@@ -10,45 +10,46 @@ use crate::cli::look::StyleArgs;
 use crate::cli::picture::Picture;
 use crate::cli::source::FrameChoice;
 
-/// Draw scenes with their forces, and what fails, as SVG, PNG, GIF, PDF or TikZ
+/// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     pub(super) scenes: Vec<PathBuf>,
-    /// Where to: a .svg, .png, .gif, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for standard output
+    /// The output: a .svg, .png, .gif, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for
+    /// standard output
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
     #[command(flatten)]
     pub(super) picture: Picture,
     #[command(flatten)]
     pub(super) look: StyleArgs,
-    /// One resulting arrow per interface and block, or its normal and friction apart
+    /// One resultant arrow for each interface and block, or separate arrows for normal and friction force
     #[arg(long, value_enum, default_value = "resultant")]
     pub(super) arrows: Arrows,
-    /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
+    /// The force that is one unit long: the largest arrow, or the largest single unknown, as in Vallat (2023)
     #[arg(long, value_enum, default_value = "drawn")]
     pub(super) normalise: Normalise,
-    /// Arrows to one scale in each panel, or in the whole strip
+    /// One scale of arrows for each panel, or for the whole strip
     #[arg(long, value_enum, default_value = "panel")]
     pub(super) arrow_scale: ArrowScale,
     /// What the figure shows
     #[arg(long, value_enum, default_value = "forces")]
     pub(super) kind: KindChoice,
-    /// The block that a free-body diagram cuts free, by its id
+    /// The id of the block of a free-body diagram
     #[arg(long, value_name = "ID")]
     pub(super) block: Option<String>,
-    /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
+    /// In a free-body diagram, name all forces that may act at the ends of its interfaces, even those that are zero
     #[arg(long)]
     pub(super) corners: bool,
-    /// Show the frames one after the other in a GIF or an animated PNG, each for this many seconds; what falls moves for that
-    /// time, and rests for one second at its end
+    /// Show the frames one after the other in a GIF or an animated PNG, each for this many seconds; falling blocks
+    /// move for this time, and rest for one second at its end
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) animate: Option<f64>,
-    /// Write its amount next to every arrow
+    /// Write the amount of the force next to every arrow
     #[arg(long)]
     pub(super) amounts: bool,
-    /// What the colours of blocks show
+    /// The quantity that the colours of blocks show
     #[arg(long, value_enum, default_value = "amplitude")]
     pub(super) fill: Fill,
     /// Leave out the figure's title
@@ -66,34 +67,35 @@ pub(crate) struct Render {
     /// Show a bar of a round number of metres
     #[arg(long)]
     pub(super) scale_bar: bool,
-    /// Measure the width and height of all blocks, or of the block of --zoom, at the edges of each panel
+    /// Draw dimension lines at the edges of each panel: width and height of all blocks, or of the block of --zoom
     #[arg(long)]
     pub(super) dimensions: bool,
     /// Show the neighbourhood of one block only, by its id
     #[arg(long, value_name = "ID")]
     pub(super) zoom: Option<String>,
-    /// Write every panel of a strip to a file of its own, its letter after the name
+    /// Write every panel of a strip to a separate file, with its letter after the name
     #[arg(long, conflicts_with = "animate")]
     pub(super) panels: bool,
-    /// Split a long strip over several A4 pages, each a file of its own, its number after the name
+    /// Split a long strip into A4 pages, each a separate file with its number after the name
     #[arg(long, conflicts_with_all = ["animate", "panels"])]
     pub(super) pages: bool,
-    /// Of --kind margin, in which direction [default: tilt]
+    /// The direction of --kind margin [default: tilt]
     #[arg(long, value_enum, value_name = "DIRECTION")]
     pub(super) margin: Option<Margin>,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) columns: Option<u16>,
-    /// Draw the outlines alone with the problems of a refused scene marked and numbered; ends with 2 where there are any
+    /// Draw only the outlines, with the problems of a scene that is not valid marked and numbered; the exit code is 2
+    /// if there are problems
     #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners"])]
     pub(super) broken: bool,
-    /// Draw again whenever a scene or the style file is saved, until the program is stopped
+    /// Draw again whenever a scene or the style file changes, until the program is stopped
     #[arg(long)]
     pub(super) watch: bool,
-    /// Draw one frame only, by number from 1, by its letter in the strip, or last
+    /// Draw only one frame: its number from 1, its letter in the strip, or last
     #[arg(long, value_name = "N")]
     pub(super) frame: Option<FrameChoice>,
-    /// End with 1 or 3, as check does, where something is unstable or undecided
+    /// Exit with 1 or 3, as check does, if something is unstable or undecided
     #[arg(long)]
     pub(super) strict: bool,
     #[command(flatten)]

@@ -44,11 +44,11 @@ pub(super) enum Fill {
     Amplitude,
     /// The largest mean pressure on one of its interfaces, N/m², for the scene's thickness
     Stress,
-    /// The largest share of the friction available that one of its interfaces uses
+    /// The largest share of the available friction that one of its interfaces uses
     Friction,
     /// Nothing: plain blocks
     None,
-    /// Shares of the robots' limits, by the rule and in the colours of the source
+    /// Shares of the robots' limits, by the rule and in the colours of Vallat (2023)
     Source,
 }
 
@@ -72,11 +72,11 @@ pub(super) enum ArrowScale {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Margin {
-    /// How far gravity may turn
+    /// The angle by which gravity may turn
     Tilt,
-    /// How large a share of each weight may push across gravity
+    /// The horizontal force on each block, relative to its weight
     HorizontalLoad,
-    /// How many times as large the listed loads may be
+    /// The factor on the listed loads
     LoadFactor,
 }
 

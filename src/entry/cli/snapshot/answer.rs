@@ -13,18 +13,18 @@ use crate::cli::terminal::Terminal;
 use crate::snapshot::outcome::{Acceptance, CheckOutcome, Snapshot};
 use crate::snapshot::store::{self, Access};
 
-/// How a terminal shows a picture within its text.
+/// The way in which a terminal shows pictures within its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pictures {
-    /// As iTerm2 and WezTerm do.
+    /// The protocol of iTerm2 and WezTerm.
     Inline,
-    /// As kitty and Ghostty do.
+    /// The protocol of kitty and Ghostty.
     Kitty,
-    /// Not at all.
+    /// It shows no pictures.
     None,
 }
 
-/// Bytes of a picture in one message to kitty.
+/// The size of a part of a picture in one message to kitty, in bytes.
 const PIECE: usize = 4096;
 
 /// Asks for each snapshot that differs whether to accept it: `y` accepts, `n` keeps the reference, `s` leaves it for later,

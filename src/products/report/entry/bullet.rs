@@ -4,7 +4,7 @@ use crate::analysis::{End, FrameAnalysis, Interval};
 use crate::scene::Scene;
 use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 
-/// How one end of a bar is drawn.
+/// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BarEnd {
     /// The parameter itself begins or ends here.
@@ -45,7 +45,7 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     stated(scene, found).iter().map(MarginBar::new).collect()
 }
 
-/// What the shapes of bars mean.
+/// The meaning of the shapes of bars.
 pub(super) const SHAPES: &str = "A bar covers the values at which it stands: it falls beyond a stroke (dashed: not confirmed) \
                                  and stands beyond an arrow. Present value: disc inside, cross outside, ring undecided.";
 

@@ -1,6 +1,6 @@
 //! [`Column`]: the unit and the decimals that all numbers of a column share.
 
-/// How the numbers of a column are written.
+/// The format of the numbers of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
     /// The unit with its prefix.

@@ -4,7 +4,7 @@
 //! [`PictureError`] that says what they are. [`Picture::encode`] may round rare colours to make the file small. It then
 //! stores the rounding of each colour, and [`Difference`] allows for it.
 //!
-//! `output::png` writes the pictures that users ask for; this module reads and writes references.
+//! `output::png` writes the pictures for users; this module reads and writes references.
 
 mod difference;
 mod palette;
