@@ -1,4 +1,4 @@
-//! `drystone export`: a scene as a drawing for CAD programs.
+//! `drystone export`: writes a frame of a scene as a drawing for CAD programs.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub(crate) struct Export {
     /// The .dxf file to write; - or nothing prints the drawing
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Frame, by number from 1 or by its letter
+    /// Frame: its number from 1, its letter, or last
     #[arg(long, value_name = "N", default_value = "last")]
     frame: FrameChoice,
     #[command(flatten)]
@@ -65,7 +65,7 @@ impl Export {
     }
 }
 
-/// Refuses an output file that is a folder, or whose name belongs to another format.
+/// Refuses an output that is a folder, or whose name does not end in `.dxf`.
 fn check_name(file: &Path) -> Result<(), CliError> {
     let why = match file.extension().map(|e| e.to_ascii_lowercase()) {
         _ if file.is_dir() => "is a folder; name the .dxf file in it",

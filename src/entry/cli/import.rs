@@ -239,7 +239,8 @@ impl Import {
             what: name.into(),
             why: error.to_string(),
         })?;
-        // Old DXF files have one byte per letter. Only names contain letters beyond ASCII, so Latin-1 will do.
+        // Old DXF files have one byte per character. Only names have characters beyond ASCII, so it is sufficient to
+        // read them as Latin-1.
         if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
             return Ok(bytes.into_iter().map(char::from).collect());
         }

@@ -1,8 +1,8 @@
 //! [`chains`]: joins open curves whose ends meet into loops.
 //!
-//! 1. Give each end the number of its point; ends within the tolerance are the same point.
+//! 1. Number the points at the ends of all curves. Ends within the tolerance are the same point.
 //! 2. A point where exactly two ends meet connects them.
-//! 3. Follow the connections. A walk that returns to its start is a loop. Other curves are left over.
+//! 3. Follow the connections. A walk that returns to its start is a loop. Other curves remain open.
 
 use std::collections::BTreeMap;
 
@@ -19,18 +19,19 @@ pub(super) struct OpenCurve {
 /// The loops of a layer, and the curves that belong to none.
 #[derive(Debug, Default)]
 pub(super) struct Chains {
-    /// Each with the element of its first curve.
+    /// The loops, each with the description of its first curve.
     pub(super) loops: Vec<(Subpath, String)>,
     pub(super) left: Vec<OpenCurve>,
     /// The first point where more than two curves meet.
     pub(super) branch: Option<Point>,
 }
 
-/// Joins curves whose ends are within `tolerance`.
+/// Joins curves whose ends are within `tolerance` of each other, in the units of the curves.
 pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     let mut chains = Chains::default();
     let (points, places) = numbered(&curves, tolerance);
-    // Step 2: the ends at each point, as the index of the curve and whether it is the curve's end.
+    // Step 2: collect the curves at each point, as the index of the curve, and whether the curve ends there or starts
+    // there.
     let mut ends: Vec<Vec<(usize, bool)>> = vec![Vec::new(); places.len()];
     for (i, [start, end]) in points.iter().enumerate() {
         ends[*start].push((i, false));
@@ -66,7 +67,8 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     chains
 }
 
-/// Step 3: the curves of the loop that begins with a curve, each with its direction; `None` if the walk does not return.
+/// Performs step 3: returns the loop that begins with the curve `first`, as indices of curves and whether each is
+/// reversed. `None` if the walk does not return.
 fn walk(
     first: usize,
     points: &[[usize; 2]],
@@ -86,11 +88,11 @@ fn walk(
         walk.push((next, is_end));
         at = points[next][usize::from(!is_end)];
     }
-    // A branch at the start makes the loop ambiguous.
+    // If more curves meet at the start, the loop is ambiguous.
     (ends[at].len() == 2).then_some(walk)
 }
 
-/// Step 1: the numbers of the points at start and end of each curve, and the points.
+/// Performs step 1: returns the numbers of the points at start and end of each curve, and the points.
 fn numbered(curves: &[OpenCurve], tolerance: f64) -> (Vec<[usize; 2]>, Vec<Point>) {
     let mut places: Vec<Point> = Vec::new();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();

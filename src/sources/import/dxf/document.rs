@@ -1,4 +1,4 @@
-//! [`Document`]: the parts of a DXF file that describe outlines.
+//! [`Document`]: finds the parts of a DXF file that describe outlines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +17,7 @@ pub(super) struct Document<'r> {
     pub(super) entities: &'r [Record<'r>],
 }
 
-/// A block definition, which INSERT entities refer to.
+/// The definition of a block, to which INSERT entities refer.
 #[derive(Debug)]
 pub(super) struct Block<'r> {
     /// The record `BLOCK` with the base point.
@@ -26,7 +26,7 @@ pub(super) struct Block<'r> {
 }
 
 impl<'r> Document<'r> {
-    /// Finds the sections.
+    /// Finds the sections of a file in its records.
     ///
     /// # Errors
     /// If there is no section with entities.
@@ -65,13 +65,14 @@ impl<'r> Document<'r> {
     }
 }
 
-/// The index of the next record of a kind after `start`, or the number of records.
+/// Returns the index of the next record of a kind from `start` on, or the number of records if there is none.
 fn end_of(records: &[Record<'_>], start: usize, kind: &str) -> usize {
     let rest = records[start..].iter().position(|r| r.kind == kind);
     rest.map_or(records.len(), |offset| start + offset)
 }
 
-/// The variable `$INSUNITS` of a header: its name with code 9, then its value with code 70.
+/// Reads the variable `$INSUNITS` of a header: its name has code 9, and its value, with code 70, follows. 0 if it is
+/// absent.
 fn unit(header: &Record<'_>) -> i64 {
     let mut groups = header.groups.iter();
     groups
@@ -80,7 +81,7 @@ fn unit(header: &Record<'_>) -> i64 {
         .map_or(0, |(_, value)| integer(value))
 }
 
-/// Whether a layer is off (a negative colour) or frozen.
+/// True if a layer is off (it has a negative colour) or frozen.
 fn is_hidden(layer: &Record<'_>) -> bool {
     layer.integer(62) < 0 || layer.has_flag(70, 1)
 }

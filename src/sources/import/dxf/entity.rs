@@ -1,4 +1,4 @@
-//! [`curve`]: the curve of an entity, in the units of the drawing.
+//! [`curve`]: converts an entity to a curve, in the units of the drawing.
 
 use core::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use super::record::{Record, integer, number};
 use crate::geometry::{Point, Vector};
 use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// A bulge below this is a straight line: the sagitta is this share of half the chord.
+/// A segment with a smaller bulge is a straight line. The bulge is the sagitta divided by half the chord.
 const MIN_BULGE: f64 = 1e-9;
 
 /// The shape of an entity.
@@ -20,7 +20,8 @@ pub(super) enum Shape {
     Unreadable(&'static str),
 }
 
-/// The curve of an entity. `vertices` are the records `VERTEX` after an entity `POLYLINE`. `None` for kinds without outlines.
+/// Converts an entity to a curve or a point. `vertices` are the records `VERTEX` after an entity `POLYLINE`. `None`
+/// for kinds without outlines.
 pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
     let shape = match entity.kind {
         "LINE" => Shape::Curve(open(
@@ -36,7 +37,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         "LWPOLYLINE" => polyline(&corners(entity), entity.has_flag(70, 1)),
         "POLYLINE" if entity.has_flag(70, 16 | 64) => Shape::Unreadable("it is a mesh"),
         "POLYLINE" => {
-            // Vertices with flag 16 are control points of a spline and not on the curve.
+            // Vertices with flag 16 are control points of a spline; they are not on the curve.
             let on_curve = vertices.iter().filter(|v| !v.has_flag(70, 16));
             let corners: Vec<Corner> = on_curve.map(corner).collect();
             polyline(&corners, entity.has_flag(70, 1))
@@ -66,7 +67,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve))
             if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
         {
-            // Such entities lie in a coordinate system whose x axis points to the left.
+            // If the normal points down, the x axis of such an entity points to the left.
             Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
@@ -82,7 +83,8 @@ pub(super) enum Extrusion {
     Other,
 }
 
-/// The direction of the normal in the codes 210, 220 and 230. It deviates by at most a millionth.
+/// Returns the direction of the normal, which has the codes 210, 220 and 230. Its x and y components may be at most a
+/// millionth.
 pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
         .map(|(code, default)| entity.number(code).unwrap_or(default));
@@ -95,7 +97,7 @@ pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     }
 }
 
-/// A point: x with the given code, y with the code 10 higher.
+/// Reads a point: x has the given code, and y the code 10 higher. A missing coordinate is NaN.
 pub(super) fn point(record: &Record<'_>, code: i32) -> Point {
     let coordinate = |code| record.number(code).unwrap_or(f64::NAN);
     Point::new(coordinate(code), coordinate(code + 10))
@@ -115,7 +117,7 @@ fn corner(vertex: &Record<'_>) -> Corner {
     }
 }
 
-/// The corners of an LWPOLYLINE: 10 begins a corner, 20 and 42 belong to it.
+/// Reads the corners of an LWPOLYLINE. Code 10 (x) begins a corner; codes 20 (y) and 42 (bulge) belong to it.
 fn corners(entity: &Record<'_>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::new();
     for (code, value) in &entity.groups {
@@ -132,7 +134,7 @@ fn corners(entity: &Record<'_>) -> Vec<Corner> {
     corners
 }
 
-/// The curve through the corners of a polyline.
+/// Returns the curve through the corners of a polyline.
 pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
         return Shape::Unreadable("it has no corners");
@@ -151,8 +153,8 @@ pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
     })
 }
 
-/// The segment between two corners. The bulge is the tangent of a quarter of the arc's angle, positive if it turns
-/// anticlockwise from `from` to `to`.
+/// Returns the segment between two corners. The bulge is the tangent of a quarter of the arc's angle. It is positive
+/// if the arc turns anticlockwise from `from` to `to`.
 ///
 /// With half the chord c and bulge b, the sagitta is b·c, the radius c·(1 + b²) / 2|b|, and the centre lies c·(1 − b²) / 2b to
 /// the left of the middle of the chord.
@@ -174,7 +176,7 @@ fn segment(from: Point, to: Point, bulge: f64) -> Segment {
     })
 }
 
-/// An ARC: centre, radius, start and end in degrees, anticlockwise.
+/// Reads an ARC: centre, radius, and start and end in degrees, anticlockwise.
 fn arc(entity: &Record<'_>) -> Subpath {
     let radius = entity.number(40).unwrap_or(f64::NAN);
     let angle = |code| entity.number(code).unwrap_or(0.0).to_radians();
@@ -187,7 +189,8 @@ fn arc(entity: &Record<'_>) -> Subpath {
     )
 }
 
-/// An ELLIPSE: centre, the end of the long axis relative to it, the ratio of the axes, start and end in radians.
+/// Reads an ELLIPSE: centre, the end of the long axis relative to the centre, the ratio of the axes, and start and
+/// end in radians.
 fn ellipse(entity: &Record<'_>) -> Subpath {
     let centre = point(entity, 10);
     let major = point(entity, 11).coords;
@@ -203,10 +206,11 @@ fn ellipse(entity: &Record<'_>) -> Subpath {
     part_of_ellipse(centre, major, minor, from, to)
 }
 
-/// The curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`; the whole ellipse if they are a full turn apart.
+/// Returns the curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`, in radians. It is the whole ellipse
+/// if both angles are equal up to full turns.
 pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to: f64) -> Subpath {
     let sweep = match (to - from).rem_euclid(TAU) {
-        // Equal ends are a full turn. The tolerance allows for angles of six decimals.
+        // Equal angles mean a full turn. The tolerance allows for angles with six decimals.
         turn if turn < 1e-6 || TAU - turn < 1e-6 => TAU,
         turn => turn,
     };
@@ -228,7 +232,7 @@ pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to
     }
 }
 
-/// An open curve.
+/// Makes an open curve.
 pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
     Subpath {
         start,
@@ -237,7 +241,7 @@ pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
     }
 }
 
-/// The number of a count group.
+/// Reads a count; 0 if the text is not a count.
 pub(super) fn count(value: &str) -> usize {
     usize::try_from(integer(value)).unwrap_or(0)
 }

@@ -1,14 +1,15 @@
-//! [`loops`]: the boundary of a HATCH entity.
+//! [`loops`]: reads the boundary of a HATCH entity.
 
 use super::entity::{Corner, Shape, count, open, part_of_ellipse, polyline};
 use super::record::{Record, integer, number};
 use crate::geometry::{Point, Vector};
 use crate::import::subpath::{Segment, Subpath};
 
-/// Two edges of a boundary are connected if their ends are within this share of the coordinates.
+/// Two edges of a boundary are connected if the distance of their ends is at most this times (1 + the distance of the
+/// end from the origin).
 const END_TOL: f64 = 1e-6;
 
-/// The closed curves of a hatch.
+/// Returns the closed curves of the boundary of a hatch.
 ///
 /// # Errors
 /// The reason why the boundary cannot be read.
@@ -23,7 +24,7 @@ pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
         let Some(flags) = groups.value_of(92) else {
             break;
         };
-        // Bit 2: the boundary is a polyline.
+        // If the bit with value 2 is set, the boundary is a polyline.
         let curve = match integer(flags) & 2 {
             0 => groups.edges()?,
             _ => groups.polyline()?,
@@ -48,14 +49,14 @@ impl<'t> Groups<'_, 't> {
         Some(*first)
     }
 
-    /// Skips to the next group with a code, and keeps that group.
+    /// Skips to the next group with a code, without reading this group. `None` if there is none.
     fn skip_to(&mut self, code: i32) -> Option<()> {
         let skipped = self.rest.iter().position(|(c, _)| *c == code)?;
         self.rest = &self.rest[skipped..];
         Some(())
     }
 
-    /// The value of the next group with a code. Groups before it are skipped.
+    /// Reads the value of the next group with a code. Groups before it are skipped.
     fn value_of(&mut self, code: i32) -> Option<&'t str> {
         self.skip_to(code)?;
         self.next().map(|(_, value)| value)
@@ -69,7 +70,7 @@ impl<'t> Groups<'_, 't> {
         Point::new(self.number_of(code), self.number_of(code + 10))
     }
 
-    /// A boundary in the form of a polyline: 72 has bulges, 73 is closed, 93 the number of corners.
+    /// Reads a boundary in the form of a polyline. Code 93 is the number of its corners; `None` if it has none.
     fn polyline(&mut self) -> Result<Option<Subpath>, &'static str> {
         let corners = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut list = Vec::new();
@@ -90,7 +91,7 @@ impl<'t> Groups<'_, 't> {
         })
     }
 
-    /// A boundary of edges: 93 their number, 72 the type of each.
+    /// Reads a boundary in the form of edges. Code 93 is their number, and code 72 the type of each.
     fn edges(&mut self) -> Result<Option<Subpath>, &'static str> {
         let edges = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut curve: Option<Subpath> = None;
@@ -116,7 +117,7 @@ impl<'t> Groups<'_, 't> {
         Ok(curve)
     }
 
-    /// An arc: centre, radius, angles in degrees, and whether it turns anticlockwise.
+    /// Reads an arc: centre, radius, angles in degrees, and whether it turns anticlockwise.
     fn arc(&mut self) -> Subpath {
         let (centre, radius) = (self.point_of(10), self.number_of(40));
         let angles = [self.number_of(50), self.number_of(51)].map(f64::to_radians);
@@ -124,7 +125,8 @@ impl<'t> Groups<'_, 't> {
         self.turned(centre, u, v, angles)
     }
 
-    /// An ellipse: centre, end of the long axis, ratio of the axes, angles in degrees, and whether it turns anticlockwise.
+    /// Reads an ellipse: centre, end of the long axis, ratio of the axes, angles in degrees, and whether it turns
+    /// anticlockwise.
     fn ellipse(&mut self) -> Subpath {
         let (centre, major) = (self.point_of(10), self.point_of(11).coords);
         let minor = Vector::new(-major.y, major.x) * self.number_of(40);
@@ -132,7 +134,7 @@ impl<'t> Groups<'_, 't> {
         self.turned(centre, major, minor, angles)
     }
 
-    /// The curve in the direction that code 73 states. The angles of a clockwise edge are measured clockwise.
+    /// Returns the curve in the direction that code 73 states. The angles of a clockwise edge are measured clockwise.
     fn turned(&mut self, centre: Point, u: Vector, v: Vector, [from, to]: [f64; 2]) -> Subpath {
         let is_anticlockwise = self.value_of(73).is_none_or(|value| integer(value) != 0);
         let v = if is_anticlockwise { v } else { -v };
@@ -140,7 +142,8 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Adds an edge to a curve, reversed if it ends where the curve ends.
+/// Adds an edge to a curve. The edge is reversed if it ends where the curve ends. The error is a message if they do
+/// not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

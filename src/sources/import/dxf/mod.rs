@@ -26,7 +26,7 @@ use super::scale::Scale;
 use document::Document;
 use walk::Walk;
 
-/// Reads a DXF file in text form, in metres with y up.
+/// Reads a DXF file in text form into a draft in metres, with y up.
 ///
 /// # Errors
 /// The reason why the text cannot be read as DXF.
@@ -49,7 +49,8 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
     Ok(walk.finish())
 }
 
-/// Metres of the unit that the header variable `$INSUNITS` states, with the reason for the note.
+/// Returns the unit that the header variable `$INSUNITS` states, in metres, and the reason for the note. `None` if it
+/// states no unit of length that is known.
 fn unit(code: i64) -> Option<(f64, String)> {
     let (metres, name) = match code {
         1 => (0.0254, "inches"),

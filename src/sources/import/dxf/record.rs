@@ -5,13 +5,13 @@
 
 use super::super::limit::MAX_BODIES;
 
-/// The largest number of groups per record; an outline of a million corners has two million.
+/// The largest number of records in a file.
 const MAX_RECORDS: usize = 100 * MAX_BODIES;
 
 /// A record: an entity, a row of a table, or the begin or end of a section.
 #[derive(Debug)]
 pub(super) struct Record<'t> {
-    /// The value of code 0, as `LINE` or `SECTION`.
+    /// The value of code 0, such as `LINE` or `SECTION`.
     pub(super) kind: &'t str,
     /// The line of the file in which `kind` is, counted from 1.
     pub(super) line: usize,
@@ -19,7 +19,7 @@ pub(super) struct Record<'t> {
     pub(super) groups: Vec<(i32, &'t str)>,
 }
 
-/// Splits a text into records.
+/// Splits the text of a file into records. Comments (code 999) are left out.
 ///
 /// # Errors
 /// The first line that is not part of a group, or a hint that the file is binary.
@@ -72,34 +72,35 @@ pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
 }
 
 impl<'t> Record<'t> {
-    /// The first value with a code.
+    /// Returns the first value with a code; `None` if there is none.
     pub(super) fn text(&self, code: i32) -> Option<&'t str> {
         let group = self.groups.iter().find(|(c, _)| *c == code)?;
         Some(group.1)
     }
 
-    /// The first value with a code, as a number. A value that is not a number counts as NaN, so that the entity is reported.
+    /// Returns the first value with a code as a number. A value that is not a number counts as NaN, so that the
+    /// entity is reported.
     pub(super) fn number(&self, code: i32) -> Option<f64> {
         self.text(code).map(number)
     }
 
-    /// The first value with a code, as a whole number; 0 if it is absent or not a number.
+    /// Returns the first value with a code as a whole number; 0 if it is absent or not a whole number.
     pub(super) fn integer(&self, code: i32) -> i64 {
         self.text(code).map_or(0, integer)
     }
 
-    /// Whether one of the given bits of a flag is set.
+    /// True if one of the given bits of a flag is set.
     pub(super) fn has_flag(&self, code: i32, bits: i64) -> bool {
         self.integer(code) & bits != 0
     }
 }
 
-/// A number in the text of a group; NaN if it is none.
+/// Parses a number; NaN if the text is not a number.
 pub(super) fn number(text: &str) -> f64 {
     text.parse().unwrap_or(f64::NAN)
 }
 
-/// A whole number in the text of a group; 0 if it is none.
+/// Parses a whole number; 0 if the text is not one.
 pub(super) fn integer(text: &str) -> i64 {
     text.parse().unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! [`Walk`]: goes through the entities, inserts blocks, and sorts the curves by layer.
+//! [`Walk`]: visits the entities, inserts blocks, and groups the curves by layer.
 
 use std::collections::BTreeMap;
 
@@ -15,9 +15,10 @@ use crate::import::naming::Naming;
 use crate::import::stone::Stone;
 use crate::import::subpath::Subpath;
 
-/// Blocks are not nested deeper.
+/// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
-/// Ends of lines within this share of the drawing's size meet: the default for chords and gaps is the same.
+/// Ends of lines are joined if their distance, relative to the size of the drawing, is at most this. The default for
+/// chords and gaps is the same.
 const END_TOL: f64 = 1e-3;
 /// Two outlines coincide if their boxes differ by at most this share of their size.
 const SAME_TOL: f64 = 1e-6;
@@ -58,7 +59,7 @@ pub(super) struct Walk<'d> {
     pub(super) inserted: usize,
 }
 
-/// Where entities are: their transform, and the names around them.
+/// The place of entities: their transform, and the names around them.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     map: Affine,
@@ -72,7 +73,7 @@ pub(super) struct Place {
 }
 
 impl<'d> Walk<'d> {
-    /// Goes through all entities outside of blocks.
+    /// Reads all entities outside of blocks.
     ///
     /// # Errors
     /// If the drawing has too many outlines.
@@ -112,7 +113,7 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    /// The place of an entity; `None` if it is left out.
+    /// Returns the place of an entity; `None` if the entity is left out.
     fn place(&mut self, entity: &Record<'_>, around: &Place) -> Option<Place> {
         if entity.integer(67) == 1 {
             self.leave("entities in paper space");
@@ -187,7 +188,7 @@ impl<'d> Walk<'d> {
             self.draft.remark(element, why, "");
             return Ok(());
         };
-        // Bits 4 and 8 of code 70: the block is another drawing.
+        // With the flag 4 or 8 in code 70, the block is another drawing.
         if block.head.has_flag(70, 4 | 8) {
             let help = "bind the external drawing, or explode it";
             self.draft
@@ -221,7 +222,7 @@ impl<'d> Walk<'d> {
                 map: around
                     .map
                     .after(&transform(insert, block, [cell % columns, cell / columns])),
-                // Anonymous blocks, as of dimensions and hatches, begin with an asterisk.
+                // Names of anonymous blocks, such as those of dimensions and hatches, begin with an asterisk.
                 block: match name.starts_with('*') {
                     true => around.block.clone(),
                     false => name.to_owned(),
@@ -311,7 +312,7 @@ impl<'d> Walk<'d> {
             .remark(format!("{}{more}", first.element), why, help);
     }
 
-    /// A hatch is an outline of its own, unless it fills outlines that are drawn.
+    /// Adds hatches as outlines, unless they fill outlines that are drawn.
     fn add_hatches(&mut self) {
         let mut drawn: Vec<Bounds> = self.draft.parts.iter().filter_map(part_box).collect();
         drawn.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
@@ -335,7 +336,8 @@ impl<'d> Walk<'d> {
     }
 }
 
-/// The map from a block's coordinates to those around its INSERT: scale, rotate, move; then the cell of the array.
+/// Returns the map from the coordinates of a block to those around its INSERT: scale, shift to the cell of the array,
+/// rotate, move. A normal that points down mirrors the result.
 fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) -> Affine {
     let number = |code, default| insert.number(code).unwrap_or(default);
     let base = point(block.head, 10);
@@ -396,7 +398,7 @@ fn part_box(part: &Part) -> Option<Bounds> {
     }
 }
 
-/// Whether a box coincides with one of the boxes, which are sorted by their left sides.
+/// True if a box coincides with one of the boxes, which are sorted by their left sides.
 fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
     let tolerance = SAME_TOL * own.diagonal();
     let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
