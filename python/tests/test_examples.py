@@ -52,3 +52,12 @@ def test_the_notebook_runs(tmp_path, monkeypatch):
                 assert len(html()) > 100
                 shown += 1
     assert shown >= 4
+
+
+def test_the_scenes_of_the_gallery_are_those_of_its_script():
+    spec = importlib.util.spec_from_file_location("gallery", ROOT / "examples/gallery.py")
+    gallery = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(gallery)
+    for name, structure in gallery.STRUCTURES.items():
+        written, ours = ((ROOT / f"assets/gallery/{name}.json").read_text(encoding="utf-8"), structure().text())
+        assert json.loads(written) == json.loads(ours), name

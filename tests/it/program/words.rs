@@ -188,6 +188,37 @@ fn the_readmes_figure_is_what_the_program_draws() {
 }
 
 #[test]
+fn the_readmes_gallery_is_what_the_program_draws() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");
+    let bench = Bench::new();
+    let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none();
+    for name in [
+        "aqueduct",
+        "cathedral",
+        "corbelled-vault",
+        "flying-buttress",
+        "gabled-wall",
+    ] {
+        // As `examples/gallery.py` draws them.
+        let look = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict -o picture.png";
+        let mut command = bench.command(look);
+        command.arg(folder.join(format!("{name}.json")));
+        let ran = ran(command);
+        assert_eq!(ran.code, 0, "{name} stands: {}", ran.err);
+        let drawn = fs::read(bench.path("picture.png")).expect("written");
+        assert!(drawn.len() < 60_000, "{name} has {} bytes", drawn.len());
+        let shown = folder.join(format!("{name}.png"));
+        if update {
+            fs::write(&shown, &drawn).expect("writable");
+        }
+        assert!(
+            fs::read(&shown).is_ok_and(|shown| shown == drawn),
+            "{name}: look at it, and run once with UPDATE_SNAPSHOTS=1"
+        );
+    }
+}
+
+#[test]
 fn the_readmes_scene_stands_as_it_says() {
     let readme = include_str!("../../../README.md");
     let bench = Bench::new();
