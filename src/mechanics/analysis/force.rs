@@ -88,7 +88,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The word in JSON results.
+    /// Returns the word in JSON results.
     pub fn word(&self) -> &'static str {
         match self {
             Failure::Tension { .. } => "tension",
@@ -108,7 +108,7 @@ impl Failure {
         }
     }
 
-    /// The point at which the force is missing, in metres.
+    /// Returns the point at which the force is missing, in metres.
     pub fn at(&self) -> Point {
         match *self {
             Failure::Tension { at, .. }
@@ -118,7 +118,8 @@ impl Failure {
         }
     }
 
-    /// The missing force in newtons, on the first body of a joint or on the block that a robot holds; zero for a torque.
+    /// Returns the missing force in newtons, on the first body of a joint or on the block that a robot holds; zero
+    /// for a torque.
     pub fn force(&self) -> Vector {
         match *self {
             Failure::Tension { force, .. }
@@ -128,7 +129,7 @@ impl Failure {
         }
     }
 
-    /// The missing torque on the block that a robot holds, N·m; zero for a force.
+    /// Returns the missing torque on the block that a robot holds, N·m; zero for a force.
     pub fn torque(&self) -> f64 {
         match *self {
             Failure::RobotTorque { torque, .. } => torque,
@@ -136,7 +137,7 @@ impl Failure {
         }
     }
 
-    /// The missing force (N) and torque (N·m) on a body; `None` if they do not act on that body.
+    /// Returns the missing force (N) and torque (N·m) on a body; `None` if they do not act on that body.
     pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
         let sign = match *self {
             Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
@@ -154,7 +155,7 @@ impl Failure {
         Some((self.force() * sign, self.torque()))
     }
 
-    /// The robot whose limits are exceeded; `None` for a joint.
+    /// Returns the robot whose limits are exceeded; `None` for a joint.
     pub fn robot(&self) -> Option<RobotId> {
         match *self {
             Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. } => Some(robot),

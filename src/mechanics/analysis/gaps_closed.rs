@@ -265,7 +265,7 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     }
 }
 
-/// The notes of the scene, and a note for each of the first few near misses.
+/// Returns the notes of the scene, and a note for each of the first few near misses.
 pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     let mut notes = scene.notes.clone();
     let code = NoteCode::NearMiss;

@@ -213,7 +213,7 @@ impl<'a> Fall<'a> {
         }
     }
 
-    /// One elementary mechanism, with sliding along the joints if possible; `None` if none is found.
+    /// Returns one elementary mechanism, with sliding along the joints if possible; `None` if none is found.
     fn elementary(&self) -> Option<Vec<Motion>> {
         if self.motions.len() > MOST_BLOCKS {
             return None;

@@ -63,7 +63,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The word in JSON results.
+    /// Returns the word in JSON results.
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Stable => "stable",
@@ -178,7 +178,7 @@ impl Analysis {
         }
     }
 
-    /// The worst verdict of all frames.
+    /// Returns the worst verdict of all frames.
     pub fn verdict(&self) -> Verdict {
         self.frames
             .iter()

@@ -43,7 +43,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// The threshold that a proof must reach.
+    /// Returns the threshold that a proof must reach.
     pub fn demand(self) -> ProofThreshold {
         match self {
             Accuracy::Standard => ProofThreshold::STANDARD,
@@ -82,7 +82,7 @@ impl Options {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// The solver settings in the order in which they are tried, until a proof is strong enough.
+    /// Returns the solver settings in the order in which they are tried, until a proof is strong enough.
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),

@@ -1,10 +1,10 @@
 //! Route 0: finds the verdict of a frame from the active set of the previous frame.
 //!
 //! The balance is a nonnegative least-squares problem ([`BoundedNnls`]). If its residual is 0, its solution balances
-//! the frame. Otherwise the residual is a motion by which the frame falls. The active set of one frame is the start
-//! for the next, so a small change costs little time. Forces and motion are proved like all others. Without a proof
-//! the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves time, but cannot change a
-//! verdict.
+//! the frame. Otherwise the negative residual is a motion by which the frame falls. The active set of one frame is
+//! the start for the next, so a small change costs little time. Forces and motion are proved like all others. Without
+//! a proof the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves time, but cannot
+//! change a verdict.
 
 use super::analyse::{Known, analyse_frame};
 use super::decide::Candidate;
@@ -130,7 +130,7 @@ impl WarmStart {
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        // Find the forces with the least residual. It is 0 if the frame stands; otherwise it is a motion.
+        // Find the forces with the least residual. It is 0 if the frame stands; otherwise its negative is a motion.
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;

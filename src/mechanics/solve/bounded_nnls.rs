@@ -1,9 +1,10 @@
 //! [`BoundedNnls`]: least squares with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
-//! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance it.
-//! Otherwise r is a motion that no admissible force opposes and along which the loads do work: at the nearest point of
-//! a cone, Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). The forces have no cost, so they are any that
-//! balance, not those of least sum. The result is only a candidate: the proof checks it.
+//! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance
+//! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work: at the nearest
+//! point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|². `loads` is the right-hand side, minus the load vector (Moreau's two
+//! polar cones). Forces have no cost, so the method finds any forces that balance, not those of least sum. The result
+//! is only a candidate: the proof checks it.
 //!
 //! The active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, with upper bounds. Steps:
 //!
@@ -62,8 +63,8 @@ pub struct BoundedNnls {
     at_limit: Vec<usize>,
 }
 
-/// The columns of a program without redundant ones. With friction, a pure normal force is redundant: it is a sum of the
-/// two rays of the friction cone.
+/// Returns the columns of a program without redundant ones. With friction, a pure normal force is redundant: it is a
+/// sum of the two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
         Force::Ray {
@@ -158,7 +159,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// The columns with an amount above 0: the passive ones, and those at their limits.
+    /// Returns the columns with an amount above 0: the passive ones, and those at their limits.
     pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
         self.passive.iter().chain(&self.at_limit).copied()
     }
@@ -218,8 +219,8 @@ impl BoundedNnls {
         }
     }
 
-    /// The longest step (as a fraction) towards the optimum of the passive set that keeps all bounds, and the place of
-    /// the column that meets its bound first; `None` if the full step keeps all bounds.
+    /// Returns the longest step (as a fraction) towards the optimum of the passive set that keeps all bounds, and the
+    /// place of the column that meets its bound first; `None` if the full step keeps all bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
         for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {
@@ -239,7 +240,7 @@ impl BoundedNnls {
         shortest
     }
 
-    /// The amounts of the passive columns with the least residual, without regard to bounds.
+    /// Returns the amounts of the passive columns with the least residual, without regard to bounds.
     ///
     /// The normal equations give half of the digits. With [`Digits::All`], one step of iterative refinement gives the
     /// rest.
@@ -266,7 +267,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// The residual loads − A·x, one number for each row.
+    /// Returns the residual loads − A·x, one number for each row.
     fn residual(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
         let mut residual = loads.to_vec();
         for (k, amount) in self.passive.iter().zip(&self.amounts) {

@@ -70,7 +70,7 @@ pub fn by_clarabel(
     answer.if_finite()
 }
 
-/// The settings of clarabel. `time_left` is the time until the deadline, if there is one.
+/// Returns the settings of clarabel. `time_left` is the time until the deadline, if there is one.
 fn clarabel_settings(
     settings: SolverSettings,
     iterations: usize,
@@ -97,7 +97,7 @@ fn clarabel_settings(
     }
 }
 
-/// A compressed sparse column matrix from (row, column, value) entries; entries at one place are added.
+/// Builds a compressed sparse column matrix from (row, column, value) entries; entries at one place are added.
 fn compressed_columns(
     rows: usize,
     columns: usize,

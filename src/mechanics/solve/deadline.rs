@@ -18,7 +18,7 @@ pub(crate) struct DeadlineGuard {
 }
 
 impl DeadlineGuard {
-    /// Sets the deadline from now on; `None` is no deadline. Dropping the guard restores the former one.
+    /// Sets the deadline from now on; `None` means no deadline. Dropping the guard restores the previous one.
     pub(crate) fn new(deadline: Option<Instant>) -> DeadlineGuard {
         DeadlineGuard {
             former: DEADLINE.replace(deadline),
@@ -32,7 +32,7 @@ impl Drop for DeadlineGuard {
     }
 }
 
-/// The deadline of this thread.
+/// Returns the deadline of this thread.
 pub(crate) fn deadline() -> Option<Instant> {
     DEADLINE.get()
 }

@@ -108,7 +108,7 @@ pub(super) fn of_velocities(
     solved
 }
 
-/// The amounts of columns: the multipliers of their rows.
+/// Returns the amounts of columns: the multipliers of their rows.
 ///
 /// `row_of` gives the row of each column, or `usize::MAX` for the second of an opposite pair that shares one equality.
 /// The amount of that column is the multiplier with the opposite sign.
@@ -124,8 +124,8 @@ pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
 /// Solves the same program in its static form: the forces are the unknowns, the rows are the balance, and the
 /// multipliers of the rows are the velocities.
 ///
-/// Near the limit of standing it takes about half the iterations of the kinematic form, and each takes a third longer.
-/// It separates basic columns from the others less clearly.
+/// Near the limit of stability it takes about half the iterations of the kinematic form, and each takes a third
+/// longer. It separates basic columns from the others less clearly.
 pub(super) fn in_forces(
     loads: &[f64],
     columns: &[Column],

@@ -26,7 +26,7 @@ const ROUNDING_TOL: f64 = 1e-9;
 /// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if it fails.
 const STRICT_TOL: f64 = 1e-12;
 
-/// The unique amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
+/// Computes the unique amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
 ///
 /// `None` if the columns are linearly dependent, an amount is outside its bounds, or no amounts balance the loads.
 pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
@@ -90,8 +90,8 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
     Some(())
 }
 
-/// The amounts ≥ 0 of least Σ force² that balance the loads; `None` if a few rounds of an active-set method do not find
-/// them.
+/// Computes the amounts ≥ 0 of least Σ force² that balance the loads; `None` if a few rounds of an active-set method
+/// do not find them.
 ///
 /// It applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the square of a
 /// unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j = g_jᵀy /
@@ -141,7 +141,7 @@ fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Ve
     gram
 }
 
-/// The amounts of the columns in use if they meet the conditions of an optimum, otherwise `None`.
+/// Returns the amounts of the columns in use if they meet the conditions of an optimum, otherwise `None`.
 fn proved_optimum(
     loads: &[f64],
     columns: &[Column],
@@ -164,8 +164,7 @@ fn proved_optimum(
 }
 
 /// A pivot up to this fraction of the largest diagonal entry counts as 0: no column in use acts along its row. The
-/// entries
-/// are sums of products, whose rounding is about 10⁻¹⁵.
+/// entries are sums of products, whose rounding is about 10⁻¹⁵.
 const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
 
 /// Solves a symmetric positive semidefinite system by Cholesky factorization; unknowns without a pivot become 0.

@@ -1,8 +1,8 @@
 //! [`extreme_ray`]: moves from any motion in the cone of admissible motions to an extreme ray of the cone.
 //!
-//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is no
-//! such sum, so it has as few hinges and slips as possible. All numbers are pure: rows have a length of about 1,
-//! motions a size of about 1.
+//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is
+//! not such a sum, so it has as few hinges and slips as possible. All numbers are without units: rows have a length
+//! of about 1, motions a size of about 1.
 //!
 //! The method is purification, the crossover of linear programming to a vertex (Megiddo 1991). All moves keep the power
 //! b·y and every tight row, so they lie in the null space of these rows. Steps:
@@ -77,7 +77,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     Some(y)
 }
 
-/// The directions that keep the power and the tight rows, and the rows that are open.
+/// Returns the directions that keep the power and the tight rows, and the rows that are open.
 fn tight_rows_removed<'r>(
     rows: &'r [Row],
     power: &[(usize, f64)],
@@ -96,7 +96,7 @@ fn tight_rows_removed<'r>(
     (null_space, open)
 }
 
-/// The gradient of Σ openings with respect to the motion: the sum of all rows.
+/// Returns the gradient of Σ openings with respect to the motion: the sum of all rows.
 fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
     let mut openings = vec![0.0; count];
     for (k, value) in rows.iter().flatten() {
@@ -105,7 +105,7 @@ fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
     openings
 }
 
-/// The ratio test: the longest step along a direction until an open row becomes 0; `None` if no row does.
+/// Ratio test: returns the longest step along a direction until an open row becomes 0; `None` if no row does.
 fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     let step = |row: &&Row| {
         let (change, now) = (dot(row, direction), dot(row, y));
@@ -114,7 +114,7 @@ fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     open.iter().filter_map(step).reduce(f64::min)
 }
 
-/// The motion nearest to `y` at which all rows are 0: the projection of `y` onto their null space.
+/// Returns the motion nearest to `y` at which all rows are 0: the projection of `y` onto their null space.
 pub(crate) fn project_onto_null_space(rows: &[Row], y: &[f64]) -> Vec<f64> {
     let mut null_space = NullSpace::whole(y.len());
     for row in rows {
@@ -174,7 +174,7 @@ impl NullSpace {
         }
     }
 
-    /// The projection of a vector onto the space.
+    /// Returns the projection of a vector onto the space.
     fn project(&self, vector: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; vector.len()];
         for basis in &self.basis {
@@ -204,7 +204,7 @@ fn unit(y: &[f64]) -> Vec<f64> {
     y.iter().map(|v| v / size).collect()
 }
 
-/// A dense vector as a row.
+/// Returns a dense vector as a row.
 fn dense(y: &[f64]) -> Row {
     y.iter().copied().enumerate().collect()
 }

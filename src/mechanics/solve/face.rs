@@ -26,7 +26,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// The face of all balances of some columns, with amounts of 0.
+    /// Returns the face of all balances of some columns, with amounts of 0.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {
@@ -37,12 +37,12 @@ impl Face {
         }
     }
 
-    /// The same columns with other amounts.
+    /// Returns the same face with other amounts.
     pub fn with(self, amounts: Vec<f64>) -> Face {
         Face { amounts, ..self }
     }
 
-    /// The face of optima, from a solved dual of this face: its basic columns (see [`Dual::active`]).
+    /// Returns the face of optima, from a solved dual of this face: its basic columns (see [`Dual::active`]).
     ///
     /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance from it. Such
     /// columns are fixed; otherwise not every balance on the face would be an optimum.
@@ -66,7 +66,7 @@ impl Face {
         face
     }
 
-    /// The face restricted to the columns for which `keep(column, amount)` is true.
+    /// Returns the face restricted to the columns for which `keep(column, amount)` is true.
     pub fn only(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
         let mut face = Face {
             columns: Vec::new(),
@@ -82,7 +82,7 @@ impl Face {
         face
     }
 
-    /// The cost of given amounts, plus the cost of the columns at their limits.
+    /// Returns the cost of given amounts, plus the cost of the columns at their limits.
     pub fn cost(&self, amounts: &[f64]) -> f64 {
         let chosen: f64 = self
             .columns
@@ -93,18 +93,19 @@ impl Face {
         chosen + self.at_limit.iter().map(|c| c.cost * c.limit).sum::<f64>()
     }
 
-    /// The amounts of the adhesion columns, of amounts of the columns between their bounds.
+    /// Returns the entries of `amounts` that belong to adhesion columns. `amounts` has one entry for each of
+    /// `columns`.
     pub fn adhesion_amounts<'a>(&'a self, amounts: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let both = self.columns.iter().zip(amounts);
         both.filter(|(c, _)| c.force.is_adhesion()).map(|(_, a)| *a)
     }
 
-    /// The objective of stage 1: the sum of the amounts of the adhesion columns.
+    /// Returns the objective of stage 1: the sum of the amounts of the adhesion columns.
     pub fn adhesion_sum(&self, amounts: &[f64]) -> f64 {
         self.adhesion_amounts(amounts).sum()
     }
 
-    /// Converts the amounts to forces of contacts and grips: the admissible forces, and the sticking forces.
+    /// Converts the amounts to forces of contacts and grips: the admissible forces, and the adhesion.
     pub fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
         let (mut admissible, mut adhesion) = (Amounts::none(program), Amounts::none(program));
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
@@ -121,7 +122,7 @@ impl Face {
     }
 }
 
-/// The amounts ≥ 0 of least Σ force² on given columns; `None` if the columns cannot balance the loads.
+/// Computes the amounts ≥ 0 of least Σ force² on given columns; `None` if the columns cannot balance the loads.
 ///
 /// If the balance is unique, or [`exact`] can prove its optimum, elimination finds it to machine precision. Otherwise a
 /// quadratic program is solved.

@@ -88,7 +88,7 @@ impl IncrementalCholesky {
 }
 
 impl Row {
-    /// The entries to the left of the diagonal, and the diagonal entry.
+    /// Returns the entries to the left of the diagonal, and the diagonal entry.
     fn parts(&self) -> (&[f64], f64) {
         match self.entries.split_last() {
             Some((diagonal, off)) => (off, *diagonal),
@@ -96,7 +96,7 @@ impl Row {
         }
     }
 
-    /// Entry k, 0 if it is not stored.
+    /// Returns entry k, or 0 if it is not stored.
     fn at(&self, k: usize) -> f64 {
         let place = k.checked_sub(self.first);
         let entry = place.and_then(|place| self.entries.get(place));
@@ -119,7 +119,7 @@ impl Row {
     }
 }
 
-/// The dot product of two lists, as four partial sums that the processor computes in parallel.
+/// Returns the dot product of two lists, as four partial sums that the processor computes in parallel.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((fours, rest), (others, last)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];

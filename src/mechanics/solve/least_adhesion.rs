@@ -1,15 +1,15 @@
-//! The program of least adhesion, lexicographically: least adhesion, then least force, then fewest points that stick.
+//! The program of least adhesion, lexicographically: least adhesion, then least force, then fewest points with adhesion.
 //!
 //! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number: each stage
 //! keeps only the columns on the face of optima of the previous stage, so its objective cannot worsen the previous one.
 //! Stages:
 //!
-//! 1. least Σ sticking, where admissible forces cost nothing;
+//! 1. least Σ adhesion, where admissible forces cost nothing;
 //! 2. least Σ force, on the face of stage 1;
-//! 3. fewest points: an interior-point method spreads sticking over all optimal points, so each round raises its cost
-//!    where little of it is used (reweighted ℓ₁, Candès, Wakin and Boyd 2008). The cost depends only on amounts, not on
-//!    the order of the file: a tie between mirror images stays a tie, and the figure of a mirrored scene is the
-//!    mirrored figure;
+//! 3. fewest points: an interior-point method spreads adhesion over all optimal points, so each round raises the cost
+//!    of columns with small amounts (reweighted ℓ₁, Candès, Wakin and Boyd 2008). The cost depends only on amounts,
+//!    not on the order of the file: a tie between mirror images stays a tie, and the figure of a mirrored scene is
+//!    the mirrored figure;
 //! 4. least Σ force² on the remaining columns, which is unique.
 
 use super::level::refined_optimum;
@@ -31,15 +31,15 @@ const MAX_ROUNDS: usize = 4;
 /// of the total time.
 const MAX_ROUNDS_MANY: usize = 1;
 
-/// Costs 1/β of admissible forces relative to sticking, tried in turn if stage 1 ends without a status at cost 0.
+/// Costs 1/β of admissible forces relative to adhesion, tried in turn if stage 1 ends without a status at cost 0.
 ///
 /// If wedged blocks can press each other without limit, the dual of stage 1 has no interior, and the solver may end
 /// without a status. With a positive cost the dual has an interior.
 const FORCE_COSTS: [f64; 2] = [1e-6, 1e-4];
 
-/// Stage 3 drops sticking at a point below this fraction of the largest sticking.
+/// Stage 3 drops adhesion at a point below this fraction of the largest adhesion.
 ///
-/// The second value is tried if the first drops needed sticking, such as that against a light load.
+/// The second value is tried if the first drops needed adhesion, such as that against a light load.
 const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
 
 /// [`DROP_TOL`] for many blocks.
@@ -70,13 +70,13 @@ impl Size {
 }
 
 /// With many blocks, stages 2 to 4 are skipped if the sum of the basic columns' slacks exceeds this multiple of the
-/// tolerance for sums of sticking.
+/// tolerance for sums of adhesion.
 ///
-/// If each of these columns carried the largest load, the sum of sticking would grow by the sum of their slacks. In 46
+/// If each of these columns carried the largest load, the sum of adhesion would grow by the sum of their slacks. In 46
 /// walls of 200 to 2 000 bricks, stage 2 had a valid answer up to a multiple of 0.11 and none from 0.96.
 const MAX_BASIC_SLACK: f64 = 0.5;
 
-/// When stage 1 stops with many blocks: at a finer tolerance, so that basic columns are clearly distinct.
+/// The stopping rule of stage 1 for many blocks: a finer tolerance, with which basic columns are clearly distinct.
 ///
 /// Without it, the face of optima of a wall of 2 000 bricks, rotated by 40°, contained no balance in stage 2.
 const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
@@ -91,10 +91,10 @@ const LIGHT_LOAD: f64 = 1e-3;
 /// Margins of [`Dual::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
 const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
-/// Two sums of sticking count as equal if their relative difference is at most this.
+/// Two sums of adhesion count as equal if their relative difference is at most this.
 ///
 /// It is the solver's tolerance of 1e-9 for sums of a few tens of terms. At a tenth, valid later stages would be
-/// rejected; at ten times, stage 2 could trade sticking for a smaller force.
+/// rejected; at ten times, stage 2 could trade adhesion for a smaller force.
 const SUM_TOL: f64 = 3e-8;
 
 /// [`SUM_TOL`] for many blocks, where the sum that the solver returns is itself less accurate.
@@ -127,7 +127,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     let mut all = columns_in(program, load);
     all.extend(adhesion_columns(program));
     let whole = Face::whole(&loads, all);
-    // Stage 1. If no sticking balances the blocks, the dual is unbounded along a motion.
+    // Stage 1. If no adhesion balances the blocks, the dual is unbounded along a motion.
     let (first, priced) = first_stage(&whole, size, settings, &mut effort);
     if first.status != Status::Solved {
         return without_balance(program, first, priced, effort);
@@ -167,7 +167,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     }
 }
 
-/// The result if no balance was found: the motion if the dual is unbounded along it.
+/// Returns the result if no balance was found. It has a motion if the dual is unbounded.
 fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort) -> LeastAdhesion {
     let none = Amounts::none(program);
     let fallen = first.status == Status::Unbounded;
@@ -181,7 +181,7 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: the least Σ sticking. Returns the optimum, and whether admissible forces had a cost.
+/// Stage 1: the least Σ adhesion. Returns the optimum, and whether admissible forces had a cost.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -212,8 +212,8 @@ fn first_stage(
     (last, dear)
 }
 
-/// The stopping rule of stage 1 for many blocks. If a block is light, stage 1 does not stop early, because the sticking
-/// of light blocks converges last.
+/// Returns the stopping rule of stage 1 for many blocks. If a block is light, stage 1 does not stop early, because
+/// the adhesion of light blocks converges last.
 fn crossover(loads: &[f64]) -> CrossoverTolerance {
     let bodies = loads
         .chunks_exact(3)
@@ -252,9 +252,9 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 
 /// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
 ///
-/// For many blocks near the limit of standing, basic columns cannot be distinguished from the others: the least force
-/// falls by a tenth while the sticking grows by a millionth. Then the balance of stage 1 is returned. It has the least
-/// sticking, but not the least force.
+/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others: the least force
+/// falls by a tenth while the adhesion grows by a millionth. Then the balance of stage 1 is returned. It has the least
+/// adhesion, but not the least force.
 fn later_stages(
     whole: &Face,
     first: &Dual,
@@ -315,7 +315,7 @@ fn later_stages(
 
 /// Stage 2: the face of least force among the balances of least adhesion.
 ///
-/// `None` if the solver finds no balance with the same sum of sticking for any of the margins.
+/// `None` if the solver finds no balance with the same sum of adhesion for any of the margins.
 fn least_force_face(
     whole: &Face,
     first: &Dual,
@@ -326,7 +326,7 @@ fn least_force_face(
     effort: &mut Effort,
 ) -> Option<Face> {
     margins.iter().find_map(|margin| {
-        // Restrict to the optima of stage 1, minimise the force, and check that the sticking is unchanged.
+        // Restrict to the optima of stage 1, minimise the force, and check that the adhesion is unchanged.
         let narrow = whole.narrowed(first, *margin);
         let second = solve_stage(&narrow, size, settings, effort, |c| c.cost);
         if second.status != Status::Solved || !unchanged(&narrow, &second.amounts) {
@@ -362,7 +362,7 @@ fn solve_stage(
     }
 }
 
-/// Stage 3: reduces the face to few points that stick. `None` if the columns of a program of many blocks have no
+/// Stage 3: reduces the face to few points with adhesion. `None` if the columns of a program of many blocks have no
 /// balance.
 fn concentrate(
     face: &Face,
@@ -405,7 +405,7 @@ fn concentrate(
             break;
         }
         face.amounts = solved.amounts;
-        // Drop the points with little sticking; stop if there are none.
+        // Drop the points with little adhesion; stop if there are none.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
         face = face.only(|c, a| !c.force.is_adhesion() || a > drop_tolerance * most);

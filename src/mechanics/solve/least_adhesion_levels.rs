@@ -1,29 +1,29 @@
 //! Stages 2 to 4 of the least adhesion, for loads that differ by more powers of ten than a solver has digits.
 //!
 //! The stages are those of [`super::least_adhesion`], but each is solved level by level ([`super::level`]). The
-//! sticking of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
+//! adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
 //! optima if its amount is exactly 0; no threshold relative to the largest force is used.
 
 use super::level::{WIDE_LOAD_RATIO, lightest, own_loads, refined_optimum, with_least_squares};
 use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
 use crate::program::Column;
 
-/// A least sum of sticking below this fraction of the largest load needs a refined optimum.
+/// A least sum of adhesion below this fraction of the largest load needs a refined optimum.
 const SMALL_ADHESION: f64 = 1e-3;
 
-/// A least sum of sticking below this fraction of the largest load counts as 0: it is within the solver's tolerance.
+/// A least sum of adhesion below this fraction of the largest load counts as 0: it is within the solver's tolerance.
 const ZERO_ADHESION: f64 = 1e-10;
 
-/// Sums of sticking that differ by less than this fraction are the same: a hundredth of the error that a result may have.
+/// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may have.
 const SAME_SUM: f64 = 1e-8;
 
 /// The largest number of rounds of stage 3.
 const MAX_ROUNDS: usize = 4;
 
-/// The size of the smallest forces that must be accurate, in the units of the loads.
+/// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
 /// `None` if it is so close to the largest load that the unrefined optimum is accurate enough. `least` is the least sum
-/// of sticking.
+/// of adhesion.
 pub(super) fn smallest_accurate_force(loads: &[f64], least: f64) -> Option<f64> {
     let most = largest(loads);
     let light = lightest(loads);
@@ -32,7 +32,7 @@ pub(super) fn smallest_accurate_force(loads: &[f64], least: f64) -> Option<f64> 
     (force_size < WIDE_LOAD_RATIO * most && force_size > 0.0).then_some(force_size)
 }
 
-/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points that stick.
+/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with adhesion.
 ///
 /// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
 pub(super) fn chosen(
@@ -45,7 +45,7 @@ pub(super) fn chosen(
     let face = whole.narrowed(first, 1.0);
     let least = face.adhesion_sum(&face.amounts);
     // A column whose slack is below the solver's digits is on the face by mistake. A later stage that uses much of it adds
-    // sticking, and is skipped.
+    // adhesion, and is skipped.
     let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SAME_SUM) * least;
     // Stage 2: least force.
     let second = optimum(&face, force_size, settings, effort, |c| c.cost);
@@ -58,7 +58,8 @@ pub(super) fn chosen(
     Some(squares).filter(unchanged).unwrap_or(face)
 }
 
-/// The optimum of a face for given costs, accurate relative to each body's own load; `None` if it is not found.
+/// Computes the optimum of a face for given costs, accurate relative to each body's own load; `None` if it is not
+/// found.
 fn optimum(
     face: &Face,
     force_size: f64,
@@ -71,9 +72,9 @@ fn optimum(
     refined_optimum(&face.loads, &face.columns, cost, &start, force_size, effort)
 }
 
-/// Stage 3: reduces the face to few points that stick.
+/// Stage 3: reduces the face to few points with adhesion.
 ///
-/// In each round the cost of a sticking column rises if its amount is small, relative to the lighter load that it acts
+/// In each round the cost of an adhesion column rises if its amount is small, relative to the lighter load that it acts
 /// on.
 fn concentrated(
     mut face: Face,
@@ -96,7 +97,7 @@ fn concentrated(
         if before < 2 {
             break;
         }
-        // Reweighting: the cost of sticking is about 1/share, at most a thousand times that of the largest share.
+        // Reweighting: the cost of adhesion is about 1/share, at most a thousand times that of the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
             .map(|(column, amount)| match column.force.is_adhesion() {

@@ -1,4 +1,4 @@
-//! Two programs that decide near the limit of standing: any balance, and least residual.
+//! Two programs that decide near the limit of stability: any balance, and least residual.
 //!
 //! Near that limit the program of least force ends without a status: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:

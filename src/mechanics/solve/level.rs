@@ -56,7 +56,7 @@ const LOOSE_LIMIT: f64 = 1e6;
 /// A column whose limit is below this multiple of the loads of a level is kept fixed at that level.
 const NARROW_LIMIT: f64 = 1e-9;
 
-/// The size of each body's load: the larger of its force and its moment/L.
+/// Returns the size of each body's load: the larger of its force and its moment/L.
 pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
     let bodies = loads.chunks_exact(3);
     bodies
@@ -64,7 +64,7 @@ pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The smallest load above 0 of a body; infinite if no body has a load.
+/// Returns the smallest load above 0 of a body; infinite if no body has a load.
 pub(super) fn lightest(loads: &[f64]) -> f64 {
     let own = own_loads(loads).into_iter().filter(|load| *load > 0.0);
     own.fold(f64::INFINITY, f64::min)
@@ -94,7 +94,7 @@ fn balances_every_body(
     })
 }
 
-/// The residual loads − Σ amount·column, summed with twice the digits of f64.
+/// Returns the residual loads − Σ amount·column, summed with twice the digits of f64.
 fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     let mut sums = vec![CompensatedSum::default(); loads.len()];
     for (sum, load) in sums.iter_mut().zip(loads) {
@@ -133,7 +133,8 @@ pub(super) fn refined_optimum(
     None
 }
 
-/// A face with the amounts of least Σ force² on it. If these do not balance every body, the face is returned unchanged.
+/// Returns a face with the amounts of least Σ force² on it. If these do not balance every body, the face is returned
+/// unchanged.
 pub(super) fn with_least_squares(
     face: Face,
     force_size: f64,
@@ -211,7 +212,7 @@ impl Level {
         })
     }
 
-    /// The program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
+    /// Poses the program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
     fn program_of_changes(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> QuadraticProgram {
         let n = columns.len();
         let mut program = QuadraticProgram {

@@ -16,7 +16,7 @@ use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_
 /// The extreme value of a load factor or of a robot's limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// The extreme load factor; for a robot's component, its least limit as a pure number.
+    /// The extreme load factor; for a robot's component, its least limit in program units.
     At(f64),
     /// No value allows a balance.
     Never,
@@ -61,7 +61,7 @@ const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 /// The tolerances that are tried in turn until the solver ends with a status.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
-/// The largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`.
+/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`.
 ///
 /// Loads and direction are scaled to a largest entry of 1. With loads of 300, the solver stops for a wall of 420 bricks
 /// after a hundred iterations at λ = 0.48159; with loads of 1 it reaches the optimum λ = 0.48162.
@@ -69,7 +69,7 @@ pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Largest)
 }
 
-/// The λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·direction`.
+/// Finds the λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·direction`.
 ///
 /// [`Limit::Never`] means that no λ does: this program has an optimum exactly if some λ allows a balance.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
@@ -84,7 +84,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// The number of rows for λ at the end of the program.
+    /// Returns the number of rows for λ at the end of the program.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,
@@ -168,13 +168,13 @@ fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
         .chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
 }
 
-/// The amounts after the least change that removes the solver's residual.
+/// Returns the amounts after the least change that removes the solver's residual.
 pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
     let settings = Conditioning::Plain.into();
     balance_by_least_change(loads, columns, amounts, settings, &mut Effort::default())
 }
 
-/// The columns of a program, with their limits divided by `unit`, a load.
+/// Returns the columns of a program, with their limits divided by `unit`, a load.
 pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     let mut columns = columns(program);
     for column in &mut columns {
@@ -183,8 +183,8 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     columns
 }
 
-/// The least limit of one component of one grip with which admissible forces balance the loads. All other limits stay
-/// as given.
+/// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other
+/// limits stay as given.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
     // Without a limit and at cost 1, the least cost is the least amount.
     let mut free = program.clone();

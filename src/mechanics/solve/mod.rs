@@ -1,7 +1,8 @@
 //! Solves the programs of an assembly: least force if it stands, least adhesion if it falls.
 //!
-//! The results, such as [`Balance`] and [`LeastAdhesion`], are pure numbers. They are not verdicts: [`crate::proof`]
-//! checks the forces and the motion and decides. Among several optima, the one of least Σ force² is shown.
+//! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts:
+//! [`crate::proof`] checks the forces and the motion and decides. Among several optima, the one of least Σ force² is
+//! shown.
 //!
 //! | files | what they do |
 //! |---|---|
@@ -10,8 +11,7 @@
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `tangent` | the programs of limit analysis |
 //! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
-//! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions that a
-//! solver found |
+//! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
 //! | `wedge` | checks whether forces build up from rest |
 
 mod adhesion_result;

@@ -40,7 +40,7 @@ const MIN_DIGITS_GAINED: f64 = 0.3;
 /// by a million times the residual to balance its moment.
 const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
-/// The residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
+/// Returns the residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
 fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     // The sums begin with the loads; each force is subtracted in three rows of its block.
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
@@ -83,8 +83,8 @@ fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
-/// The amounts of a program's columns that add up to given forces, with every ray of the friction cone used if
-/// possible.
+/// Returns the amounts of a program's columns that add up to given forces, with every ray of the friction cone used
+/// if possible.
 ///
 /// A contact force (N, T) with s = |T|/(μN) is divided as follows: (1 − s)/2 of N along the normal, (1 + 3s)/4 along
 /// the ray on the side of T, and (1 − s)/4 along the other ray.
@@ -126,7 +126,8 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
     list.iter().map(amount).collect()
 }
 
-/// The forces after the amounts of the columns change by `changes`. Normal forces that become negative are set to 0.
+/// Returns the forces after the amounts of the columns change by `changes`. Normal forces that become negative are
+/// set to 0.
 fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     let mut changed = amounts.clone();
     for (column, change) in list.iter().zip(changes) {
@@ -138,8 +139,8 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     changed
 }
 
-/// The factor for each row that makes a block's residual relative to the forces on it: 1/Σ|force|, for moments also
-/// divided by the longest arm.
+/// Returns the factor for each row that makes a block's residual relative to the forces on it: 1/Σ|force|, for
+/// moments also divided by the longest arm.
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     // The longest arm of each block.
     let mut reach = vec![0.0; program.blocks];
@@ -159,7 +160,7 @@ fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The largest entry of a residual after each row is multiplied by its scale.
+/// Returns the largest entry of a residual after each row is multiplied by its scale.
 fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
     let off = residual.iter().zip(scales).map(|(v, d)| (v * d).abs());
     off.fold(0.0, f64::max)
@@ -213,8 +214,8 @@ pub fn rebalance_relative(
     better.then_some(best)
 }
 
-/// The program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns `used`
-/// and the remaining residual v of each row.
+/// Poses the program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns
+/// `used` and the remaining residual v of each row.
 ///
 /// `left` is the residual, and `size` its largest scaled entry.
 fn relative_changes(
@@ -251,7 +252,7 @@ fn relative_changes(
     conic
 }
 
-/// The number of decimal digits to which each block is balanced, summed over all blocks.
+/// Returns the number of decimal digits to which each block is balanced, summed over all blocks.
 fn digits(left: &[f64], scales: &[f64]) -> f64 {
     left.chunks_exact(3)
         .zip(scales.chunks_exact(3))
@@ -278,7 +279,7 @@ pub fn rebalance_absolute(
     better.then_some(best)
 }
 
-/// One round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None`.
+/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None`.
 ///
 /// Only amounts below `ratio` times the residual get a lower bound.
 fn correct_once(

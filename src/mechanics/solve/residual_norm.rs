@@ -2,7 +2,7 @@
 
 use crate::program::Column;
 
-/// The residual loads − Σ amount·column, one number for each row.
+/// Returns the residual loads − Σ amount·column, one number for each row.
 pub(super) fn remainder(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     let mut rest: Vec<f64> = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
@@ -11,7 +11,7 @@ pub(super) fn remainder(loads: &[f64], columns: &[Column], amounts: &[f64]) -> V
     rest
 }
 
-/// The largest absolute value in a list, 0 for an empty list.
+/// Returns the largest absolute value in a list, 0 for an empty list.
 pub(super) fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }

@@ -24,7 +24,7 @@ pub struct SolverSettings {
     pub choice: Choice,
 }
 
-/// When the solver on the normal equations stops, if basic columns must be distinguished from all others.
+/// The stopping rule of the solver on the normal equations if basic columns must be distinguished from all others.
 ///
 /// If the optimum is strictly complementary, two to eleven iterations beyond the tolerance bring the slack of basic
 /// columns close to 0. If it is not, as in walls near their limit, no number of iterations does; stopping early then
@@ -62,7 +62,7 @@ pub enum Choice {
 }
 
 impl From<Conditioning> for SolverSettings {
-    /// The default tolerance, and the unique balance.
+    /// Returns settings with the default tolerance and the unique balance.
     fn from(conditioning: Conditioning) -> SolverSettings {
         SolverSettings {
             tolerance: TOLERANCE,
@@ -77,8 +77,7 @@ impl From<Conditioning> for SolverSettings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conditioning {
     /// No equilibration and no iterative refinement: two thirds of the time of `Full`. It is suitable for most
-    /// programs,
-    /// whose numbers are all near 1, and safe because every answer is checked by a proof.
+    /// programs, whose numbers are all near 1, and safe because every answer is checked by a proof.
     Plain,
     /// The defaults of the solver clarabel: equilibration and iterative refinement.
     Full,

@@ -25,7 +25,7 @@ impl Slanted {
         }
     }
 
-    /// The amounts of all columns; 0 for the omitted ones.
+    /// Returns the amounts of all columns; 0 for the omitted ones.
     pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, place) in amounts.iter().zip(&self.places) {

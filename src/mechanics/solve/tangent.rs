@@ -61,12 +61,12 @@ impl Tangent {
         self.left + self.work - self.work_in(sibling)
     }
 
-    /// The motion of largest power: three velocities per block.
+    /// Returns the motion of largest power: three velocities per block.
     pub fn motion(&self) -> Vec<f64> {
         self.y.iter().map(|v| -v).collect()
     }
 
-    /// The contact forces, after the least change that removes their residual.
+    /// Returns the contact forces, after the least change that removes their residual.
     pub fn forces(&self, program: &Program) -> Amounts {
         let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
         let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
@@ -75,7 +75,7 @@ impl Tangent {
         face.gathered(program).0
     }
 
-    /// The work that the normal forces with full friction do along y, with the contacts of a given program.
+    /// Returns the work that the normal forces with full friction do along y, with the contacts of a given program.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {

@@ -215,7 +215,7 @@ impl Component<'_> {
 }
 
 impl Decision {
-    /// A new decision: stable, without forces and without a proof.
+    /// Creates a decision: stable, without forces and without a proof.
     pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,

@@ -57,7 +57,7 @@ impl End {
         }
     }
 
-    /// The value, if it is confirmed. `None` if there is no end, or if it is unconfirmed.
+    /// Returns the value, if it is confirmed. `None` if there is no end, or if it is unconfirmed.
     pub fn value(&self) -> Option<f64> {
         match self {
             End::At { value, .. } => Some(*value),
@@ -65,7 +65,7 @@ impl End {
         }
     }
 
-    /// The farthest value at which the frame is known to stand; `otherwise` if there is no end.
+    /// Returns the farthest value at which the frame is known to stand; `otherwise` if there is no end.
     fn stands(&self, otherwise: f64) -> f64 {
         match self {
             End::At { value, .. } => *value,
@@ -85,7 +85,7 @@ impl Interval {
         high: End::Unbounded,
     };
 
-    /// The lower end; `None` if the interval is empty or undecided.
+    /// Returns the lower end; `None` if the interval is empty or undecided.
     pub fn low(&self) -> Option<&End> {
         match self {
             Interval::Between { low, .. } => Some(low),
@@ -93,7 +93,7 @@ impl Interval {
         }
     }
 
-    /// The upper end; `None` if the interval is empty or undecided.
+    /// Returns the upper end; `None` if the interval is empty or undecided.
     pub fn high(&self) -> Option<&End> {
         match self {
             Interval::Between { high, .. } => Some(high),

@@ -28,7 +28,7 @@ impl MarginKinds {
     /// All of them.
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
-    /// The set of the margins in a list.
+    /// Creates the set of the margins in a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }

@@ -34,7 +34,7 @@ pub enum Margin {
 }
 
 impl Margin {
-    /// The value; `None` for all variants other than [`Margin::Value`].
+    /// Returns the value; `None` for all variants other than [`Margin::Value`].
     pub fn at(&self) -> Option<f64> {
         match self {
             Margin::Value { at, .. } => Some(*at),

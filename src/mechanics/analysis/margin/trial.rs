@@ -19,7 +19,7 @@ use crate::solve::{Extreme, Tangent};
 /// The number of changed components that this process has decided.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
-/// The number of changed components that this process has decided for margins, for a progress bar.
+/// Returns the number of changed components that this process has decided for margins, for a progress bar.
 pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }
@@ -97,7 +97,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The robots that hold a body of the component, in the order of the grips.
+    /// Returns the robots that hold a body of the component, in the order of the grips.
     pub fn holds(&self) -> Vec<RobotId> {
         self.given.grips.iter().map(|grip| grip.robot).collect()
     }

@@ -20,7 +20,7 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// The state before the first step, from the passive set of an earlier call.
+    /// Creates the state before the first step, from the passive set of an earlier call.
     pub(super) fn new(set: &BoundedNnls, loads: &'a [f64], columns: &'a [Column]) -> Search<'a> {
         let mut state = vec![State::AtZero; columns.len()];
         set.passive.iter().for_each(|k| state[*k] = State::Passive);
@@ -107,7 +107,7 @@ impl Entry {
     }
 }
 
-/// The length |column| of a column.
+/// Returns the length |column| of a column.
 pub(super) fn norm(column: &Column) -> f64 {
     column.dot_column(column).sqrt()
 }

@@ -15,7 +15,7 @@ pub(super) struct Wrench {
     pub moment: f64,
 }
 
-/// The forces ([N1, N2], T) of a contact; a pull is a negative N.
+/// The forces ([N1, N2], T) of a contact; a negative N is tension.
 pub(super) type ContactForces = ([f64; 2], f64);
 
 /// The speeds at which the two points open, and at which the face slides along its tangent.
@@ -37,15 +37,15 @@ pub(super) struct Joint<'a> {
 }
 
 impl Joint<'_> {
-    /// The moments about the body's centroid of unit forces: along the normal at each of the two points, and along the
-    /// face.
+    /// Returns the moments about the body's centroid of unit forces: along the normal at each of the two points, and
+    /// along the face.
     fn levers(&self) -> ([f64; 2], f64) {
         let normal = self.contact.normal;
         let levers = self.arms.map(|arm| cross(arm, normal));
         (levers, cross(self.arms[0], quarter_turn(normal)))
     }
 
-    /// The contact forces that exert a given wrench on the body: three equations for three unknowns.
+    /// Computes the contact forces that exert a given wrench on the body: three equations for three unknowns.
     pub fn forces(&self, wrench: Wrench) -> ContactForces {
         let (levers, lever) = self.levers();
         let normal = self.contact.normal;
@@ -80,7 +80,7 @@ impl Joint<'_> {
     }
 }
 
-/// The joints in order from the ground outwards, one for each body.
+/// Lists the joints in order from the ground outwards, one for each body.
 ///
 /// `None` if the contacts do not form a tree: a body has several ways to the ground or none. Also `None` if the program
 /// has grips or a face is too short.
@@ -135,7 +135,7 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     (joints.len() == program.blocks).then_some(joints)
 }
 
-/// The arm of a contact's first point about the centroid of one of its bodies.
+/// Returns the arm of a contact's first point about the centroid of one of its bodies.
 fn first_arm(contact: &ContactTerm, body: Option<usize>) -> Option<Vector> {
     let sides = [Some(contact.on), contact.from].into_iter().flatten();
     let of_body = |side: &(usize, [Vector; 2])| Some(side.0) == body;

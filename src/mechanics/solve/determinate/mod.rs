@@ -1,9 +1,9 @@
 //! Closed forms for statically determinate structures: stacks, and all trees of blocks.
 //!
 //! In a tree, each contact is the only connection of the blocks beyond it to the ground. The balance of these blocks
-//! determines its forces N1, N2 and T. If the contact can exert them, the structure stands. Otherwise the missing part
-//! is the adhesion: a pull −N, and friction beyond μ(N1 + N2). With μ ≤ 1 no other choice needs less adhesion: one
-//! newton of additional pressure, balanced by one newton of pull, allows only μ newtons of friction.
+//! determines its forces N1, N2 and T. If the contact can exert them, the structure stands. Otherwise the missing
+//! part is the adhesion: tension −N, and friction beyond μ(N1 + N2). With μ ≤ 1 no other choice needs less adhesion:
+//! one newton of additional pressure, balanced by one newton of tension, allows only μ newtons of friction.
 //!
 //! No program is solved, and the accuracy does not depend on the length of a chain. An interior-point method has no
 //! correct digits left at 10 000 blocks. Steps: order the joints from the ground outwards; sum the loads from the ends
@@ -32,7 +32,7 @@ const ROUNDING_TOL: f64 = 1e-12;
 /// loads changes by about as little.
 const EXTRA_OPENING: f64 = 1e-14;
 
-/// The contact forces, if they are unique and every contact can exert them; otherwise `None`.
+/// Returns the contact forces, if they are unique and every contact can exert them; otherwise `None`.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
@@ -40,7 +40,7 @@ pub fn determinate(program: &Program) -> Option<Amounts> {
     joints.iter().all(holds).then_some(split.forces)
 }
 
-/// The forces that each joint must exert to balance the loads, in the order of the joints.
+/// Computes the forces that each joint must exert to balance the loads, in the order of the joints.
 fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     let mut needed: Vec<Wrench> = program
         .loads
@@ -63,13 +63,13 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     forces.collect()
 }
 
-/// The least adhesion, and the motion that proves it; `None` if the forces are not unique.
+/// Computes the least adhesion, and the motion that proves it; `None` if the forces are not unique.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     Split::new(program, &joints)?.stuck(program, &joints)
 }
 
-/// A collapse mechanism with few moving joints, and the least adhesion.
+/// Computes a collapse mechanism with few moving joints, and the least adhesion.
 ///
 /// On each way from the ground only the first failing contact moves; the blocks beyond it move as one body. `None` if
 /// the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
@@ -95,7 +95,8 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     Some((motion, split.stuck(program, &joints)?))
 }
 
-/// The velocities of the bodies, from the speeds at which the joints open and slide; `None` if one is not finite.
+/// Computes the velocities of the bodies, from the speeds at which the joints open and slide; `None` if one is not
+/// finite.
 ///
 /// Every joint opens by an additional [`EXTRA_OPENING`], unless this costs half of the loads' power or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
@@ -148,7 +149,7 @@ impl Split {
         Some(Split { forces, adhesion })
     }
 
-    /// The optimum of the program of least adhesion, with the motion of all joints that fail.
+    /// Computes the optimum of the program of least adhesion, with the motion of all joints that fail.
     ///
     /// `None` if a friction coefficient exceeds 1: the closed form is then not always the least adhesion.
     fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
@@ -170,7 +171,8 @@ impl Split {
         })
     }
 
-    /// The speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if it needs none.
+    /// Returns the speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if it
+    /// needs none.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
         let (pull, missing) = (
             self.adhesion.normal[joint.number],

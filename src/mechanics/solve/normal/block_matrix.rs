@@ -19,8 +19,8 @@ pub(super) struct BlockDiagonal {
 }
 
 impl BlockDiagonal {
-    /// The matrix of a problem's quadratic objective; `None` if it couples more than [`MAX_BLOCK_COLUMNS`] consecutive
-    /// columns.
+    /// Builds the matrix of a problem's quadratic objective; `None` if it couples more than [`MAX_BLOCK_COLUMNS`]
+    /// consecutive columns.
     pub fn quadratic_of(problem: &QuadraticProgram) -> Option<BlockDiagonal> {
         let blocks = blocks(problem);
         if blocks.iter().any(|block| block.len() > MAX_BLOCK_COLUMNS) {
@@ -50,7 +50,7 @@ impl BlockDiagonal {
         })
     }
 
-    /// The range of a block's matrix in [`Self::entries`].
+    /// Returns the range of a block's matrix in [`Self::entries`].
     pub fn range(&self, k: usize) -> Range<usize> {
         self.begin[k]..self.begin[k + 1]
     }
@@ -66,7 +66,7 @@ impl BlockDiagonal {
     }
 }
 
-/// The finest division of the columns into consecutive blocks that no entry of the objective crosses.
+/// Returns the finest division of the columns into consecutive blocks that no entry of the objective crosses.
 fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     let n = problem.unknowns;
     // The first column that each column is coupled with.

@@ -236,7 +236,7 @@ impl BlockQp {
         max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
     }
 
-    /// The convergence test: every residual is small relative to its terms, and Σ s·z is at most `gap` times the
+    /// Convergence test: true if every residual is small relative to its terms, and Σ s·z is at most `gap` times the
     /// objective.
     fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
         let [_, squared, along] = self.residuals.size;
@@ -288,8 +288,8 @@ impl BlockQp {
         }
     }
 
-    /// The Newton direction along which each product s·z changes by `target` and the given share of the residuals
-    /// vanishes.
+    /// Computes the Newton direction along which each product s·z changes by `target` and the given share of the
+    /// residuals vanishes.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
         // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.

@@ -39,12 +39,13 @@ struct Workspace {
     packed: PackedRows,
 }
 
-/// The index at which row 0 of column c would be in a packed lower triangle of `rows` rows. Row r is at this index + r.
+/// Returns the index at which row 0 of column c would be in a packed lower triangle of `rows` rows. Row r is at this
+/// index + r.
 fn packed_begin(rows: usize, c: usize) -> usize {
     c * rows - c * (c + 1) / 2
 }
 
-/// The number of entries in a packed lower triangle.
+/// Returns the number of entries in a packed lower triangle.
 fn packed_size(rows: usize) -> usize {
     rows * (rows + 1) / 2
 }
@@ -83,7 +84,7 @@ impl Cholesky {
         })
     }
 
-    /// The number of multiplications and additions of one factorization.
+    /// Returns the number of multiplications and additions of one factorization.
     pub fn operations(&self) -> f64 {
         let of = |node: &Supernode| {
             let (w, m) = (node.width as f64, node.rows.len() as f64);
@@ -302,7 +303,7 @@ impl Front<'_> {
         }
     }
 
-    /// Column c of the front, indexed by local rows. It contains at least the rows from the diagonal down.
+    /// Returns column c of the front, indexed by local rows. It contains at least the rows from the diagonal down.
     fn column(&mut self, c: usize) -> FrontColumn<'_> {
         match c.checked_sub(self.width) {
             None => FrontColumn {

@@ -77,22 +77,22 @@ impl ColumnGroups {
         SparseColumns::new(columns, entries).grouped(unknowns, groups)
     }
 
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn unknowns(&self) -> usize {
         self.unknowns
     }
 
-    /// The number of columns.
+    /// Returns the number of columns.
     pub fn column_count(&self) -> usize {
         self.groups.last().map_or(0, |group| group.columns.end)
     }
 
-    /// The number of groups.
+    /// Returns the number of groups.
     pub fn group_count(&self) -> usize {
         self.groups.len()
     }
 
-    /// Group k.
+    /// Returns group k.
     pub fn group(&self, k: usize) -> ColumnGroup<'_> {
         let range = &self.groups[k];
         ColumnGroup {
@@ -102,12 +102,12 @@ impl ColumnGroups {
         }
     }
 
-    /// The entries of a group, column by column.
+    /// Returns the entries of a group, column by column.
     pub fn values_mut(&mut self, k: usize) -> &mut [f64] {
         &mut self.values[self.groups[k].values.clone()]
     }
 
-    /// The largest number of rows in a group.
+    /// Returns the largest number of rows in a group.
     pub fn max_entries(&self) -> usize {
         let sizes = self.groups.iter().map(|group| group.rows.len());
         sizes.max().unwrap_or(0)

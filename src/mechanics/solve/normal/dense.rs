@@ -78,7 +78,7 @@ impl PackedRows {
     }
 }
 
-/// The sums Σ leftᵢ·rightⱼ for four rows by four rows.
+/// Returns the sums Σ leftᵢ·rightⱼ for four rows by four rows.
 fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
     let mut sums = [[0.0; 4]; 4];
     for (a, b) in left.iter().zip(right) {
@@ -93,7 +93,7 @@ fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
 
 /// Factors the first `width` columns, of `height` rows each, in place.
 ///
-/// The diagonal entry becomes the inverse of the pivot's root, 1/L(k, k). Where the pivot is lost to rounding, the whole
+/// The diagonal entry becomes the inverse of the pivot's root, 1/L(k, k). If the pivot is lost to rounding, the whole
 /// column becomes 0.
 pub(super) fn factor_columns(
     values: &mut [f64],
@@ -136,7 +136,7 @@ pub(super) fn factor_columns(
     }
 }
 
-/// The dot product of two lists of equal length, summed in four parts.
+/// Returns the dot product of two lists of equal length, summed in four parts.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
@@ -150,7 +150,7 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// The largest absolute value in a list, 0 for an empty list.
+/// Returns the largest absolute value in a list, 0 for an empty list.
 pub(super) fn max_norm(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }

@@ -65,7 +65,7 @@ impl Graph {
         self.starts.len() - 1
     }
 
-    /// The pattern as the 32-bit integers that `amd` expects; `None` if there are too many entries for them.
+    /// Returns the pattern as the 32-bit integers that `amd` expects; `None` if there are too many entries for them.
     fn as_i32(&self) -> Option<(Vec<i32>, Vec<i32>)> {
         let starts = self.starts.iter().map(|k| i32::try_from(*k).ok());
         let list = self.list.iter().map(|k| i32::try_from(*k).ok());
@@ -114,7 +114,7 @@ impl<'a> OrderedGraph<'a> {
         })
     }
 
-    /// The positions of the entries in the row at a position.
+    /// Returns the positions of the entries in the row at a position.
     pub fn row(&self, k: usize) -> impl Iterator<Item = usize> {
         let unknown = self.order[k];
         let of = self.graph.starts[unknown]..self.graph.starts[unknown + 1];
@@ -122,8 +122,8 @@ impl<'a> OrderedGraph<'a> {
         others.map(|other| self.position[*other as usize])
     }
 
-    /// The elimination tree: the parent of a column is the first row below the diagonal in which the factor has an
-    /// entry.
+    /// Returns the elimination tree: the parent of a column is the first row below the diagonal in which the factor
+    /// has an entry.
     ///
     /// `ancestor` leads from a column towards the root of its present subtree; paths are compressed on the way (Liu
     /// 1986).
@@ -147,7 +147,7 @@ impl<'a> OrderedGraph<'a> {
         parent
     }
 
-    /// The number of entries in each column of the factor, the diagonal included.
+    /// Returns the number of entries in each column of the factor, the diagonal included.
     ///
     /// The pattern of row k of the factor is a subtree of the elimination tree: the paths from the entries of row k to
     /// k.
@@ -169,7 +169,7 @@ impl<'a> OrderedGraph<'a> {
     }
 }
 
-/// The inverse of a permutation.
+/// Returns the inverse of a permutation.
 fn inverse(order: &[usize]) -> Vec<usize> {
     let mut at = vec![0; order.len()];
     for (k, v) in order.iter().enumerate() {
@@ -178,7 +178,7 @@ fn inverse(order: &[usize]) -> Vec<usize> {
     at
 }
 
-/// An order of the tree's nodes with children before parents and every subtree consecutive.
+/// Returns an order of the tree's nodes with children before parents and every subtree consecutive.
 fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
     let n = parent.len();
     // Children as linked lists: the first child of each node, and the next sibling.

@@ -140,7 +140,7 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
-    /// One Newton step; false if it is too short to make progress.
+    /// Performs one Newton step; returns false if it is too short to make progress.
     fn step(&mut self, optimality: &Optimality) -> bool {
         let (lp, residuals) = (self.lp, &self.residuals);
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
@@ -162,7 +162,7 @@ impl<'a> InteriorPoint<'a> {
 
     /// Removes the primal residual by the least relative change of the amounts, min Σ (df/f)².
     ///
-    /// A Newton step weights the columns by f/z. Near the limit of standing these weights differ so much that a
+    /// A Newton step weights the columns by f/z. Near the limit of stability these weights differ so much that a
     /// residual of 10⁻⁶ of the loads remains after every step. The amounts f differ less, so weights of f² remove the
     /// residual. This is needed only at the end, when the residual consists of rounding.
     fn restore_balance(&mut self) {

@@ -91,7 +91,7 @@ impl Iterate {
         at
     }
 
-    /// The sum of the slacks of the basic columns, which are those whose amount exceeds their slack.
+    /// Returns the sum of the slacks of the basic columns, which are those whose amount exceeds their slack.
     pub fn basic_slack(&self) -> f64 {
         let both = self.f.iter().zip(&self.z);
         both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
@@ -136,7 +136,7 @@ impl Iterate {
     }
 }
 
-/// The longest step, at most `step`, along which no value becomes negative; `pairs` are (value, change).
+/// Returns the longest step, at most `step`, along which no value becomes negative; `pairs` are (value, change).
 pub(super) fn shorten_step<'a>(
     mut step: f64,
     pairs: impl Iterator<Item = (&'a f64, &'a f64)>,

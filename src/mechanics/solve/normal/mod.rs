@@ -9,7 +9,7 @@
 //! Every step of an interior-point method solves A·W·Aᵀ·y = right-hand side. The matrix has three rows for each block,
 //! and it couples blocks that touch. For walls of a thousand blocks or more, its supernodal factor takes less than half
 //! the time of clarabel's factor, which has a row for each force. With Gondzio's correctors the method also converges
-//! near the limit of standing, where clarabel runs out of iterations. Measured times are in
+//! near the limit of stability, where clarabel runs out of iterations. Measured times are in
 //! [`crate::doc::performance`].
 //!
 //! | program | solved by |
@@ -49,8 +49,8 @@ use residuals::Termination;
 /// Programs of fewer blocks go to clarabel, for which they take little time.
 ///
 /// For more blocks, this solver is also more accurate. For a wall of 410 bricks, 10⁻⁵ past its limit, the least
-/// sticking has a relative error of 10⁻⁶. clarabel's has one of 0.5 %: its velocities may violate a column by 10⁻⁸, and
-/// a column may carry 10⁷ times the loads.
+/// adhesion has a relative error of 10⁻⁶, and that of clarabel an error of 0.5 %: its velocities may violate a column
+/// by 10⁻⁸, and a column may carry 10⁷ times the loads.
 const MIN_BLOCKS: usize = 60;
 
 /// A structure is a chain, such as an arch, if its factor takes fewer operations than this for each unknown.
@@ -206,7 +206,7 @@ impl ProblemKind {
 }
 
 impl LinearForm {
-    /// The columns, their costs and the loads.
+    /// Returns the columns, their costs and the loads.
     fn pair(self, problem: &QuadraticProgram) -> (ColumnGroups, Vec<f64>, Vec<f64>) {
         match self {
             LinearForm::Kinematic | LinearForm::ShortestVelocities => (

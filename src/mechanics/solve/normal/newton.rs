@@ -79,7 +79,7 @@ impl Newton {
         }
     }
 
-    /// One iteration; false if the step is too short to make progress.
+    /// Performs one iteration; returns false if the step is too short to make progress.
     pub fn step(
         &mut self,
         lp: &LinearProgram,
@@ -236,7 +236,7 @@ impl Newton {
         self.complete_candidate(system, at, sides);
     }
 
-    /// The right-hand side of the normal equations. Stores in `slack_side` the numbers that
+    /// Returns the right-hand side of the normal equations. Stores in `slack_side` the numbers that
     /// [`Self::complete_candidate`] needs.
     fn velocity_side(&mut self, system: &System, at: &Iterate, sides: Sides) -> Vec<f64> {
         let (residuals, share) = (system.residuals, sides.residual_share);

@@ -111,13 +111,13 @@ impl Optimality {
         !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// The gap between the objectives, and a sum of slacks, both relative to the cost.
+    /// Returns the gap between the objectives, and a sum of slacks, both relative to the cost.
     pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
         [self.primal_objective - self.dual_objective, slack]
             .map(|v| v.abs() / self.primal_objective.abs())
     }
 
-    /// The convergence test: returns that the iterate is an optimum or a certificate, or `None` if neither.
+    /// Convergence test: returns that the iterate is an optimum or a certificate, or `None` if neither.
     pub fn termination(&self, lp: &LinearProgram, tolerance: f64) -> Option<Termination> {
         let [f, z, y] = self.size;
         if self.is_optimal(lp, tolerance) {

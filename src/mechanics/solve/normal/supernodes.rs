@@ -113,7 +113,7 @@ impl ColumnRange {
         self.first + self.width
     }
 
-    /// This supernode merged with its parent, which follows it; `None` if too many zeros would be stored.
+    /// Returns this supernode merged with its parent, which follows it; `None` if too many zeros would be stored.
     ///
     /// A wider supernode may have a smaller share of zeros, because the work for each zero grows with the width.
     /// CHOLMOD uses the same scheme with widths of 4, 16 and 48 and shares of 0.8, 0.1 and 0.05.
@@ -142,8 +142,7 @@ impl ColumnRange {
 fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnRange> {
     let n = parent.len();
     // A column belongs to the supernode of the previous column if it is that column's parent in the tree, has one row
-    // less
-    // and has no other child.
+    // less, and has no other child.
     let mut children = vec![0; n];
     for p in parent.iter().flatten() {
         children[*p] += 1;

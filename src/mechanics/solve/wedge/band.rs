@@ -9,7 +9,8 @@ use crate::program::Program;
 /// The smallest pivot; a smaller one is replaced by it. The unknown is then arbitrary, and the test of the balance
 /// decides.
 ///
-/// The entries are near 1, and the springs to the ground add at least 1e-11 to the diagonal, so only rounding is replaced.
+/// The entries are near 1, and the springs to the ground add at least 1e-11 to the diagonal. Only pivots that are
+/// rounding are therefore replaced.
 const MIN_PIVOT: f64 = 1e-14;
 
 /// A matrix with `bandwidth` entries on either side of the diagonal.
@@ -21,7 +22,7 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// A matrix of zeros.
+    /// Creates a matrix of zeros.
     pub(super) fn new(size: usize, bandwidth: usize) -> Band {
         let bandwidth = bandwidth.min(size.saturating_sub(1));
         Band {
@@ -33,7 +34,7 @@ impl Band {
         }
     }
 
-    /// The index of an entry in `rows`.
+    /// Returns the index of an entry in `rows`.
     fn at(&self, row: usize, column: usize) -> usize {
         row * (3 * self.bandwidth + 1) + column + self.bandwidth - row
     }

@@ -37,7 +37,7 @@ pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &P
             .is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
 }
 
-/// The multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1.
+/// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1.
 ///
 /// The multipliers that a solver returns may be so small that the corrections exceed them. The multipliers of largest
 /// gain are as large as possible.
@@ -95,8 +95,8 @@ fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program)
     proves(conic, &z, program)
 }
 
-/// The multipliers after the least change that gives Aᵀz = 0. Multipliers of inequalities that would become negative
-/// are set to 0.
+/// Computes the multipliers after the least change that gives Aᵀz = 0. Multipliers of inequalities that would become
+/// negative are set to 0.
 fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
     // Scale the error of Aᵀz to size 1.
     let off = transpose_product(conic, z);
@@ -137,7 +137,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
     Some(corrected)
 }
 
-/// The product Aᵀz, one number for each unknown.
+/// Returns the product Aᵀz, one number for each unknown.
 fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; conic.unknowns];
     for (row, column, value) in &conic.matrix {
@@ -146,7 +146,7 @@ fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     product
 }
 
-/// The test: the gain −bᵀz exceeds the tolerance of a verdict, and also the largest |xᵀAᵀz| for x within
+/// Test: true if the gain −bᵀz exceeds the tolerance of a verdict, and also the largest |xᵀAᵀz| for x within
 /// [`MAX_DISPLACEMENT`].
 fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z

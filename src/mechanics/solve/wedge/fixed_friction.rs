@@ -62,7 +62,7 @@ impl Springs<'_> {
         None
     }
 
-    /// The pattern of given displacements, without a former pattern.
+    /// Returns the pattern of given displacements, without a former pattern.
     fn pattern_of(&self, u: &[f64]) -> Pattern {
         let nothing = Pattern {
             pressed: vec![false; self.points.len()],
@@ -72,7 +72,7 @@ impl Springs<'_> {
         self.pattern(u, &nothing)
     }
 
-    /// The program of least energy with fixed friction limits:
+    /// Poses the program of least energy with fixed friction limits:
     ///
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///

@@ -43,7 +43,7 @@ pub struct SelfStress {
     pub contacts: Vec<usize>,
     /// Whether the motion closes no contact at all.
     pub presses_nothing: bool,
-    /// The least sum of normal forces at these contacts in any balance, a pure number.
+    /// The least sum of normal forces at these contacts in any balance, in program units.
     pub least: Option<f64>,
     /// The motion that proves this bound. Along it, these contacts take at most a work of 1 for each unit of normal
     /// force, and all others take none.
@@ -53,7 +53,7 @@ pub struct SelfStress {
 }
 
 impl SelfStress {
-    /// The blocks with a velocity above a thousandth of the largest.
+    /// Returns the blocks with a velocity above a thousandth of the largest.
     pub fn moving(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
         blocks.filter_map(|(block, v)| v.iter().any(|v| v.abs() > 1e-3).then_some(block))
@@ -142,8 +142,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
 }
 
-/// The self-stress that a program without a rest needs, measured at the contacts that open or slide in the given
-/// motion.
+/// Returns the self-stress that a program without a rest needs, measured at the contacts that open or slide in the
+/// given motion.
 fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     // The contacts that open or slide, and whether any point closes.

@@ -25,7 +25,7 @@ const MAX_SOFTENINGS: usize = 22;
 const SOFTENING_FACTOR: f64 = 0.3;
 
 impl Springs<'_> {
-    /// The displacements at which springs with this stiffness matrix exert the given forces on the blocks.
+    /// Computes the displacements at which springs with this stiffness matrix exert the given forces on the blocks.
     pub(super) fn displacements(&self, stiffness: &Band, forces: &[f64]) -> Vec<f64> {
         let mut right = vec![0.0; forces.len()];
         for (row, value) in forces.iter().enumerate() {
@@ -35,8 +35,8 @@ impl Springs<'_> {
         (0..forces.len()).map(|row| found[self.row(row)]).collect()
     }
 
-    /// The forces that the springs must exert: the loads minus the constant forces of robots, which are their given
-    /// force or, at a limit, the limit.
+    /// Returns the forces that the springs must exert: the loads minus the constant forces of robots, which are their
+    /// given force or, at a limit, the limit.
     fn spring_loads(&self, pattern: &Pattern) -> Vec<f64> {
         let mut loads = self.program.loads.clone();
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {
@@ -50,7 +50,7 @@ impl Springs<'_> {
         loads
     }
 
-    /// The norm of the residual at given displacements, with springs of stiffness `ground` to the ground.
+    /// Returns the norm of the residual at given displacements, with springs of stiffness `ground` to the ground.
     fn residual_norm(&self, u: &[f64], ground: f64) -> f64 {
         let mut residual = self.program.loads.clone();
         for grip in &self.grips {

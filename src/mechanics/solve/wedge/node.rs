@@ -28,7 +28,8 @@ pub(super) enum Branch {
 }
 
 impl Node {
-    /// The root of the tree: only faces without friction are fixed, because for these the decision has no effect.
+    /// Returns the root of the tree: only faces without friction are fixed, because for these the decision has no
+    /// effect.
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
         let slides = contacts.map(|c| (!(c.friction > 0.0)).then_some(Slide::Forth));
@@ -38,7 +39,7 @@ impl Node {
         }
     }
 
-    /// The children of a node. The last one is to be explored first.
+    /// Returns the children of a node. The last one is to be explored first.
     pub fn children(&self, at: Branch) -> Vec<Node> {
         let with = |change: &dyn Fn(&mut Node)| {
             let mut child = self.clone();
@@ -63,7 +64,7 @@ impl Node {
             .any(|(_, pressed)| *pressed != Some(false))
     }
 
-    /// The decisions of the node as numbers of contacts and application points.
+    /// Returns the decisions of the node as numbers of contacts and application points.
     pub fn described(&self, springs: &Springs) -> RuledOut {
         // The number of a point within its contact, 0 or 1.
         let end = |k: usize| {
@@ -84,7 +85,7 @@ impl Node {
         }
     }
 
-    /// The first open point. If there is none, the first open face that may transmit force.
+    /// Returns the first open point. If there is none, the first open face that may transmit force.
     pub fn first_open(&self, springs: &Springs) -> Option<Branch> {
         let point = self.pressed.iter().position(Option::is_none);
         let face = |k: &usize| self.slides[*k].is_none() && self.may_carry(springs, *k);
@@ -93,7 +94,7 @@ impl Node {
             .or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
     }
 
-    /// A pattern in which the node's decisions replace the given ones.
+    /// Returns a pattern in which the node's decisions replace the given ones.
     pub fn impose_on(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
         for (to, decided) in imposed.pressed.iter_mut().zip(&self.pressed) {

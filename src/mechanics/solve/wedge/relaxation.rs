@@ -62,12 +62,12 @@ impl VariableLayout {
         }
     }
 
-    /// The robots' components in a solution.
+    /// Returns the robots' components in a solution.
     pub fn grips<'x>(&self, x: &'x [f64]) -> &'x [f64] {
         &x[self.grips..self.end]
     }
 
-    /// The relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
+    /// Poses the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
         let mut builder = Builder {
             equal: Rows::default(),
@@ -208,7 +208,7 @@ impl VariableLayout {
         }
     }
 
-    /// The branching rule: the open point or face at which a solution violates the springs' law most.
+    /// Branching rule: returns the open point or face at which a solution violates the springs' law most.
     pub fn most_violated(&self, springs: &Springs, node: &Node, x: &[f64]) -> Option<Branch> {
         let u = &x[..self.points];
         let mut worst: Option<(f64, Branch)> = None;

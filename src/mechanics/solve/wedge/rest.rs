@@ -21,7 +21,7 @@ const LAW_TOL: f64 = 1e-8;
 /// The largest number of steps of iterative refinement. Each gains the digits of the LU factors.
 const MAX_REFINEMENTS: usize = 12;
 
-/// For each contact, the sum of the numbers given for its application points.
+/// Returns, for each contact, the sum of the numbers given for its application points.
 pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sums = vec![0.0; springs.tangents.len()];
     for (point, normal) in springs.points.iter().zip(normal) {
@@ -65,8 +65,8 @@ impl Springs<'_> {
         None
     }
 
-    /// The forces of the springs in a pattern, from the opening of each point, the slip of each face and the yield of
-    /// each robot.
+    /// Computes the forces of the springs in a pattern, from the opening of each point, the slip of each face and the
+    /// yield of each robot.
     fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
         // Normal forces at the pressed points, summed for each contact.
         let mut sum = vec![0.0; self.tangents.len()];
@@ -99,7 +99,7 @@ impl Springs<'_> {
         }
     }
 
-    /// The residual loads − Σ force, for each row of the balance.
+    /// Returns the residual loads − Σ force, for each row of the balance.
     fn unbalanced(&self, rest: &Rest) -> Vec<f64> {
         let mut residual = self.program.loads.clone();
         for (grip, force) in self.grips.iter().zip(&rest.grips) {
@@ -114,7 +114,7 @@ impl Springs<'_> {
         residual
     }
 
-    /// For each block: the largest entry of its own load, and Σ |force| on it.
+    /// Returns, for each block, the largest entry of its own load, and Σ |force| on it.
     fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
         let own = self
             .program

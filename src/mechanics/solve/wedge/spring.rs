@@ -25,7 +25,7 @@ pub enum Slide {
 }
 
 impl Slide {
-    /// The sign of friction at its limit; 0 if the face sticks and the spring determines friction.
+    /// Returns the sign of friction at its limit; 0 if the face sticks and the spring determines friction.
     pub(super) fn friction_sign(self) -> f64 {
         match self {
             Slide::Sticks => 0.0,
@@ -94,7 +94,8 @@ pub(super) struct Springs<'a> {
 }
 
 impl<'a> Springs<'a> {
-    /// The springs of a program, with a given force for each simulated component of a robot, in the order of the grips.
+    /// Creates the springs of a program, with a given force for each simulated component of a robot, in the order of
+    /// the grips.
     pub(super) fn around(program: &'a Program, given: &[f64], along: f64) -> Springs<'a> {
         let mut springs = Springs::new(program, along);
         for (grip, given) in springs.grips.iter_mut().zip(given) {
@@ -103,7 +104,7 @@ impl<'a> Springs<'a> {
         springs
     }
 
-    /// The springs of a program, with given forces of 0 for robots.
+    /// Creates the springs of a program, with given forces of 0 for robots.
     pub(super) fn new(program: &'a Program, along: f64) -> Springs<'a> {
         // Without friction and grips, the columns of a program are the normal forces at its application points.
         let normals = columns(&Program {
@@ -151,7 +152,7 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// The pattern with all points pressed and no face sliding.
+    /// Returns the pattern with all points pressed and no face sliding.
     pub(super) fn all_pressed(&self) -> Pattern {
         Pattern {
             pressed: vec![true; self.points.len()],
@@ -160,8 +161,8 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// The pattern of given displacements. Points and faces that only rounding would decide keep their state in
-    /// `former`.
+    /// Returns the pattern of given displacements. Points and faces that only rounding would decide keep their state
+    /// in `former`.
     pub(super) fn pattern(&self, u: &[f64], former: &Pattern) -> Pattern {
         let size = |column: &Column| {
             column
@@ -205,7 +206,8 @@ impl<'a> Springs<'a> {
         found
     }
 
-    /// The LU factors of the tangent stiffness of a pattern, with springs of stiffness `ground` to the ground.
+    /// Computes the LU factors of the tangent stiffness of a pattern, with springs of stiffness `ground` to the
+    /// ground.
     pub(super) fn stiffness(&self, pattern: &Pattern, ground: f64) -> Band {
         // Assemble the tangent stiffness: a sum of products column·columnᵀ, one for each active spring.
         let mut band = Band::new(3 * self.program.blocks, self.bandwidth);
@@ -250,7 +252,7 @@ impl<'a> Springs<'a> {
         band.factor()
     }
 
-    /// The row of the banded matrix for a row of the program.
+    /// Returns the row of the banded matrix for a row of the program.
     pub(super) fn row(&self, row: usize) -> usize {
         3 * self.position[row / 3] + row % 3
     }

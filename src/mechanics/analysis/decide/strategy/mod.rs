@@ -31,7 +31,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// The name in results.
+    /// Returns the name in results.
     pub fn name(self) -> &'static str {
         match self {
             Method::ClosedForm => "closed form",
