@@ -101,7 +101,7 @@ pub struct FrameAnalysis {
     pub verdict: Verdict,
     /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] describes it in a sentence.
     pub doubts: Vec<UndecidedReason>,
-    /// The length L in metres by which torques are divided to compare them with forces: the median length of the
+    /// The length L in metres. Torques are divided by it to compare them with forces. It is the median length of the
     /// frame's edge interfaces, or the median of the square roots of the blocks' areas if nothing touches.
     pub length: f64,
     /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the sum that the forces minimise.

@@ -93,7 +93,7 @@ fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> 
     places
 }
 
-/// Adds the robots of the second scene whose names the first does not contain; returns the number of each robot of
+/// Adds the robots of the second scene whose names the first does not contain. Returns the number of each robot of
 /// the second scene in the common scene.
 fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     let first = scene.robots.len();

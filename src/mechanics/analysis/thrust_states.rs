@@ -58,8 +58,8 @@ pub struct ThrustStates {
 
 impl Analysis {
     /// Returns the states of least and greatest horizontal thrust and the most central state of a frame, numbered
-    /// from 0. They are empty if the frame does not stand, stands without thrust, has more than 200 blocks, or does
-    /// not rest on the ground with exactly two blocks.
+    /// from 0. They are empty if the frame does not stand, stands without thrust, or has more than 200 blocks. They
+    /// are also empty if the frame does not rest on the ground with exactly two blocks.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();

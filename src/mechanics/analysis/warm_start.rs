@@ -81,8 +81,8 @@ pub(crate) struct WarmStart {
     scale: Option<Scale>,
 }
 
-/// Identifies the contact or grip of a column in every frame: two bodies and one end of their interface, or a robot,
-/// its block and the grip point. Coordinates are compared by their bits.
+/// Identifies the contact or grip of a column in every frame. A contact has two bodies and one end of their
+/// interface; a grip has a robot, its block and the grip point. Coordinates are compared by their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Origin {
     Contact([BodyId; 2], [u64; 2]),

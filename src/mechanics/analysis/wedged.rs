@@ -8,9 +8,9 @@ use crate::solve::{self, SelfStress, Slide};
 
 /// The self-stress without which a frame does not stand.
 ///
-/// If all contacts are springs without initial stress, they do not come to rest under the loads: the blocks move
+/// If all contacts are springs without initial stress, they do not come to rest under the loads. The blocks move
 /// along `gives_way`, and the faces `interfaces` open or slide. In every balance the normal forces on these faces sum
-/// to at least `at_least` newtons. The motion in `at_least` proves this. Along it no other face absorbs power, these
+/// to at least `at_least` newtons. The motion in `at_least` proves this. Along it, no other face absorbs power. These
 /// faces absorb at most 1 W for each newton of their normal forces, and the loads have a power of `at_least` watts.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

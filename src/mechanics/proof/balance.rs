@@ -2,13 +2,14 @@
 //!
 //! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its amount and moved
 //! by at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), where M is its moment about the
-//! centroid: each normal force, each friction force, each component of a robot, the weight, and the listed loads.
-//! Moving all forces by R changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the residual in the
-//! zonotope of these vectors ([`zonotope_gauge`]). It has no unit, and does not depend on other bodies.
+//! centroid. The forces are each normal force, each friction force, each component of a robot, the weight, and the
+//! listed loads. Moving all forces by R changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the
+//! residual in the zonotope of these vectors ([`zonotope_gauge`]). It has no unit, and does not depend on other
+//! bodies.
 //!
 //! Forces are rounded numbers, so the residual is summed with twice the digits. A rounding of about 10⁻¹⁵ Σ |F| is
-//! allowed in every direction in which the body can compensate it: by friction within its cone, or by a change of its
-//! load by τ.
+//! allowed in every direction in which the body can compensate for it: by friction within its cone, or by a change of
+//! its load by τ.
 
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};

@@ -1,19 +1,19 @@
 //! [`Proof`]: the certificate of a verdict, computed from geometry and forces alone.
 //!
-//! This module uses no programs, columns or solvers. It sums the balance again in metres and newtons from the
-//! assembly's bodies, contacts and grips, and checks the contact law for each force, so that a mistake in the program
-//! is detected. A test that shares no code with the assembly compares the assembly with the outlines.
+//! This module uses no programs, columns or solvers. It sums the balance again in metres and newtons, from the
+//! assembly's bodies, contacts and grips. It also checks the contact law for each force. A mistake in the program is
+//! therefore detected. A test that shares no code with the assembly compares the assembly with the outlines.
 //!
 //! *Stable* is proved by forces: every block balances, no contact pulls or slips, no robot exceeds its limits. Each
 //! error is relative to the forces on the same block or at the same contact. The test of the smallest stone therefore
 //! depends neither on the heaviest block nor on the typical length.
 //!
-//! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens or
-//! slides apart, so that no admissible force can resist. These are the static and the kinematic theorem of limit
+//! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens
+//! or slides apart. No admissible force can then resist. These are the static and the kinematic theorem of limit
 //! analysis (Livesley 1978), and weak duality of linear programs. If forces with the sum Σ(N + |T|) = F balanced the
-//! loads, then power ≤ violation · F. A motion with violation δ therefore rules out every balance with less force than
-//! power/δ ([`Proof::excluded_force_sum`]). Power is relative to the loads of the moving bodies. Rounding errors are
-//! added to the violation and subtracted from the power, so that the proof holds in spite of them.
+//! loads, then power ≤ violation · F. A motion with violation δ therefore rules out every balance with less force
+//! than power/δ ([`Proof::excluded_force_sum`]). Power is relative to the loads of the moving bodies. Rounding errors
+//! are added to the violation and subtracted from the power, so that the proof holds in spite of them.
 
 mod balance;
 mod least;
@@ -50,8 +50,8 @@ pub enum Proof {
         /// relative to [`moving_load`], the loads of the moving bodies weighted by their speeds.
         power: f64,
         /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts
-        /// per newton of N + |T|: at a contact that closes or slides within its friction cone, or at an unlimited
-        /// grip that moves.
+        /// per newton of N + |T|. Such a force acts at a contact that closes or slides within its friction cone, or
+        /// at an unlimited grip that moves.
         worst_violation: f64,
     },
 }
@@ -59,10 +59,10 @@ pub enum Proof {
 impl Proof {
     /// The largest imbalance, pull and slip of forces that prove a verdict.
     ///
-    /// A structure that falls by less than this counts as stable: for example, a block pushed by this fraction of the
-    /// forces on it, or a centre of gravity outside the support by this fraction of the block's radius. A tenth of this
-    /// value is close to the accuracy of the interior-point solver, so more verdicts would be undecided. Ten times this
-    /// value, a millionth, could be seen in a six-digit margin.
+    /// A structure that falls by less than this counts as stable. Examples are a block pushed by this fraction of the
+    /// forces on it, and a centre of gravity outside the support by this fraction of the block's radius. A tenth of
+    /// this value is close to the accuracy of the interior-point solver, so more verdicts would be undecided. Ten
+    /// times this value, a millionth, could be seen in a six-digit margin.
     pub const IMBALANCE_TOL: f64 = 1e-7;
 
     /// A motion proves a verdict if it rules out every balance with a sum of forces below this multiple of the moving

@@ -1,10 +1,10 @@
 //! [`BoundedNnls`]: least squares with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
 //! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance
-//! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work: at the nearest
-//! point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|². `loads` is the right-hand side, minus the load vector (Moreau's two
-//! polar cones). Forces have no cost, so the method finds any forces that balance, not those of least sum. The result
-//! is only a candidate: the proof checks it.
+//! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work. The reason: at
+//! the nearest point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|². `loads` is the right-hand side, minus the load vector
+//! (Moreau's two polar cones). Forces have no cost, so the method finds any forces that balance, not those of least
+//! sum. The result is only a candidate: the proof checks it.
 //!
 //! The active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, with upper bounds. Steps:
 //!
@@ -219,8 +219,9 @@ impl BoundedNnls {
         }
     }
 
-    /// Returns the longest step (as a fraction) towards the optimum of the passive set that keeps all bounds, and the
-    /// place of the column that meets its bound first; `None` if the full step keeps all bounds.
+    /// Ratio test: returns the longest step (as a fraction) towards the optimum of the passive set that keeps all
+    /// bounds. Also returns the place of the column that meets its bound first; `None` if the full step keeps all
+    /// bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
         for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {

@@ -1,8 +1,8 @@
 //! The program of least adhesion, lexicographically: least adhesion, then least force, then fewest points with adhesion.
 //!
-//! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number: each stage
-//! keeps only the columns on the face of optima of the previous stage, so its objective cannot worsen the previous one.
-//! Stages:
+//! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number. Each stage
+//! keeps only the columns on the face of optima of the previous stage. Its objective can therefore not worsen the
+//! previous one. Stages:
 //!
 //! 1. least Σ adhesion, where admissible forces cost nothing;
 //! 2. least Σ force, on the face of stage 1;
@@ -252,9 +252,9 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 
 /// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
 ///
-/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others: the least force
-/// falls by a tenth while the adhesion grows by a millionth. Then the balance of stage 1 is returned. It has the least
-/// adhesion, but not the least force.
+/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least
+/// force falls by a tenth while the adhesion grows by a millionth. Then the balance of stage 1 is returned. It has
+/// the least adhesion, but not the least force.
 fn later_stages(
     whole: &Face,
     first: &Dual,

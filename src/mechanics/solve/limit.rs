@@ -1,9 +1,10 @@
 //! Limit analysis: the largest load factor, and the least sufficient limit of a robot, by one linear program each.
 //!
 //! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
-//! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier of
-//! this row; the velocities are the collapse mechanism at the limit. The least sufficient limit of a robot is the least
-//! amount of its own component if all other forces have no cost. Reference: [Livesley78](crate::doc::references).
+//! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier
+//! of this row. The velocities are the collapse mechanism at the limit. The least sufficient limit of a robot is the
+//! least amount of its own component if all other forces have no cost. Reference:
+//! [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
 use super::slanted::Slanted;

@@ -86,8 +86,8 @@ fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
 /// Returns the amounts of a program's columns that add up to given forces, with every ray of the friction cone used
 /// if possible.
 ///
-/// A contact force (N, T) with s = |T|/(μN) is divided as follows: (1 − s)/2 of N along the normal, (1 + 3s)/4 along
-/// the ray on the side of T, and (1 − s)/4 along the other ray.
+/// A contact force (N, T) with s = |T|/(μN) is divided into three parts: (1 − s)/2 of N along the normal, (1 + 3s)/4
+/// along the ray on the side of T, and (1 − s)/4 along the other ray.
 fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     let amount = |column: &Column| match column.force {
         Force::Ray {
@@ -169,8 +169,9 @@ fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
 /// Changes given forces slightly so that blocks balance better, relative to the forces on them; `None` if no change
 /// helps.
 ///
-/// With r the residual, w the amounts of the rays (W on a diagonal) and D the rows' scales, each round is the program
-/// min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces can balance keeps its residual v.
+/// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D that of the rows' scales. Each
+/// round solves the program min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces can balance
+/// keeps its residual v.
 pub fn rebalance_relative(
     program: &Program,
     amounts: &Amounts,

@@ -1,8 +1,8 @@
 //! [`Slanted`]: the columns of a program without redundant ones.
 //!
-//! If admissible forces have no cost, a pure normal force is redundant: it is half the sum of the two rays of its
-//! friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ), times 1 + μ. Omitting these columns removes a third of
-//! the rows.
+//! If admissible forces have no cost, a pure normal force is redundant. It is half the sum of the two rays of its
+//! friction cone times 1 + μ. The rays are (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Omitting these columns
+//! removes a third of the rows.
 
 use super::Dual;
 use crate::program::{Column, Force};

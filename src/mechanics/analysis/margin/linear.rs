@@ -20,7 +20,7 @@ struct Start {
 /// Returns the interval of a parameter in which the loads are linear.
 ///
 /// `stands` is true if the component stands at `present`. `alone` returns the component with only the loads that grow
-/// in one direction: if contacts and unlimited robots carry these loads, the interval has no end in that direction.
+/// in one direction. If contacts and unlimited robots carry these loads, the interval has no end in that direction.
 pub(super) fn linear(
     trial: &mut Trial,
     line: &Line,

@@ -62,11 +62,11 @@ pub struct Sides {
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
 /// let analysis = Analysis::with(&scene, &Options::default().margins(true));
-/// let margins = analysis.frames[0].margins.as_ref().expect("asked for");
+/// let margins = analysis.frames[0].margins.as_ref().expect("requested");
 /// let slides = margins.horizontal_load.right.at().expect("a block slides");
 /// assert!((slides - 0.5).abs() < 1e-6);
 /// assert_eq!(margins.load_factor, Margin::NotApplicable, "the scene lists no load");
-/// let tilt = margins.intervals.tilt.as_ref().expect("asked for");
+/// let tilt = margins.intervals.tilt.as_ref().expect("requested");
 /// assert!(tilt.contains(-26.5) && tilt.contains(26.5) && !tilt.contains(26.6));
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```

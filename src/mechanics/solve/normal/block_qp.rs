@@ -10,8 +10,8 @@
 //! which has one small block for each contact. With P + Z/S = L·Lᵀ and B = A·L⁻ᵀ, this matrix is B·Bᵀ. It is therefore
 //! factored by the same code as that of a linear program, with the columns of B and weights of 1.
 //!
-//! The amounts x and their distances s from the bounds are separate variables: for an amount far above its bound, a small
-//! change of x would be lost in the rounding of s.
+//! The amounts x and their distances s from the bounds are separate variables. Otherwise, for an amount far above its
+//! bound, a small change of x would be lost in the rounding of s.
 
 use std::time::Instant;
 

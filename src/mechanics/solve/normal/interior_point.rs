@@ -6,9 +6,9 @@
 //! A f = loads·τ,   Aᵀy + z = cost·τ,   loadsᵀy − costᵀf = κ.
 //! ```
 //!
-//! At the end, either τ > 0, and f/τ and y/τ are optima; or κ > 0, and y or f is a certificate that there is no
-//! optimum. The quadratic program max loadsᵀy − ½|y|² always has an optimum: τ stays 1, and y is added to the left of
-//! the first equation.
+//! If τ > 0 at the end, f/τ and y/τ are optima. If κ > 0, y or f is a certificate that there is no optimum. The
+//! quadratic program max loadsᵀy − ½|y|² always has an optimum: τ stays 1, and y is added to the left of the first
+//! equation.
 //!
 //! Steps of each iteration: residuals, convergence test, then one Newton step ([`super::newton`]: predictor, centring,
 //! corrector, step length). Two steps at the end are not in textbooks: [`InteriorPoint::restore_balance`] and

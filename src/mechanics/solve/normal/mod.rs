@@ -49,8 +49,8 @@ use residuals::Termination;
 /// Programs of fewer blocks go to clarabel, for which they take little time.
 ///
 /// For more blocks, this solver is also more accurate. For a wall of 410 bricks, 10⁻⁵ past its limit, the least
-/// adhesion has a relative error of 10⁻⁶, and that of clarabel an error of 0.5 %: its velocities may violate a column
-/// by 10⁻⁸, and a column may carry 10⁷ times the loads.
+/// adhesion has a relative error of 10⁻⁶, and that of clarabel an error of 0.5 %. The velocities of clarabel may
+/// violate a column by 10⁻⁸, and a column may carry 10⁷ times the loads.
 const MIN_BLOCKS: usize = 60;
 
 /// A structure is a chain, such as an arch, if its factor takes fewer operations than this for each unknown.
@@ -65,8 +65,9 @@ const MAX_ENTRIES: usize = 12;
 
 /// Solves a program: returns an optimum, a certificate, or an answer without a status.
 ///
-/// Returns `None` if clarabel is to solve the program: it has few blocks or another form, no order of elimination was
-/// found, or the method ended without a status where clarabel may do better (chains, and programs with squares).
+/// Returns `None` if clarabel should solve the program. This is the case if it has few blocks or another form, or if
+/// no order of elimination was found. It is also the case if the method ended without a status for a chain or for a
+/// program with squares, which clarabel may still solve.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     let rows = match problem.equalities {
         0 => problem.unknowns,

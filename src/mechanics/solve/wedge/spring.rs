@@ -1,9 +1,9 @@
 //! [`Springs`]: the contacts of a program as springs that are unstressed before the loads act.
 //!
-//! The springs' law: at every application point N = max(0, −g), where g is the opening; along every face T = −ρ s,
-//! where s is the slip, limited to ±μ(N1 + N2). If the loads grow in proportion, so do all displacements. The law of
-//! the final state is therefore also the law of each step of loading. The only parameter is ρ, the stiffness along a
-//! face relative to that of an application point.
+//! The springs' law: at every application point, N = max(0, −g), where g is the opening. Along every face, T = −ρ s,
+//! where s is the slip; T is limited to ±μ(N1 + N2). If the loads grow in proportion, so do all displacements. The
+//! law of the final state is therefore also the law of each step of loading. The only parameter is ρ, the stiffness
+//! along a face relative to that of an application point.
 //!
 //! Invariant: every [`Rest`] obeys the law and balances every block relative to that block's own load.
 
