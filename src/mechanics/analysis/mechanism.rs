@@ -17,8 +17,7 @@ use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::extreme_ray::{self, Row};
 
-/// A part with more blocks keeps the motion that proves its fall, because closing its contacts one by one would take
-/// too long.
+/// A part with more blocks keeps the motion of its proof: to close its contacts one by one would take too long.
 const MOST_BLOCKS: usize = 300;
 /// How far gravity is rotated beyond the limit to find the mechanism there, degrees.
 const BEYOND: f64 = 0.05;
@@ -34,8 +33,7 @@ pub enum Toward {
     /// The rotation of gravity in degrees, positive if its tip moves to the right; loads do not rotate.
     #[default]
     Tilt,
-    /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; positive to the
-    /// right.
+    /// The fraction of each weight that also acts at right angles to gravity, positive to the right.
     HorizontalLoad,
     /// The factor on the listed loads.
     LoadFactor,
@@ -64,8 +62,8 @@ impl Analysis {
         self.edge(frame, Toward::Tilt)
     }
 
-    /// Returns the limit of stability of a frame (numbered from 0) on the side on which it is nearer, and the
-    /// elementary mechanism there. `None` if margins were not computed or the frame does not fall in this direction.
+    /// Returns the nearer limit of stability of a frame (numbered from 0), and the elementary mechanism there. `None`
+    /// if margins were not computed or the frame does not fall in this direction.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -223,7 +221,7 @@ impl<'a> Fall<'a> {
             .iter()
             .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
             .collect();
-        // Go from the proof's motion to an extreme ray of the cone. Every step closes one more contact.
+        // Go from the proof's motion to an extreme ray of the cone. Every step closes one contact.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
         // If a motion along the slipping joints exists, it replaces the rising one.
         let sliding = self.along_joints(&y);
@@ -231,8 +229,7 @@ impl<'a> Fall<'a> {
         (!motions.is_empty()).then_some(motions)
     }
 
-    /// Returns the velocity of a point of a body in a direction, multiplied by `sign`, as a row of coefficients. The
-    /// row is empty for bodies at rest.
+    /// Returns, as a row, the velocity of a point of a body in a direction, times `sign`; empty for bodies at rest.
     fn speed(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
         let BodyId::Block(block) = body else {
             return Row::new();
@@ -255,8 +252,8 @@ impl<'a> Fall<'a> {
         row
     }
 
-    /// Returns the rows that must not be negative: if one is negative, an admissible force can oppose the motion.
-    /// Robots at their limits yield in the directions of `start`.
+    /// Returns the rows that must not be negative: otherwise an admissible force opposes the motion. Robots at their
+    /// limits yield in the directions of `start`.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.found.contacts {
@@ -271,8 +268,7 @@ impl<'a> Fall<'a> {
                     rows.push(opening);
                     continue;
                 }
-                // With friction, no force on an edge of the friction cone may oppose the motion: two rows at each
-                // application point.
+                // With friction, no force on an edge of the friction cone may oppose the motion: two rows a point.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
@@ -295,8 +291,7 @@ impl<'a> Fall<'a> {
         rows
     }
 
-    /// Returns, as rows, the velocities of grips that robots resist (x, y and rotation), each with the largest force,
-    /// or torque divided by L.
+    /// Returns, as rows, the velocities of grips that robots resist, each with the largest force, or torque/L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
         for robot in &self.found.robots {
@@ -319,8 +314,7 @@ impl<'a> Fall<'a> {
         grips
     }
 
-    /// Returns, as a row, the power of the loads along a motion, less the power that robots absorb that yield in the
-    /// directions of `start`.
+    /// Returns, as a row, the power of the loads along a motion, less the power that yielding robots absorb.
     fn power(&self, start: &[f64]) -> Row {
         let mut power = Row::new();
         for motion in &self.motions {
@@ -347,8 +341,7 @@ impl<'a> Fall<'a> {
     }
 
     /// Returns the motion nearest to `y` that keeps every closed contact closed and slides along its joint. `None` if
-    /// nothing slides, if this motion differs too much from `y`, if the loads have no power along it, or if it closes
-    /// another contact.
+    /// nothing slides, or if this motion differs too much, has no power, or closes another contact.
     fn along_joints(&self, y: &[f64]) -> Option<Vec<f64>> {
         let value = |row: &Row, y: &[f64]| row.iter().map(|(k, v)| v * y[*k]).sum::<f64>();
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);

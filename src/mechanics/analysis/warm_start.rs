@@ -116,7 +116,7 @@ impl WarmStart {
 
     /// Returns the verdict on an assembly, if the warm start proves one.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
-        // Without a set to start from every body is new.
+        // Without an active set to start from, fewer bodies are allowed.
         let most = match self.columns.is_empty() {
             true => MAX_NEW_BODIES,
             false => MAX_BODIES,

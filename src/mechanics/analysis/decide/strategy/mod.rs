@@ -118,7 +118,7 @@ impl Strategy {
     ///   long.
     /// - If only the verdict is requested, large programs begin with any balance. Falling walls of 410 and 915 bricks
     ///   take 9 to 20 iterations with it and 9 to 60 with least force. The short attempt at least force comes next,
-    ///   because a stack of 10 000 blocks has no convincing proof from any balance.
+    ///   because any balance gives no strong proof for a stack of 10 000 blocks.
     pub fn in_order(
         program: &Program,
         settings: &[SolverSettings],
