@@ -3,7 +3,7 @@
 //! The motion that proves a fall opens every contact that can open. This gives the strongest proof, but the motion is
 //! a sum of many mechanisms. A thin arch then shows eight hinges on seven bodies, although four are enough. An
 //! elementary mechanism is an extreme ray of the cone of motions that no admissible force can stop. It also proves
-//! the fall, with slightly less power, and it is the mechanism that textbooks draw.
+//! the fall, and it is the mechanism that textbooks draw.
 //!
 //! In this motion a block that slides also rises, by μ metres for every metre. The reason is the associated flow
 //! rule, which makes equilibrium a linear program. A real block slides along its joint. For drawing, a motion that
@@ -54,8 +54,7 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the tilt of gravity at which a frame (numbered from 0) falls, and its mechanism. See
-    /// [`Analysis::edge`].
+    /// Returns the tilt at which a frame (numbered from 0) falls, and its mechanism. See [`Analysis::edge`].
     ///
     /// Units: degrees. Signs: positive if the tip of the gravity vector moves to the right.
     pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
@@ -268,7 +267,8 @@ impl<'a> Fall<'a> {
                     rows.push(opening);
                     continue;
                 }
-                // With friction, no force on an edge of the friction cone may oppose the motion: two rows a point.
+                // With friction, no force on an edge of the friction cone may oppose the motion: two rows for each
+                // point.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
