@@ -115,8 +115,7 @@ impl Analysis {
         self.mechanisms_of(&self.scene, found, &found.mechanism)
     }
 
-    /// Returns one elementary mechanism for each part that falls by the given motions under the loads of `scene`. The
-    /// fastest point of all parts has speed 1.
+    /// Returns one elementary mechanism for each part that falls by `motions` under the loads of `scene`.
     fn mechanisms_of(
         &self,
         scene: &Scene,
@@ -267,8 +266,7 @@ impl<'a> Fall<'a> {
                     rows.push(opening);
                     continue;
                 }
-                // With friction, no force on an edge of the friction cone may oppose the motion: two rows for each
-                // point.
+                // With friction, no force on an edge of the friction cone may oppose the motion: two rows.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
