@@ -143,7 +143,7 @@ class Scene:
         material: str | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a rigid block; one of ``polygon``, ``cells`` and ``shape`` says what it is."""
+        """Adds a rigid block; one of ``polygon``, ``cells`` and ``shape`` gives its outline."""
         keys = _without(locals(), "self", "id", "polygon", "holes")
         return self._add("blocks", _geometry.block(id, polygon, holes, keys))
 

@@ -80,11 +80,11 @@ pub struct SceneFile {
     /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
-    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl, whose names are
-    /// taken.
+    /// Shapes by name. The triangular lattice also has the shapes up, down, hexagon, linkh, linkr and linkl; these names are
+    /// reserved.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub shapes: Map<ShapeEntry>,
-    /// Parts of the ground: they carry anything and never move.
+    /// Parts of the ground: they support any load and never move.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ground: Vec<GroundEntry>,
     /// The blocks.
@@ -107,10 +107,10 @@ pub struct SceneFile {
     /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<StepEntry>,
-    /// The verdict that is meant for every frame whose step does not say. Default: none.
+    /// The expected verdict of every frame whose step has no `expect`. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
-    /// Codes of notes that are not wanted.
+    /// Codes of notes to leave out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silence: Vec<String>,
 }
@@ -169,7 +169,7 @@ impl Default for Version {
     }
 }
 
-/// What blocks or ground are made of.
+/// A material of blocks or of the ground.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

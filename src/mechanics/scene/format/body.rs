@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::FILL_PATTERN;
 use super::{CellEntry, Pair};
 
-/// A part of the ground; one of `polygon`, `cells` and `shape` says where it lies.
+/// A part of the ground; one of `polygon`, `cells` and `shape` gives its outline.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -51,7 +51,7 @@ pub struct GroundEntry {
     pub fill: Option<String>,
 }
 
-/// A rigid block; one of `polygon`, `cells` and `shape` says what it is.
+/// A rigid block; one of `polygon`, `cells` and `shape` gives its outline.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

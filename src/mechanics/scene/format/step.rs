@@ -30,7 +30,7 @@ pub struct StepEntry {
     /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
-    /// The verdict that is meant. A frame that falls as expected ends `check` like one that stands. Default: that of the scene.
+    /// The expected verdict. A frame that falls as expected ends `check` like one that stands. Default: that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }
