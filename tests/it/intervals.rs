@@ -19,6 +19,8 @@ use crate::oracle::touch::touches;
 use crate::random::Random;
 use crate::structure::{block, rectangle};
 
+mod slight;
+
 fn analysed(scene: &Scene) -> Margins {
     let mut analysis = Analysis::with(scene, &Options::default().margins(true));
     analysis
@@ -52,7 +54,7 @@ fn read(interval: &Interval) -> Result<Option<[f64; 2]>, String> {
         other => Err(format!("{other:?}")),
     };
     match interval {
-        Interval::Empty => Ok(None),
+        Interval::Empty(_) => Ok(None),
         Interval::Between { low, high } => {
             let low = end(low, f64::NEG_INFINITY)?;
             Ok(Some([low, end(high, f64::INFINITY)?]))
@@ -193,11 +195,20 @@ fn check_linear(
     found: &Option<Interval>,
     problems: &mut Vec<String>,
 ) {
+    compare(name, found, exact_interval(file, growing), problems);
+}
+
+/// An interval against the exact one.
+fn compare(
+    name: &str,
+    found: &Option<Interval>,
+    exact: Option<[f64; 2]>,
+    problems: &mut Vec<String>,
+) {
     let Some(found) = found else {
         problems.push(format!("{name} is absent"));
         return;
     };
-    let exact = exact_interval(file, growing);
     match (read(found), exact) {
         (Err(withheld), _) => {
             problems.push(format!("{name} withheld: {withheld}, exactly {exact:?}"))

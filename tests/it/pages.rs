@@ -274,6 +274,9 @@ fn fits(kind: Type, value: &Value) -> bool {
             ends || value.is_null() || value == "withheld"
         }
         Type::MotionPairs => two(value) && list(value, &|m| list(m, &motion)),
+        Type::Exclusions => list(value, &|reason| {
+            number(&reason["from"]) && number(&reason["to"]) && list(&reason["mechanism"], &motion)
+        }),
         Type::Object | Type::ByRobot => value.is_object(),
         Type::Objects => list(value, &Value::is_object),
     }
@@ -343,6 +346,14 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
         r#"{ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 1], [-1, 1]] },
             { "polygon": [[3, 0], [4, 0], [4, 1], [3, 1]] }],
             "blocks": [{ "polygon": [[0, 0], [3, 0], [3, 1], [0, 1]] }] }"#
+            .to_owned(),
+    );
+    // A block that hangs in the air next to one that a robot holds: it stands at no value of anything.
+    texts.push(
+        r#"{ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 9], [-1, 9]] }],
+            "blocks": [{ "id": "held", "polygon": [[0, 5], [1, 5], [1, 6], [0, 6]] },
+                { "id": "hangs", "polygon": [[8, 3], [9, 3], [9, 4], [8, 4]] }],
+            "loads": [{ "block": "held", "force": [1, 0] }], "robots": [{ "id": "r", "holds": "held" }] }"#
             .to_owned(),
     );
     for folder in ["assets/thesis", "tests/scenes"] {

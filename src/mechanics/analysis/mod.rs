@@ -39,7 +39,7 @@ pub use cost::{SolveReport, Stages};
 pub use decide::Method;
 pub use force::{Contact, Failure, RobotForce};
 pub use margin::{
-    End, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
+    End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
     RobotMargins, Sides, trials,
 };
 pub use mechanism::Toward;

@@ -5,50 +5,8 @@
 
 use serde_json::{Value, json};
 
+pub use super::value_type::Type;
 use crate::scene::Code;
-
-/// The type of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Type {
-    /// Any text.
-    Text,
-    /// One of these words.
-    Word(&'static [&'static str]),
-    /// `true` or `false`.
-    Flag,
-    /// `true`, `false`, or `null` if it could not be decided.
-    FlagOrOpen,
-    /// A whole number, at least 0.
-    Count,
-    /// A whole number from 1, or `null` if there is no text.
-    Place,
-    /// A number; `null` if it could not be computed, which happens only in undecided frames.
-    Number,
-    /// A number, or `"unbounded"`.
-    Bound,
-    /// A number; `null` if the frame stands at no value; `"unbounded"` if it stands at every value.
-    Margin,
-    /// Two ends, `[low, high]`: each a number, `null` for no limit, or `"withheld"`; `null` for an empty interval.
-    Interval,
-    /// Two lists of motions, beyond the lower and beyond the upper end.
-    MotionPairs,
-    /// A point or vector, `[x, y]`.
-    Pair,
-    /// Two points, `[[x, y], [x, y]]`.
-    Pairs,
-    /// Two names.
-    Names,
-    /// A list of names.
-    NameList,
-    /// A list of `{ "block", "velocity", "spin" }`: how blocks move.
-    Motions,
-    /// An object.
-    Object,
-    /// A list of objects.
-    Objects,
-    /// An object with a key for each robot, by its name.
-    ByRobot,
-}
 
 /// A key of a result.
 #[derive(Clone, Copy, Debug)]
@@ -169,6 +127,16 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "the limit of its horizontal force"),
     key("frames[].margins.intervals.robots.*.fy", Type::Interval, "N", "", "the limit of its vertical force"),
     key("frames[].margins.intervals.robots.*.torque", Type::Interval, "N·m", "", "the limit of its torque"),
+    key("frames[].margins.excluded", Type::Object, "", "where an interval is `null`", "why the frame stands at no value: the values that one motion excludes, for as many motions as are needed to exclude all values; for two conflicting parts one motion below a value and one above a smaller value"),
+    key("frames[].margins.excluded.friction", Type::Exclusions, "", "where that interval is `null`", "for the friction coefficient; up to 1000, the largest one that is tried"),
+    key("frames[].margins.excluded.tilt", Type::Exclusions, "°", "where that interval is `null`", "for the turn of gravity; the ranges cover a full turn"),
+    key("frames[].margins.excluded.horizontal_load", Type::Exclusions, "", "where that interval is `null`", "for the horizontal load"),
+    key("frames[].margins.excluded.kernel", Type::Exclusions, "", "where that interval is `null`", "for the kernel"),
+    key("frames[].margins.excluded.load_factor", Type::Exclusions, "", "where that interval is `null`", "for the factor on the loads"),
+    key("frames[].margins.excluded.robots", Type::ByRobot, "", "where an interval of a limit is `null`", "for the limits of robots, by their names"),
+    key("frames[].margins.excluded.robots.*.fx", Type::Exclusions, "N", "where that interval is `null`", "for the limit of its horizontal force"),
+    key("frames[].margins.excluded.robots.*.fy", Type::Exclusions, "N", "where that interval is `null`", "for the limit of its vertical force"),
+    key("frames[].margins.excluded.robots.*.torque", Type::Exclusions, "N·m", "where that interval is `null`", "for the limit of its torque"),
     key("frames[].margins.notes", Type::NameList, "", "where there are some", "remarks on the intervals, one sentence each"),
     key("frames[].margins.mechanisms", Type::Object, "", "", "the motion of the blocks just beyond each margin; empty for a margin that is unbounded or null"),
     key("frames[].margins.mechanisms.friction", Type::Motions, "", "", "beyond the friction margin"),
@@ -184,7 +152,7 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.mechanisms.robots.*.fx", Type::Motions, "", "", "below its least horizontal limit"),
     key("frames[].margins.mechanisms.robots.*.fy", Type::Motions, "", "", "below its least vertical limit"),
     key("frames[].margins.mechanisms.robots.*.torque", Type::Motions, "", "", "below its least limit of torque"),
-    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "the motion of the blocks just beyond each end of an interval; where an interval is `null` the frame falls as it is, and its `mechanism` is the motion"),
+    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "the motion of the blocks just beyond each end of an interval; where an interval is `null`, see `excluded`"),
     key("frames[].margins.mechanisms.intervals.tilt", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the tilt"),
     key("frames[].margins.mechanisms.intervals.horizontal_load", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the horizontal load"),
     key("frames[].margins.mechanisms.intervals.load_factor", Type::MotionPairs, "", "where there is such an interval", "beyond the ends of the factor on the loads"),
@@ -255,77 +223,6 @@ pub const REFUSAL_KEYS: &[Key] = &[
     key("problems[].hint", Type::Text, "", "", "the remedy"),
 ];
 
-impl Type {
-    /// Describes the type in words, for the table of keys.
-    pub fn words(self) -> String {
-        let fixed = match self {
-            Type::Word(words) => {
-                let quoted: Vec<String> = words.iter().map(|w| format!("`\"{w}\"`")).collect();
-                return quoted.join(", ");
-            }
-            Type::Text => "text",
-            Type::Flag => "true or false",
-            Type::FlagOrOpen => "true, false or null",
-            Type::Count => "whole number",
-            Type::Place => "whole number or null",
-            Type::Number => "number",
-            Type::Bound => "number or `\"unbounded\"`",
-            Type::Margin => "number, null or `\"unbounded\"`",
-            Type::Interval => "[low, high] or null",
-            Type::MotionPairs => "two lists of motions",
-            Type::Pair => "[x, y]",
-            Type::Pairs => "[[x, y], [x, y]]",
-            Type::Names => "two names",
-            Type::NameList => "list of texts",
-            Type::Motions => "list of motions",
-            Type::Object => "object",
-            Type::Objects => "list of objects",
-            Type::ByRobot => "object by robot",
-        };
-        fixed.into()
-    }
-
-    fn schema(self) -> Value {
-        let number = json!({ "type": ["number", "null"] });
-        let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
-        let unbounded = json!({ "const": "unbounded" });
-        match self {
-            Type::Text => json!({ "type": "string" }),
-            Type::Word(words) => json!({ "type": "string", "enum": words }),
-            Type::Flag => json!({ "type": "boolean" }),
-            Type::FlagOrOpen => json!({ "type": ["boolean", "null"] }),
-            Type::Count => json!({ "type": "integer", "minimum": 0 }),
-            Type::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
-            Type::Number => number,
-            Type::Bound | Type::Margin => json!({ "anyOf": [number, unbounded] }),
-            Type::Interval => {
-                let withheld = json!({ "const": "withheld" });
-                let end = json!({ "anyOf": [number, withheld] });
-                let both = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
-                json!({ "anyOf": [both, { "type": "null" }, withheld] })
-            }
-            Type::MotionPairs => {
-                let motions = json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } });
-                json!({ "type": "array", "items": motions, "minItems": 2, "maxItems": 2 })
-            }
-            Type::Pair => pair,
-            Type::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
-            Type::Names => {
-                json!({ "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2 })
-            }
-            Type::NameList => json!({ "type": "array", "items": { "type": "string" } }),
-            Type::Motions => {
-                json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } })
-            }
-            Type::Object => json!({ "type": "object" }),
-            Type::Objects => json!({ "type": "array", "items": { "type": "object" } }),
-            Type::ByRobot => {
-                json!({ "type": "object", "additionalProperties": { "type": "object" } })
-            }
-        }
-    }
-}
-
 /// Returns the JSON Schema (draft 2020-12) of the output of `check --json` for one file: a result, or the problems of
 /// a file that is not a valid scene.
 ///
@@ -356,6 +253,14 @@ pub fn schema() -> String {
                 "spin": spin,
             },
             "required": ["block", "velocity", "spin"],
+        }, "exclusion": {
+            "type": "object",
+            "properties": {
+                "from": described(Type::Number, "lower end of the values; null: no lower end"),
+                "to": described(Type::Number, "upper end of the values; null: no upper end"),
+                "mechanism": described(Type::Motions, "the motion with which the frame falls at these values"),
+            },
+            "required": ["from", "to", "mechanism"],
         } },
     });
     format!("{schema:#}\n")

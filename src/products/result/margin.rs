@@ -6,10 +6,13 @@
 //! requested are absent.
 //!
 //! `intervals` has both ends of each parameter. An end is `null` if the interval has no end there, and `"withheld"`
-//! if no verdict confirms it. An interval is `null` if the frame stands at no value.
+//! if no verdict confirms it. An interval is `null` if the frame stands at no value;
+//! `excluded` then has the motions that exclude all values.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
+use super::excluded::Excluded;
+use super::named::Named;
 use super::{Motion, Number};
 use crate::analysis::{
     End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
@@ -37,6 +40,8 @@ pub(super) struct Margins<'a> {
     load_factor: End,
     robots: Named<'a, Limits<End>>,
     intervals: Intervals<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    excluded: Option<Excluded<'a>>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
     mechanisms: Mechanisms<'a>,
@@ -137,21 +142,6 @@ impl Sides<End> {
     }
 }
 
-/// An object whose keys keep the order of the list.
-struct Named<'a, T>(Vec<(&'a str, T)>);
-
-impl<T> Named<'_, T> {
-    fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
-
-impl<T: Serialize> Serialize for Named<'_, T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
-}
-
 impl<'a> Margins<'a> {
     pub(super) fn new(scene: &'a Scene, found: &'a Found) -> Margins<'a> {
         let motions = |margin: &Margin| match margin {
@@ -168,6 +158,7 @@ impl<'a> Margins<'a> {
             load_factor: end(&found.load_factor),
             robots: robots(scene, found, end),
             intervals: Intervals::new(scene, &found.intervals),
+            excluded: Excluded::new(scene, &found.intervals),
             notes: &found.intervals.notes,
             mechanisms: Mechanisms {
                 friction: motions(&found.friction),
@@ -232,7 +223,7 @@ fn range(interval: &Interval) -> Range {
     };
     match interval {
         Interval::Between { low, high } => Range::Between([end(low), end(high)]),
-        Interval::Empty => Range::Empty,
+        Interval::Empty(_) => Range::Empty,
         _ => Range::Withheld(WITHHELD),
     }
 }

@@ -10,6 +10,7 @@
 
 #[cfg(feature = "report")]
 mod accuracy;
+mod excluded;
 mod force;
 #[cfg(feature = "import")]
 mod import;
@@ -17,11 +18,13 @@ mod import;
 pub mod key;
 mod line;
 mod margin;
+mod named;
 mod note;
 mod refusal;
 mod page;
 mod proof;
 mod solve;
+mod value_type;
 mod wedging;
 
 use serde::{Serialize, Serializer};

@@ -105,7 +105,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             "It falls: it would stand with a friction coefficient of {}",
             three(least)
         ),
-        (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty) => {
+        (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
             "It falls at every friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),

@@ -3,7 +3,7 @@
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
 use super::number::{NO_BREAK, digits};
-use crate::analysis::{End, FrameAnalysis, Interval, Intervals, Verdict};
+use crate::analysis::{End, Exclusion, FrameAnalysis, Interval, Intervals, Verdict};
 use crate::scene::Scene;
 use crate::text;
 
@@ -293,12 +293,23 @@ pub fn confirmed(end: &End) -> Option<f64> {
 pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     let (low, high) = match interval {
         Interval::Between { low, high } => (low, high),
-        Interval::Empty => {
-            return match parameter {
+        Interval::Empty(excluded) => {
+            let none = match parameter {
                 Parameter::LoadFactor => "stands with no factor on its loads",
                 _ => "stands at no value",
-            }
-            .to_owned();
+            };
+            return match conflict(excluded) {
+                Some([low, high]) => {
+                    let [low, high] = [low, high].map(|value| parameter.value(value));
+                    match parameter.is_signed() {
+                        true => format!(
+                            "{none}: falls to the left of {low}, and falls to the right of {high}"
+                        ),
+                        false => format!("{none}: falls below {low}, and falls above {high}"),
+                    }
+                }
+                None => none.to_owned(),
+            };
         }
         Interval::Undecided => return "no verdict shows at which values it stands".to_owned(),
     };
@@ -318,6 +329,17 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
         });
     let unconfirmed: String = unconfirmed.collect();
     format!("stands {}{unconfirmed}", range(parameter, low, high))
+}
+
+/// Returns the value below which the frame falls by one motion, and the value above which it falls by another, if
+/// these two motions exclude all values.
+fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
+    match excluded {
+        [below, above] if below.from.is_none() && above.to.is_none() => {
+            Some([below.to?, above.from?])
+        }
+        _ => None,
+    }
 }
 
 /// Describes the values between two ends.
@@ -394,7 +416,7 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
 fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(found)?;
     match interval {
-        Interval::Empty => Some("no friction would hold it".to_owned()),
+        Interval::Empty(_) => Some("no friction would hold it".to_owned()),
         Interval::Undecided => None,
         Interval::Between { low, .. } => {
             let low = confirmed(low).filter(|low| *low > least)?;

@@ -199,3 +199,124 @@ fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
     }
     assert!(seen >= 25, "{seen}");
 }
+
+/// Scenes that stand at no value of one or more parameters: parts with conflicting needs, a block that hangs in the air, and
+/// a plank that no tilt holds.
+fn hopeless() -> Vec<Value> {
+    let read = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
+    let mut files = vec![
+        read(include_str!(
+            "../intervals/margin-horizontal-two-groups.json"
+        )),
+        read(include_str!(
+            "../intervals/margin-load-factor-two-groups.json"
+        )),
+        read(include_str!("../intervals/load-factor-unbounded-ramp.json")),
+        read(include_str!("../intervals/plank.json")),
+    ];
+    let mut held = read(include_str!("../intervals/margin-robot-other-falls.json"));
+    held["robots"][0]["limits"] = json!({ "fx": 10, "fy": 10, "torque": 10 });
+    held["loads"] = json!([{ "block": "held", "force": [1, 0] }]);
+    files.push(held);
+    let mut tilted = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
+    tilted["loads"] = json!([{ "block": "a", "force": [0.0, 50.0] }]);
+    files.push(tilted);
+    files
+}
+
+/// Whether one of these motions is said to exclude a value, and does work in the scene that is changed to it, with no contact
+/// or robot that can stop it.
+fn is_excluded(reasons: &Value, at: f64, turn: f64, changed: &Value) -> bool {
+    let covers = |reason: &&Value| {
+        let from = reason["from"].as_f64().unwrap_or(f64::NEG_INFINITY);
+        let to = reason["to"].as_f64().unwrap_or(f64::INFINITY);
+        let is_within = |at: f64| from <= at && at <= to;
+        is_within(at) || is_within(at - turn) || is_within(at + turn)
+    };
+    let reasons = list(reasons);
+    assert!(!reasons.is_empty(), "{at}: nothing excludes it");
+    reasons.iter().filter(covers).any(|reason| {
+        let (power, worst) = power_and_worst(changed, &reason["mechanism"]);
+        power > 0.0 && worst < 1e-5
+    })
+}
+
+/// Where an interval is empty, the listed motions exclude all its values; where it is not, none are listed.
+#[test]
+fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
+    let signed: Vec<f64> = vec![-900.0, -3.1, -0.61, -0.07, 0.0, 0.03, 0.47, 0.9, 8.0, 1e3];
+    let grown: Vec<f64> = signed.iter().map(|v| v.abs()).collect();
+    let shares: Vec<f64> = grown.iter().copied().filter(|v| *v <= 1.0).collect();
+    let turns: Vec<f64> = (0..72).map(|k| 5.0 * f64::from(k) - 178.7).collect();
+    let (mut seen, mut pairs) = (Vec::new(), 0);
+    for file in hopeless() {
+        let this = Beyond {
+            told: told_with(&file, &Options::default().margins(true)),
+            seen: 0,
+        };
+        let margins = this.told.json["frames"][0]["margins"].clone();
+        let excluded = &margins["excluded"];
+        let friction = |mu: f64| this.with("friction", json!(mu));
+        let kernel = |kernel: f64| this.with("kernel", json!(kernel));
+        let turned = |degrees: f64| this.turned(degrees);
+        let pushed = |share: f64| this.pushed(share);
+        let loaded = |factor: f64| this.loaded(factor);
+        let changes: [(&str, &[f64], f64, &dyn Fn(f64) -> Value); 5] = [
+            ("friction", &grown, 0.0, &friction),
+            ("kernel", &shares, 0.0, &kernel),
+            ("tilt", &turns, 360.0, &turned),
+            ("horizontal_load", &signed, 0.0, &pushed),
+            ("load_factor", &grown, 0.0, &loaded),
+        ];
+        for (key, values, turn, change) in changes {
+            let interval = margins["intervals"].get(key);
+            let is_empty = interval.is_some_and(Value::is_null);
+            assert_eq!(is_empty, !excluded[key].is_null(), "{key} {margins}");
+            if !is_empty {
+                continue;
+            }
+            seen.push(key);
+            pairs += usize::from(list(&excluded[key]).len() == 2);
+            for at in values {
+                let changed = change(*at);
+                assert!(
+                    is_excluded(&excluded[key], *at, turn, &changed),
+                    "{key} {at}: {} {changed}",
+                    excluded[key]
+                );
+            }
+        }
+        for (name, robot) in margins["intervals"]["robots"]
+            .as_object()
+            .into_iter()
+            .flatten()
+        {
+            for key in ["fx", "fy", "torque"] {
+                let reasons = &excluded["robots"][name][key];
+                assert_eq!(robot[key].is_null(), !reasons.is_null(), "{margins}");
+                for at in grown.iter().filter(|_| robot[key].is_null()) {
+                    let mut changed = file.clone();
+                    changed["robots"][0]["limits"][key] = json!(at);
+                    assert!(
+                        is_excluded(reasons, *at, 0.0, &changed),
+                        "{key} {at}: {reasons}"
+                    );
+                    seen.push(key);
+                }
+            }
+        }
+    }
+    for key in [
+        "friction",
+        "kernel",
+        "tilt",
+        "horizontal_load",
+        "load_factor",
+        "fx",
+        "fy",
+        "torque",
+    ] {
+        assert!(seen.contains(&key), "no scene stands at no {key}");
+    }
+    assert!(pairs >= 2, "{pairs} conflicts of two parts");
+}

@@ -177,7 +177,13 @@ fn words_and_bars_state_the_intervals_of_the_result() {
                 .into_iter()
                 .find(|bar| bar.root_element().attribute("aria-label") == Some(label.as_str()))
                 .unwrap_or_else(|| panic!("a bar for {label}"));
-            check_words(&parameter, interval, words);
+            let excluded = told.frame["margins"]["excluded"].pointer(&parameter.pointer);
+            check_words(
+                &parameter,
+                interval,
+                excluded.unwrap_or(&Value::Null),
+                words,
+            );
             check_bar(&parameter, interval, bar.root_element());
             match (interval.is_null(), contains(interval, parameter.present)) {
                 (true, _) => never += 1,
@@ -215,9 +221,21 @@ fn contains(interval: &Value, value: f64) -> bool {
     !interval.is_null() && low <= value && value <= high
 }
 
-fn check_words(parameter: &Parameter, interval: &Value, words: &str) {
+/// The ends of two parts that conflict: below the first one falls, above the second, smaller one the other.
+fn conflict(excluded: &Value) -> Vec<f64> {
+    let [below, above] = list(excluded) else {
+        return Vec::new();
+    };
+    if !below["from"].is_null() || !above["to"].is_null() {
+        return Vec::new();
+    }
+    vec![number(&below["to"]), number(&above["from"])]
+}
+
+fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words: &str) {
     let [low, high] = finite(parameter, interval);
     let mut expected: Vec<f64> = [low, high].into_iter().flatten().collect();
+    expected.extend(conflict(excluded));
     if let ([a, b], true) = (&expected[..], words.contains("only at")) {
         assert!((a - b).abs() <= 1e-4 * a.abs(), "{words}");
         expected.pop();

@@ -4,6 +4,7 @@
 //! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
 //! verdicts on both sides is not reported.
 
+use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
@@ -79,25 +80,28 @@ impl Threshold {
     ///
     /// The search ends at an undecided value, because the threshold cannot be found more exactly.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
-        let at_none = match (trial.judge(&setting(0.0)).0, self.way) {
-            (Verdict::Unstable, Way::Most) => return Interval::Empty,
+        let (at_zero, motion) = trial.judge(&setting(0.0));
+        let at_none = match (at_zero, self.way) {
+            (Verdict::Unstable, Way::Most) => return Interval::excluded_by(motion),
             (Verdict::Undecided, Way::Most) => return Interval::Undecided,
             (Verdict::Stable, Way::Least) => return self.interval(End::natural(0.0)),
             (verdict, _) => verdict == Verdict::Stable,
         };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
         // Take large steps from 0 outward, as long as the verdict is the same as at 0.
-        let mut verdict = trial.judge(&setting(far)).0;
+        let (mut verdict, mut motion) = trial.judge(&setting(far));
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {
                 return match (self.way, verdict) {
                     (Way::Most, _) => self.interval(End::Unbounded),
-                    (Way::Least, Verdict::Unstable) => Interval::Empty,
+                    (Way::Least, Verdict::Unstable) => {
+                        Interval::Empty(vec![Exclusion::below(far, motion)])
+                    }
                     (Way::Least, _) => Interval::Undecided,
                 };
             }
             (near, far) = (far, (far * 10.0).min(self.most));
-            verdict = trial.judge(&setting(far)).0;
+            (verdict, motion) = trial.judge(&setting(far));
         }
         // The bracket: the component stands at `inside` and does not stand at `outside`.
         let (inside, outside) = match self.way {
@@ -185,6 +189,7 @@ impl Threshold {
                 2.0 * Self::NEAR
             };
         let is_confirmed = is_close || is_none(bracket.inside.max(bracket.outside));
+        let is_last = self.is_last(&bracket);
         match bracket.mechanism.filter(|_| is_confirmed) {
             Some(mechanism) => {
                 let value = root.unwrap_or(bracket.inside);
@@ -193,11 +198,24 @@ impl Threshold {
                     mechanism,
                 }
             }
+            // Only the last millionth before the largest value is open: there the parameter ends.
+            None if is_last && self.stands_at_the_last(trial, setting) => End::natural(self.most),
             None => End::Unconfirmed {
                 stands: bracket.inside,
                 beyond: bracket.outside,
             },
         }
+    }
+
+    /// Whether a bracket lies at the end of a parameter whose largest admissible value is searched, and no proof was found there.
+    fn is_last(&self, bracket: &Bracket) -> bool {
+        self.way == Way::Most && bracket.outside == self.most && bracket.mechanism.is_none()
+    }
+
+    /// Whether the component stands a millionth below the largest value.
+    fn stands_at_the_last(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> bool {
+        let last = self.most * (1.0 - Self::NEAR);
+        trial.judge_at(&setting(last), Place::AtEdge).0 == Verdict::Stable
     }
 
     /// Finds the threshold with Newton's method on the least residual, from the side on which the component falls.

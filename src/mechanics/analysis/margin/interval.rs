@@ -5,6 +5,7 @@
 
 use std::cmp::Ordering;
 
+use super::exclusion::Exclusion;
 use crate::proof::Motion;
 use crate::scene::RobotId;
 
@@ -12,8 +13,8 @@ use crate::scene::RobotId;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
-    /// It stands at no value.
-    Empty,
+    /// It stands at no value: these exclude all.
+    Empty(Vec<Exclusion>),
     /// It stands from one value to another.
     Between {
         /// The lower end.
@@ -85,11 +86,16 @@ impl Interval {
         high: End::Unbounded,
     };
 
+    /// Returns an empty interval: no value stops this motion.
+    pub(super) fn excluded_by(mechanism: Vec<Motion>) -> Interval {
+        Interval::Empty(vec![Exclusion::everywhere(mechanism)])
+    }
+
     /// Returns the lower end; `None` if the interval is empty or undecided.
     pub fn low(&self) -> Option<&End> {
         match self {
             Interval::Between { low, .. } => Some(low),
-            Interval::Empty | Interval::Undecided => None,
+            Interval::Empty(_) | Interval::Undecided => None,
         }
     }
 
@@ -97,7 +103,7 @@ impl Interval {
     pub fn high(&self) -> Option<&End> {
         match self {
             Interval::Between { high, .. } => Some(high),
-            Interval::Empty | Interval::Undecided => None,
+            Interval::Empty(_) | Interval::Undecided => None,
         }
     }
 
@@ -107,14 +113,18 @@ impl Interval {
             Interval::Between { low, high } => {
                 low.stands(f64::NEG_INFINITY) <= value && value <= high.stands(f64::INFINITY)
             }
-            Interval::Empty | Interval::Undecided => false,
+            Interval::Empty(_) | Interval::Undecided => false,
         }
     }
 
     /// Returns the values at which two components of one frame both stand.
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
-            (Interval::Empty, _) | (_, Interval::Empty) => return Interval::Empty,
+            (Interval::Empty(a), Interval::Empty(b)) => {
+                // The simpler of the two reasons.
+                return Interval::Empty(if b.len() < a.len() { b } else { a });
+            }
+            (empty @ Interval::Empty(_), _) | (_, empty @ Interval::Empty(_)) => return empty,
             (Interval::Undecided, _) | (_, Interval::Undecided) => return Interval::Undecided,
             (
                 Interval::Between { low, high },
@@ -145,8 +155,21 @@ impl Interval {
         if least <= most + SAME_VALUE * most.abs() {
             return Interval::Between { low, high };
         }
-        match (&low, &high) {
-            (End::At { .. }, End::At { .. }) => Interval::Empty,
+        match (low, high) {
+            // One component falls below its lower end, another one above its upper end.
+            (
+                End::At {
+                    value: low,
+                    mechanism: below,
+                },
+                End::At {
+                    value: high,
+                    mechanism: above,
+                },
+            ) => Interval::Empty(vec![
+                Exclusion::below(low, below),
+                Exclusion::above(high, above),
+            ]),
             // Both components may stand at values at which the verdict of one of them is unknown.
             _ => Interval::Undecided,
         }
@@ -214,7 +237,13 @@ mod tests {
             ((-endless, 1.0), (1.0, 2.0), Some((1.0, 1.0))),
             ((-endless, endless), (-2.0, 7.0), Some((-2.0, 7.0))),
         ] {
-            let expected = both.map_or(Interval::Empty, |(low, high)| between(low, high));
+            let none = || {
+                Interval::Empty(vec![
+                    Exclusion::below(2.0, Vec::new()),
+                    Exclusion::above(0.5, Vec::new()),
+                ])
+            };
+            let expected = both.map_or_else(none, |(low, high)| between(low, high));
             let [a, b] = [a, b].map(|(low, high)| between(low, high));
             assert_eq!(a.clone().intersection(b.clone()), expected);
             assert_eq!(b.intersection(a), expected);
@@ -232,7 +261,8 @@ mod tests {
         };
         let above = between(1.5, 3.0);
         assert_eq!(open.clone().intersection(above), Interval::Undecided);
-        assert_eq!(open.clone().intersection(Interval::Empty), Interval::Empty);
+        let empty = Interval::excluded_by(Vec::new());
+        assert_eq!(open.clone().intersection(empty.clone()), empty);
         assert!(open.contains(1.0) && !open.contains(1.5));
     }
 }

@@ -5,6 +5,7 @@
 //! 1960). One linear program gives the end and the forces and the mechanism there; verdicts confirm them. If they do
 //! not, cutting planes and bisection narrow the range that contains the end.
 
+use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
@@ -17,8 +18,10 @@ pub(super) struct Line<'a> {
     pub setting: &'a dyn Fn(f64) -> Setting,
     /// The least meaningful value; −∞ if all values are meaningful.
     pub least: f64,
-    /// A typical size of the parameter.
+    /// A typical small size of the parameter. Distances from smaller values are relative to it.
     pub natural: f64,
+    /// A typical large size of the parameter: a load of 10⁻⁵ N equals a weight of 1 N at the factor 10⁵.
+    pub reach: f64,
 }
 
 /// Two values between which an end lies.
@@ -44,9 +47,9 @@ const AGREES: f64 = 256e-6;
 const WIDER: f64 = 16.0;
 /// The largest number of steps of one search.
 const MAX_STEPS: usize = 60;
-/// The largest value that is tried, as a multiple of `natural`.
+/// The largest value that is tried, as a multiple of [`Line::reach`].
 const MAX_VALUE: f64 = 1e6;
-/// If the power of a mechanism vanishes only beyond this multiple of `natural`, the component counts as falling at
+/// If the power of a mechanism vanishes only beyond this multiple of [`Line::reach`], the component counts as falling at
 /// every value.
 const MAX_REACH: f64 = 1e6;
 
@@ -128,7 +131,7 @@ impl Line<'_> {
 
     /// Returns a finite value from which to search inward; a limit may be infinite.
     pub fn from(&self, value: f64) -> f64 {
-        value.min(MAX_VALUE * self.natural)
+        value.min(MAX_VALUE * self.reach)
     }
 
     /// Returns the end if the verdicts on its two sides are not close together: the hint if both sides agree with it,
@@ -232,7 +235,7 @@ impl Line<'_> {
 
     /// Takes a step outward if no value is known at which the component falls. Returns an end if there is no farther value.
     fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
-        let most = MAX_VALUE * self.natural;
+        let most = MAX_VALUE * self.reach;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
         let next = next.clamp(self.least.max(-most), most);
         if next == bracket.inside {
@@ -265,7 +268,9 @@ impl Line<'_> {
         hint: Option<f64>,
     ) -> Result<f64, Interval> {
         let (mut low, mut high) = (self.least, f64::INFINITY);
-        let limit = MAX_REACH * self.natural;
+        // The motions that exclude all values below `low` and all above `high`.
+        let [mut below, mut above] = [None, None];
+        let limit = MAX_REACH * self.reach;
         let mut next = Some(present);
         let mut hinted = hint;
         for _ in 0..MAX_STEPS {
@@ -284,13 +289,21 @@ impl Line<'_> {
                 (Verdict::Stable, at, _) => return Ok(at),
                 (Verdict::Undecided, ..) => return Err(Interval::Undecided),
                 (Verdict::Unstable, at, motion) => match self.reach(trial, at, &motion) {
-                    Cut::All => return Err(Interval::Empty),
-                    Cut::Above(bound) => high = high.min(bound.min(at)),
-                    Cut::Below(bound) => low = low.max(bound.max(at)),
+                    Cut::All => return Err(Interval::excluded_by(motion)),
+                    Cut::Above(bound) if bound.min(at) < high => {
+                        high = bound.min(at);
+                        above = Some(Exclusion::above(high, motion));
+                    }
+                    Cut::Below(bound) if bound.max(at) > low => {
+                        low = bound.max(at);
+                        below = Some(Exclusion::below(low, motion));
+                    }
+                    Cut::Above(_) | Cut::Below(_) => {}
                 },
             }
             if low > high || low > limit || high < -limit {
-                return Err(Interval::Empty);
+                let excluded = [below, above].into_iter().flatten();
+                return Err(Interval::Empty(excluded.collect()));
             }
         }
         Err(Interval::Undecided)
@@ -322,12 +335,11 @@ impl Line<'_> {
 
     /// Returns the values that a mechanism found at `value` excludes.
     fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
-        let [without, with] =
-            [0.0, self.natural].map(|at| trial.power(&(self.setting)(at), motion));
+        let [without, with] = [0.0, self.reach].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is linear in the value: A + B·value. It vanishes at −A/B.
-        let slope = (with - without) / self.natural;
+        let slope = (with - without) / self.reach;
         let bound = -without / slope;
-        if !bound.is_finite() || bound.abs() > MAX_REACH * self.natural {
+        if !bound.is_finite() || bound.abs() > MAX_REACH * self.reach {
             return Cut::All;
         }
         // The mechanism has positive power at `value`, so it excludes this value, too.

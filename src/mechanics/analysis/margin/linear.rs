@@ -56,11 +56,13 @@ pub(super) fn linear(
 /// found.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the value.
-    let (program, toward) =
-        trial.direction(&(line.setting)(present), &(line.setting)(present + 1.0));
+    let (program, toward) = trial.direction(
+        &(line.setting)(present),
+        &(line.setting)(present + line.reach),
+    );
     let found = nearest_factor(&program, &toward);
     let at = match found.limit {
-        Limit::At(change) => (present + change).max(line.least),
+        Limit::At(change) => (present + change * line.reach).max(line.least),
         _ => present,
     };
     // Cache its forces and its motion: they often prove the verdicts that follow. If the component stands at no
@@ -96,13 +98,13 @@ fn end(
     {
         return End::natural(line.least);
     }
-    let (program, toward) =
-        trial.direction(&(line.setting)(start), &(line.setting)(start + outward));
+    let step = outward * line.reach;
+    let (program, toward) = trial.direction(&(line.setting)(start), &(line.setting)(start + step));
     let found = largest_factor(&program, &toward);
     match found.limit {
         Limit::Unbounded if trial.judge(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
         Limit::At(change) => {
-            let at = (start + outward * change).max(line.least);
+            let at = (start + step * change).max(line.least);
             let around = line.around(at, outward);
             trial.learn_edge(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))

@@ -7,16 +7,18 @@
 //! components stand: its interval is the intersection of theirs.
 //!
 //! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
-//! [`edge`] searches the ends for friction and kernel, and [`tilt`] those for the rotation of gravity. An end is
+//! [`edge`] searches the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] those for the rotation of gravity. An end is
 //! accepted only if the changed frame stands just inside it and falls just beyond it, with the same proofs as every
 //! verdict. The mechanism of an end is that of the fall just beyond it. [`Margins`] follow from the intervals.
 
 mod edge;
+mod exclusion;
 mod interval;
 mod kind;
 mod line;
 mod linear;
 mod margins;
+mod nearest_tilt;
 mod parameter;
 mod tilt;
 mod trial;
@@ -32,6 +34,7 @@ use super::decide::Findings;
 use super::key::Key;
 use crate::assembly::Assembly;
 use crate::solve::{DeadlineGuard, deadline};
+pub use exclusion::Exclusion;
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
@@ -60,7 +63,7 @@ impl Part<'_> {
     fn at_present(&self, all: Interval) -> Interval {
         match self.found.verdict {
             Verdict::Stable => all,
-            Verdict::Unstable => Interval::Empty,
+            Verdict::Unstable => Interval::excluded_by(self.found.mechanism.clone()),
             Verdict::Undecided => Interval::Undecided,
         }
     }
@@ -101,7 +104,7 @@ pub(super) fn find_margins(
     // Step 3.
     if has_tilt && !all_stand {
         let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
-        intervals.tilt = Some(tilt::nearest(&mut trials));
+        intervals.tilt = Some(nearest_tilt::nearest(&mut trials));
         judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
     }
     // The tilts certainly form one arc only if no loads are listed and no robot has a finite limit.

@@ -77,6 +77,7 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
         },
         least: f64::NEG_INFINITY,
         natural: 1.0,
+        reach: (1.0 / trial.weights_to_loads()).max(1.0),
     };
     let alone = |side: f64| Setting {
         along: 0.0,
@@ -95,7 +96,8 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
             ..Setting::default()
         },
         least: 0.0,
-        natural: 1.0,
+        natural: trial.weights_to_loads().min(1.0),
+        reach: trial.weights_to_loads().max(1.0),
     };
     let alone = |side: f64| Setting {
         along: 0.0,
@@ -126,14 +128,15 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         setting: &setting,
         least: 0.0,
         natural: unit * Scale::HEAVIEST,
+        reach: unit * Scale::HEAVIEST,
     };
     // The limit of the scene is sufficient if the component stands.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
-        match trial.judge(&setting(f64::INFINITY)).0 {
-            Verdict::Stable => {}
-            Verdict::Unstable => return Interval::Empty,
-            Verdict::Undecided => return Interval::Undecided,
+        match trial.judge(&setting(f64::INFINITY)) {
+            (Verdict::Stable, _) => {}
+            (Verdict::Unstable, motion) => return Interval::excluded_by(motion),
+            (Verdict::Undecided, _) => return Interval::Undecided,
         }
     }
     let enough = if stands { given } else { f64::INFINITY };

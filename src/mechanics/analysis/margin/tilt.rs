@@ -19,20 +19,14 @@ const NEAR: f64 = 1e-6;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const WIDER: f64 = 16.0;
 /// The largest of these distances, relative to the tilt.
-const FAR: f64 = 256e-6;
+pub(super) const FAR: f64 = 256e-6;
 /// A range between two stable tilts is not searched further if it is narrower than this, degrees.
-const MIN_GAP: f64 = 1e-6;
+pub(super) const MIN_GAP: f64 = 1e-6;
 /// The step of the first search, degrees. A right angle is no multiple of it, because many structures are exactly at
 /// their limit of stability at right angles.
 const STRIDE: f64 = 77.7;
-/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`AHEAD`] times the gain. Cuts
-/// whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that a
-/// load pulls off its posts.
-const SLOW: f64 = 1e-2;
-/// How far the search looks ahead, as a multiple of the gain.
-const AHEAD: f64 = 16.0;
 /// The largest number of cuts of one search.
-const MAX_CUTS: usize = 200;
+pub(super) const MAX_CUTS: usize = 200;
 
 /// Returns the interval of tilts around 0, in degrees, of a component that stands without tilt. `horizontal` is its
 /// interval of horizontal loads.
@@ -47,94 +41,8 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
     }
 }
 
-/// Returns the interval of tilts nearest to 0 at which a frame stands, in degrees, for a frame that falls without
-/// tilt.
-pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
-    match first_standing(trials) {
-        Err(interval) => interval,
-        Ok(turn) => {
-            let each = trials.iter_mut().map(|trial| around(trial, turn));
-            each.fold(Interval::UNBOUNDED, Interval::intersection)
-        }
-    }
-}
-
-/// Finds the tilt nearest to 0 at which all components stand, in degrees. The error is the interval if none is found:
-/// empty or undecided. Each mechanism excludes an arc around 0, until the frame stands at one end of the excluded
-/// range.
-fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
-    let (mut low, mut high) = (0.0_f64, 0.0_f64);
-    let mut turn = 0.0;
-    'cuts: for _ in 0..MAX_CUTS {
-        let outward = if turn < 0.0 { -1.0 } else { 1.0 };
-        // Exactly at the end of the excluded range the verdict may be undecided.
-        let far = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
-        let steps = std::iter::once(0.0)
-            .chain(steps())
-            .chain(far.take_while(|step| *step < 1.0))
-            .map(|step| turn + outward * step * size(turn));
-        let mut standing = None;
-        for at in steps {
-            match judged_together(trials, at) {
-                (Verdict::Stable, _) => {
-                    standing = Some(at);
-                    break;
-                }
-                (Verdict::Undecided, _) => {}
-                (Verdict::Unstable, None) => return Err(Interval::Empty),
-                (Verdict::Unstable, Some([from, to])) => {
-                    // Merge the arc with the excluded range, including gaps that no verdict can resolve.
-                    low = low.min(from);
-                    high = high.max(to);
-                    // If the arc adds nothing, take a small step.
-                    if outward > 0.0 {
-                        high = high.max(at + MIN_GAP)
-                    } else {
-                        low = low.min(at - MIN_GAP)
-                    }
-                    if high - low >= 360.0 {
-                        return Err(Interval::Empty);
-                    }
-                    let next = if high <= -low { high } else { low };
-                    let gain = (next - turn) * outward;
-                    turn = next;
-                    if (0.0..SLOW * size(turn)).contains(&gain) {
-                        let ahead = turn + AHEAD * outward * gain;
-                        match judged_together(trials, ahead) {
-                            (Verdict::Stable, _) => return Ok(ahead),
-                            (Verdict::Unstable, Some([from, to])) if from <= high && to >= low => {
-                                (low, high) = (low.min(from), high.max(to));
-                                turn = if high <= -low { high } else { low };
-                            }
-                            _ => {}
-                        }
-                    }
-                    continue 'cuts;
-                }
-            }
-        }
-        return standing.ok_or(Interval::Undecided);
-    }
-    Err(Interval::Undecided)
-}
-
-/// Returns the verdict of the whole frame at a tilt, and the arc in degrees that a mechanism excludes if the frame
-/// falls. If it falls and the arc is `None`, the mechanism excludes every tilt.
-fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]>) {
-    let mut verdict = Verdict::Stable;
-    for trial in trials {
-        let (found, motion) = trial.judge_at(&turned(turn, 1.0), Place::AtEdge);
-        match found {
-            Verdict::Stable => {}
-            Verdict::Undecided => verdict = found,
-            Verdict::Unstable => return (found, cut(trial, turn, &motion)),
-        }
-    }
-    (verdict, None)
-}
-
 /// Returns the interval of tilts of a component around a tilt at which it stands.
-fn around(trial: &mut Trial, from: f64) -> Interval {
+pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
         let mut arc = Arc {
             trial: &mut *trial,
@@ -294,7 +202,7 @@ impl Arc<'_, '_> {
 
 /// Returns the setting in which gravity is rotated by an angle in degrees, positive to the right, and multiplied by
 /// `stretch`.
-fn turned(degrees: f64, stretch: f64) -> Setting {
+pub(super) fn turned(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
     Setting {
         along: stretch * libm::cos(angle),
@@ -305,7 +213,7 @@ fn turned(degrees: f64, stretch: f64) -> Setting {
 
 /// Returns the arc of tilts in degrees, around the tilt `turn`, at which a component falls by a motion; `None` if it
 /// falls at every tilt.
-fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
+pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
         let setting = Setting {
             along,
@@ -330,13 +238,13 @@ fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
 }
 
 /// Returns growing distances from an end, relative to its size.
-fn steps() -> impl Iterator<Item = f64> {
+pub(super) fn steps() -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
         .take_while(|step| *step <= FAR)
 }
 
 /// Returns the size in degrees to which distances from a tilt are relative: its magnitude, at least 1.
-fn size(turn: f64) -> f64 {
+pub(super) fn size(turn: f64) -> f64 {
     turn.abs().max(1.0)
 }
 
@@ -363,6 +271,7 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
                 },
                 least: 0.0,
                 natural: 1.0,
+                reach: 1.0,
             };
             let alone = |_: f64| Setting {
                 along: -1.0,

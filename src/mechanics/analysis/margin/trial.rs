@@ -112,6 +112,19 @@ impl<'a> Trial<'a> {
         is_limited(self.given)
     }
 
+    /// Returns the heaviest weight as a multiple of the largest listed load; 1 without weights or loads.
+    pub fn weights_to_loads(&self) -> f64 {
+        let bodies = || self.given.bodies.iter();
+        let weights = bodies().map(|body| body.weight * self.given.pull.norm());
+        let loads = bodies().map(|body| body.listed.size(self.given.length));
+        let ratio = weights.fold(0.0, f64::max) / loads.fold(0.0, f64::max);
+        if ratio.is_finite() && ratio > 0.0 {
+            ratio
+        } else {
+            1.0
+        }
+    }
+
     /// Returns the verdict on the changed component, and its mechanism if it falls.
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judge_at(setting, Place::Anywhere)

@@ -24,7 +24,7 @@ impl Intervals {
             Interval::Undecided => list.push(format!(
                 "{least} and {largest} are withheld: no verdict shows at which values it stands"
             )),
-            Interval::Empty => {}
+            Interval::Empty(_) => {}
         };
         for (least, largest, interval) in [
             ("the least friction", "the largest friction", &self.friction),
@@ -84,7 +84,7 @@ mod tests {
             high,
         };
         let found = Intervals {
-            friction: Some(Interval::Empty),
+            friction: Some(Interval::excluded_by(Vec::new())),
             tilt: Some(Interval::Between {
                 low: End::Unconfirmed {
                     stands: -0.25,
@@ -95,7 +95,7 @@ mod tests {
             kernel: Some(up_to(open.clone())),
             robots: vec![RobotIntervals {
                 robot: RobotId(0),
-                fx: Interval::Empty,
+                fx: Interval::excluded_by(Vec::new()),
                 fy: Interval::Between {
                     low: open,
                     high: End::Unbounded,

@@ -39,7 +39,7 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
             };
             format!("{now} as it is; {what}{}", stands(stated(toward), interval))
         }
-        (_, Interval::Empty) => format!("falls at every {}", parameter(toward)),
+        (_, Interval::Empty(_)) => format!("falls at every {}", parameter(toward)),
         (_, Interval::Undecided) => {
             format!("at which {} it stands was not confirmed", parameter(toward))
         }

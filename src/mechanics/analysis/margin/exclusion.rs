@@ -1,0 +1,107 @@
+//! [`Exclusion`]: values of a parameter at which a frame falls by one motion.
+//!
+//! A frame that stands at no value of a parameter has a few of them, which cover all values: one motion that no value
+//! stops, two parts of the structure that need values apart from each other, or arcs of tilts.
+
+use crate::proof::Motion;
+
+/// Values of a parameter at which a frame falls by one motion. An end of `None` means that there is none.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Exclusion {
+    /// The lower end.
+    pub from: Option<f64>,
+    /// The upper end.
+    pub to: Option<f64>,
+    /// How the blocks begin to move at these values.
+    pub mechanism: Vec<Motion>,
+}
+
+impl Exclusion {
+    /// A motion that no value of the parameter stops.
+    pub(super) fn everywhere(mechanism: Vec<Motion>) -> Exclusion {
+        Exclusion {
+            from: None,
+            to: None,
+            mechanism,
+        }
+    }
+
+    /// A motion that no value below `to` stops.
+    pub(super) fn below(to: f64, mechanism: Vec<Motion>) -> Exclusion {
+        Exclusion {
+            to: Some(to),
+            ..Exclusion::everywhere(mechanism)
+        }
+    }
+
+    /// A motion that no value above `from` stops.
+    pub(super) fn above(from: f64, mechanism: Vec<Motion>) -> Exclusion {
+        Exclusion {
+            from: Some(from),
+            ..Exclusion::everywhere(mechanism)
+        }
+    }
+}
+
+/// The fewest of these arcs of tilts, in degrees, that still cover a full turn, in the order of their beginnings. Arcs at
+/// most `gap` apart count as joined.
+pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
+    let ends = |arc: &Exclusion| {
+        let [from, to] = [arc.from, arc.to];
+        (
+            from.unwrap_or(f64::NEG_INFINITY),
+            to.unwrap_or(f64::INFINITY),
+        )
+    };
+    let first = arcs.iter().map(|arc| ends(arc).0);
+    let (first, mut kept) = (first.fold(f64::INFINITY, f64::min), Vec::new());
+    let mut reached = first;
+    while reached < first + 360.0 {
+        // Of the arcs that begin no later than the last one ends, the one that reaches farthest.
+        let joined = arcs
+            .iter()
+            .filter(|arc| ends(arc).0 <= reached + gap(reached));
+        let farthest = joined.max_by(|a, b| ends(a).1.total_cmp(&ends(b).1));
+        match farthest.filter(|arc| ends(arc).1 > reached) {
+            Some(arc) => {
+                reached = ends(arc).1;
+                kept.push(arc.clone());
+            }
+            None => return arcs.to_vec(),
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(from: f64, to: f64) -> Exclusion {
+        Exclusion {
+            from: Some(from),
+            to: Some(to),
+            mechanism: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_full_turn_is_covered_by_the_fewest_arcs() {
+        let all = vec![
+            arc(-10.0, 60.0),
+            arc(20.0, 40.0),
+            arc(50.0, 170.0),
+            arc(55.0, 120.0),
+            arc(-190.0, -9.0),
+        ];
+        let found = fewest_arcs(&all, |_| 1e-6);
+        assert_eq!(
+            found,
+            [all[4].clone(), all[0].clone(), all[2].clone()],
+            "{found:?}"
+        );
+        let open = &all[..4];
+        assert_eq!(fewest_arcs(open, |_| 1e-6), open);
+    }
+}

@@ -1,0 +1,18 @@
+//! [`Named`]: a JSON object with keys that are known only when the program runs.
+
+use serde::{Serialize, Serializer};
+
+/// An object whose keys keep the order of the list.
+pub(super) struct Named<'a, T>(pub Vec<(&'a str, T)>);
+
+impl<T> Named<'_, T> {
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl<T: Serialize> Serialize for Named<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}

@@ -1,0 +1,124 @@
+//! [`Type`]: the types of the values of a result.
+
+use serde_json::{Value, json};
+
+/// The type of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// Any text.
+    Text,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+    /// `true`, `false`, or `null` if it could not be decided.
+    FlagOrOpen,
+    /// A whole number, at least 0.
+    Count,
+    /// A whole number from 1, or `null` if there is no text.
+    Place,
+    /// A number; `null` if it could not be computed, which happens only in undecided frames.
+    Number,
+    /// A number, or `"unbounded"`.
+    Bound,
+    /// A number; `null` if the frame stands at no value; `"unbounded"` if it stands at every value.
+    Margin,
+    /// Two ends, `[low, high]`: each a number, `null` for no limit, or `"withheld"`; `null` for an empty interval.
+    Interval,
+    /// Two lists of motions, beyond the lower and beyond the upper end.
+    MotionPairs,
+    /// A point or vector, `[x, y]`.
+    Pair,
+    /// Two points, `[[x, y], [x, y]]`.
+    Pairs,
+    /// Two names.
+    Names,
+    /// A list of names.
+    NameList,
+    /// A list of `{ "block", "velocity", "spin" }`: how blocks move.
+    Motions,
+    /// A list of `{ "from", "to", "mechanism" }`: values at which a frame falls by one motion. A `null` end is no limit.
+    Exclusions,
+    /// An object.
+    Object,
+    /// A list of objects.
+    Objects,
+    /// An object with a key for each robot, by its name.
+    ByRobot,
+}
+
+impl Type {
+    /// Describes the type in words, for the table of keys.
+    pub fn words(self) -> String {
+        let fixed = match self {
+            Type::Word(words) => {
+                let quoted: Vec<String> = words.iter().map(|w| format!("`\"{w}\"`")).collect();
+                return quoted.join(", ");
+            }
+            Type::Text => "text",
+            Type::Flag => "true or false",
+            Type::FlagOrOpen => "true, false or null",
+            Type::Count => "whole number",
+            Type::Place => "whole number or null",
+            Type::Number => "number",
+            Type::Bound => "number or `\"unbounded\"`",
+            Type::Margin => "number, null or `\"unbounded\"`",
+            Type::Interval => "[low, high] or null",
+            Type::MotionPairs => "two lists of motions",
+            Type::Pair => "[x, y]",
+            Type::Pairs => "[[x, y], [x, y]]",
+            Type::Names => "two names",
+            Type::NameList => "list of texts",
+            Type::Motions => "list of motions",
+            Type::Exclusions => "list of exclusions",
+            Type::Object => "object",
+            Type::Objects => "list of objects",
+            Type::ByRobot => "object by robot",
+        };
+        fixed.into()
+    }
+
+    /// Returns the JSON Schema of the type.
+    pub(super) fn schema(self) -> Value {
+        let number = json!({ "type": ["number", "null"] });
+        let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
+        let unbounded = json!({ "const": "unbounded" });
+        match self {
+            Type::Text => json!({ "type": "string" }),
+            Type::Word(words) => json!({ "type": "string", "enum": words }),
+            Type::Flag => json!({ "type": "boolean" }),
+            Type::FlagOrOpen => json!({ "type": ["boolean", "null"] }),
+            Type::Count => json!({ "type": "integer", "minimum": 0 }),
+            Type::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
+            Type::Number => number,
+            Type::Bound | Type::Margin => json!({ "anyOf": [number, unbounded] }),
+            Type::Interval => {
+                let withheld = json!({ "const": "withheld" });
+                let end = json!({ "anyOf": [number, withheld] });
+                let both = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
+                json!({ "anyOf": [both, { "type": "null" }, withheld] })
+            }
+            Type::MotionPairs => {
+                let motions = json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } });
+                json!({ "type": "array", "items": motions, "minItems": 2, "maxItems": 2 })
+            }
+            Type::Pair => pair,
+            Type::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
+            Type::Names => {
+                json!({ "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2 })
+            }
+            Type::NameList => json!({ "type": "array", "items": { "type": "string" } }),
+            Type::Motions => {
+                json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } })
+            }
+            Type::Exclusions => {
+                json!({ "type": "array", "items": { "$ref": "#/$defs/exclusion" } })
+            }
+            Type::Object => json!({ "type": "object" }),
+            Type::Objects => json!({ "type": "array", "items": { "type": "object" } }),
+            Type::ByRobot => {
+                json!({ "type": "object", "additionalProperties": { "type": "object" } })
+            }
+        }
+    }
+}

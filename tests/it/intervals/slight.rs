@@ -1,0 +1,95 @@
+//! Intervals where the loads are far smaller or far larger than the weights.
+//!
+//! A factor on loads that are a millionth as large is a million times as large: the exact interval of the scene with its
+//! ordinary loads gives that of the changed one.
+
+use drystone::Scene;
+use drystone::analysis::Interval;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::{
+    analysed, check_friction, check_kernel, check_linear, check_tilt, compare, exact_interval,
+    known, near, random_scene,
+};
+use crate::oracle::factor::Growing;
+use crate::oracle::number_of;
+use crate::random::Random;
+
+/// The file with all its loads times a factor.
+fn scaled(file: &Value, by: f64) -> Value {
+    let mut changed = file.clone();
+    for load in changed["loads"].as_array_mut().into_iter().flatten() {
+        for axis in 0..2 {
+            load["force"][axis] = json!(load["force"][axis].as_f64().expect("newtons") * by);
+        }
+        if let Some(torque) = load["torque"].as_f64() {
+            load["torque"] = json!(torque * by);
+        }
+    }
+    changed
+}
+
+/// What is wrong with the intervals of a scene whose loads are multiplied by a power of two.
+fn problems(number: u64) -> Vec<String> {
+    let given = random_scene(number);
+    let power = [-24, -20, -17, -12, 12, 20][number as usize % 6];
+    let by = libm::ldexp(1.0, power);
+    let file = scaled(&given, by);
+    let scene = Scene::from_json(&file.to_string()).expect("sound");
+    let found = analysed(&scene).intervals;
+    let mut problems = Vec::new();
+    if !scene.loads().is_empty() {
+        // In units of the ordinary loads.
+        let ordinary = |end: f64| end / by;
+        let exact = exact_interval(&given, Growing::ListedLoads);
+        let exact = exact.map(|ends| ends.map(ordinary));
+        compare("load factor", &found.load_factor, exact, &mut problems);
+    }
+    let (across, share) = (Growing::AcrossGravity, &found.horizontal_load);
+    check_linear("horizontal", &file, across, share, &mut problems);
+    check_friction(&file, &found, &mut problems);
+    check_kernel(&file, &found, &mut problems);
+    check_tilt(&file, &found, &mut Random::new(number), &mut problems);
+    if !problems.is_empty() {
+        problems.push(file.to_string());
+    }
+    let told = problems.iter();
+    told.map(|problem| format!("{number}: {problem}")).collect()
+}
+
+/// `DRYSTONE_INTERVAL_SLIGHT=600` looks at more of them.
+#[test]
+fn loads_far_smaller_and_larger_than_weights_have_exact_intervals() {
+    let first = number_of("DRYSTONE_INTERVAL_FIRST", 0);
+    let wanted = number_of("DRYSTONE_INTERVAL_SLIGHT", 36);
+    let numbers = (first..first + wanted).into_par_iter();
+    let found: Vec<String> = numbers.flat_map_iter(problems).collect();
+    assert!(
+        found.is_empty(),
+        "{} problems:\n{}",
+        found.len(),
+        found.join("\n")
+    );
+}
+
+/// The counterweight of the plank in units of a micronewton: a factor of 9·10⁹ once counted as none.
+#[test]
+fn a_counterweight_given_as_a_tiny_load_is_found() {
+    let (file, margins) = known("plank");
+    let ordinary = margins.intervals.load_factor.expect("there is a load");
+    let low = ordinary
+        .low()
+        .and_then(|end| end.value())
+        .expect("it needs a counterweight");
+    for by in [1e-5, 1e-9, 1e-12] {
+        let file = scaled(&file, by);
+        let scene = Scene::from_json(&file.to_string()).expect("sound");
+        let found = analysed(&scene).intervals.load_factor;
+        assert!(
+            matches!(found, Some(Interval::Between { .. })),
+            "{by}: {found:?}"
+        );
+        near(super::ends(&found), [low / by, f64::INFINITY]);
+    }
+}
