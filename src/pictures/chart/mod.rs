@@ -1,10 +1,10 @@
-//! Charts as SVG: [`scatter`] draws points on two logarithmic axes; [`growth`] draws lines on two logarithmic axes;
-//! [`bars`] draws a histogram; [`course`] draws values over the steps of a scene.
+//! Draws charts as SVG. [`scatter`] draws points and [`growth`] draws lines on two logarithmic axes. [`bars`] draws a
+//! histogram, and [`course`] draws values over the steps of a scene.
 //!
 //! Only `plot` uses plotters. plotters rounds to whole pixels, and its labels can overlap. Therefore the picture is
-//! drawn ten times as large, and the width and height of the SVG are divided by ten over the same view box. A
-//! logarithmic axis shorter than a decade would have no labels, so axes cover at least two whole decades (except the
-//! horizontal axis of [`growth`]). Text is measured with the built-in font, so the fonts of the machine do not change a
+//! drawn ten times as large. Then the width and height of the SVG, but not its view box, are divided by ten. A
+//! logarithmic axis shorter than a decade would have no labels. So axes cover at least two whole decades, except the
+//! horizontal axis of [`growth`]. Text is measured with the built-in font, so the fonts of the machine do not change a
 //! picture.
 
 mod plot;

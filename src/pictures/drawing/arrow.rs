@@ -75,7 +75,7 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
         .segments
         .push(Segment::Line(at(neck, radius + head)));
-    // The tip lies slightly outside the circle. A tip on the circle would look bent inwards, and a tip on the tangent bent
+    // The tip lies slightly outside the circle. On the circle the head would look bent inwards, on the tangent
     // outwards.
     let tip = at(end, radius + 0.12 * long);
     outline.segments.push(Segment::Line(tip));

@@ -1,4 +1,4 @@
-//! [`Camera`]: maps metres in the scene to pixels on the page. Only here the y axis changes its direction.
+//! [`Camera`]: maps metres in the scene to pixels on the page. The y axis points up in the scene and down on the page.
 
 use super::{Outline, PagePoint, PageRect};
 use crate::geometry::{Bounds, Point, Polygon, Vector};

@@ -1,8 +1,8 @@
 //! Differences between colours as people see them: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts a
 //! colour to its appearance for colour-blind readers and in grey print.
 //!
-//! A difference of about 1 is the least that can be seen side by side, 10 is seen at a glance, and black and white
-//! differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies follow
+//! About 1 is the least difference that can be seen side by side. A difference of 10 is seen at a glance, and black and
+//! white differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies follow
 //! [Machado09](crate::doc::references), at full severity.
 
 use core::f64::consts::PI;

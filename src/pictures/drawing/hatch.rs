@@ -1,4 +1,4 @@
-//! [`hatch`]: parallel lines that fill an outline, as in mechanical drawings of the ground.
+//! [`hatch`]: fills an outline with parallel lines, as the ground in mechanical drawings.
 
 use super::{Outline, PagePoint, PageRect};
 
@@ -9,7 +9,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     if !(spacing > 0.0) {
         return lines;
     }
-    // Lines fall to the right: y − x is constant along each line.
+    // Lines fall to the right on the page: y − x is constant along each line.
     let first = page.at.y - page.at.x - page.width;
     let count = ((page.width + page.height) / spacing).floor();
     for number in 0..=count as usize {

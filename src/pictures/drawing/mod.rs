@@ -1,4 +1,4 @@
-//! [`Drawing`]: shapes and text on a page, without any mechanics.
+//! [`Drawing`]: shapes and text on a page.
 //!
 //! The origin of a page is its upper left corner; x points right and y points down, in pixels. Only [`Camera`] converts
 //! from the scene, whose y points up. Later items lie on top of earlier ones. This module knows neither forces nor file
@@ -59,7 +59,7 @@ pub struct PageRect {
 }
 
 impl PageRect {
-    /// The part of a line inside the rectangle; `None` if the line does not meet the rectangle.
+    /// Returns the part of a line segment inside the rectangle; `None` if it does not cross the rectangle.
     pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let along = (to.x - from.x, to.y - from.y);

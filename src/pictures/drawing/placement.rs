@@ -1,14 +1,15 @@
-//! [`place`]: point-feature label placement. No label lies on ink, on another label, or off its page.
+//! [`place`]: finds positions for labels. Labels do not cover ink or other labels, and lie on the page.
 //!
-//! The method is greedy, as in Christensen, Marks and Shieber, *An empirical study of algorithms for point-feature label
-//! placement* (ACM Transactions on Graphics 14, 1995), with one round of exchanges at the end:
+//! The method is greedy, with one round of exchanges at the end. See Christensen, Marks and Shieber, *An empirical
+//! study of algorithms for point-feature label placement* (ACM Transactions on Graphics 14, 1995).
 //!
 //! 1. Labels are placed in the order given, the most important first.
 //! 2. Each takes the first of its preferred positions that is clear of ink.
 //! 3. If none is, positions on concentric rings about its anchor are tried, and the one of least cost is taken. The cost is
-//!    the distance plus penalties. A label apart from what it names gets a leader line.
+//!    the distance plus penalties. A label away from its anchor gets a leader line.
 //! 4. A label without a clear position is left out.
-//! 5. Labels whose leaders cross exchange their positions where that leaves fewer crossings ([`untangle`](untangle::untangle)).
+//! 5. Labels whose leaders cross exchange their positions if that leaves fewer crossings
+//!    ([`untangle`](untangle::untangle)).
 
 mod ink;
 mod untangle;
@@ -23,15 +24,15 @@ pub use self::ink::Ink;
 const MAX_RINGS: usize = 60;
 /// Positions tried on each ring: every 15°.
 const POSITIONS_PER_RING: usize = 24;
-/// Clear space kept around a label, pixels. With less, letters seem to touch a line; with much more, crowded figures lose
-/// labels.
+/// Clear space around a label, pixels. With less space letters seem to touch lines; with much more, crowded figures
+/// would lose labels.
 const CLEARANCE: f64 = 1.5;
 /// A label gets a leader line if its nearest point lies farther than this beyond the first ring, pixels.
 const LEADER_DISTANCE: f64 = 6.0;
 /// Cost of a leader that crosses ink, pixels of distance: a label goes about one line height farther to avoid it.
 const INK_CROSSING_COST: f64 = 14.0;
-/// Cost of a leader that crosses another label, pixels of distance: more than any distance on a page, as it would strike
-/// the label out.
+/// Cost of a leader that crosses another label, pixels of distance. It is more than any distance on a page, because the
+/// label would look deleted.
 const LABEL_CROSSING_COST: f64 = 1000.0;
 /// Cost of a position that the caller avoids, pixels of distance.
 const AVOIDED_COST: f64 = 110.0;
@@ -42,7 +43,7 @@ const COST_TIE: f64 = 1e-3;
 /// A label that needs a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelRequest {
-    /// The point it names: the end of its leader line.
+    /// The point that it names, which is the end of its leader line.
     pub anchor: PagePoint,
     /// Radius of the first ring about the anchor, pixels.
     pub first_ring: f64,
@@ -52,7 +53,7 @@ pub struct LabelRequest {
     pub preferred: Vec<PagePoint>,
     /// Additional clear space that a preferred position should have, pixels; positions that have it come first.
     pub padding: f64,
-    /// How far beyond the first ring the label may stand, pixels; `None` for preferred positions only.
+    /// Largest distance of the label beyond the first ring, pixels; `None` for preferred positions only.
     pub max_distance: Option<f64>,
 }
 
@@ -63,7 +64,7 @@ pub struct Placed {
     pub avoided: bool,
     /// The label's rectangle.
     pub rect: PageRect,
-    /// The line from the label to its anchor, if the label stands apart from it.
+    /// The line from the label to its anchor, if it has one.
     pub leader: Option<[PagePoint; 2]>,
 }
 

@@ -17,8 +17,8 @@ const STANDS_OFF: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
 ///
-/// The built-in themes are `thesis`, the default, with the colours of the thesis; `paper`, for print, also in grey;
-/// `colourblind`, after Okabe and Ito; and `dark`. The table shows the least distance of colours that can touch; a test
+/// The built-in themes are `thesis` (the default, with the colours of the thesis), `paper` (for print, also in grey),
+/// `colourblind` (after Okabe and Ito) and `dark`. The table shows the least distance of colours that can touch; a test
 /// checks the numbers. ΔE is CIEDE2000 ([`difference`](super::difference)). For `paper` it is the difference of
 /// lightness, as in a grey print. For `colourblind` it is the least value of full sight and the three deficiencies.
 ///

@@ -3,18 +3,18 @@
 use super::arrow::HEAD_WIDTH;
 use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 
-/// Size of subscripts and superscripts, in sizes.
+/// Font size of subscripts and superscripts, as a multiple of the symbol's font size.
 const SMALL: f64 = 0.68;
-/// How far a subscript's base line lies below the letter's, in sizes.
+/// Distance of a subscript's baseline below the letter's, as a multiple of the font size.
 const BELOW: f64 = 0.24;
-/// How far a superscript's base line lies above the letter's, in sizes.
+/// Distance of a superscript's baseline above the letter's, as a multiple of the font size.
 const ABOVE: f64 = 0.42;
-/// How far a superscript stands to the right, clear of an arrow above its letter, in sizes.
+/// Horizontal distance of a superscript from its letter, as a multiple of the font size. It leaves space for an arrow.
 const RAISED: f64 = 0.2;
-/// How far a symbol reaches above and below its base line, in sizes.
+/// Height of a symbol above and below its baseline, as multiples of the font size.
 const REACH: (f64, f64) = (0.98, 0.42);
 
-/// What stands above a letter.
+/// The sign above a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accent {
     /// Nothing.
@@ -25,20 +25,20 @@ pub enum Accent {
     Hat,
 }
 
-/// One letter of a symbol with what belongs to it.
+/// A letter of a symbol with its accent, subscript and superscript.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Letter {
     /// The letter, set in italics.
     pub letter: String,
-    /// What stands above it.
+    /// The sign above it.
     pub accent: Accent,
-    /// What stands below right; letters in italics, figures upright.
+    /// The subscript; letters are italic, digits upright.
     pub below: String,
-    /// What stands above right.
+    /// The superscript.
     pub above: String,
 }
 
-/// A mathematical name.
+/// A mathematical symbol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
     /// Its letters in order.

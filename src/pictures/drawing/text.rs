@@ -107,7 +107,7 @@ pub struct Text {
     pub at: PagePoint,
     /// The point of the line that lies at `at`.
     pub anchor: Anchor,
-    /// The words.
+    /// The text.
     pub words: String,
     /// The font.
     pub face: Face,

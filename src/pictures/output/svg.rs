@@ -54,8 +54,8 @@ pub fn write(drawing: &Drawing) -> String {
     document(drawing, None, &mark, Form::Names)
 }
 
-/// Like [`write()`], for a drawing that is converted to pixels. Ids need no mark, because no other figure is on the same
-/// page. Titles and groups are left out, because they are not visible and cost time to read.
+/// Like [`write()`], for a drawing that is converted to pixels. All ids begin with `d`, because no other figure is on
+/// the same page. Invisible titles and groups are left out to save time.
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
@@ -67,8 +67,8 @@ pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// Writes a drawing as an SVG document, with a size for print, or with text that does not depend on the fonts of the
-/// reader.
+/// Writes a drawing as an SVG document with options. They set a size for print, or make text independent of the fonts
+/// of the reader.
 ///
 /// # Errors
 /// [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.

@@ -3,8 +3,8 @@
 //! The ground often pushes a block up on the same line on which its weight pulls it down. Drawn there, the two look
 //! like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
 //!
-//! 1. The ideal offset of an arrow is 0. If it has an opposite arrow at the same point, it is half a shaft and half the gap,
-//!    so that the pair stays centred about its true line.
+//! 1. The ideal offset of an arrow is 0. With an opposite arrow at the same point it is half a shaft and half the gap,
+//!    so that the pair is centred about its true line.
 //! 2. If the arrow does not overlap any earlier arrow there, it is drawn there.
 //! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets at which the arrows just do not
 //!    overlap. The arrow gets the candidate that is nearest to the ideal offset and at which it overlaps no earlier
@@ -61,8 +61,8 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
 }
 
-/// Returns the offset, to the left of the arrow in metres, that is nearest to `ideal` and at which the arrow overlaps
-/// no placed arrow.
+/// Returns an offset to the left of the arrow, in metres, at which it overlaps no placed arrow. Of the candidates it is
+/// the one nearest to `ideal`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,

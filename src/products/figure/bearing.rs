@@ -14,8 +14,8 @@ const SHARE: f64 = 1e-3;
 pub(crate) struct Bearing {
     /// Its normal force, N, above 0.
     pub pressed: f64,
-    /// The distance of its resultant from the middle, as a share of the distance to the end of the safe part; `None` if
-    /// the safe part is a point.
+    /// The distance of its resultant from the middle, as a share of half the length of the safe part. `None` if the
+    /// safe part is a point.
     pub eccentricity: Option<f64>,
     /// The share of the available friction that is used; `None` if no friction is available.
     pub friction: Option<f64>,

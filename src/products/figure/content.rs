@@ -132,8 +132,8 @@ pub(crate) trait PanelContent: Sync {
 }
 
 impl<'a> FigureContext<'a> {
-    /// Computes the context of a figure with this content, in this order: the scale of the arrows, the arrows, the box
-    /// that each frame shows, the line below each verdict.
+    /// Computes the context of a figure with this content. The order matters: first the scale of the arrows, then the
+    /// arrows, the box of each frame, and the line below each verdict.
     pub fn new(
         analysis: &'a Analysis,
         options: &'a Options,
@@ -236,8 +236,8 @@ const LONGEST_SHARE: f64 = 0.25;
 /// Least length of the longest arrow of a load, pixels.
 const LONG_LOAD: f64 = 24.0;
 
-/// Returns the length of the longest arrow in unit edges, at least 1, and the least length of the longest arrow of a
-/// load in metres. The first is above 1 if unit edges are so short that small arrows would only be heads.
+/// Returns two lengths: that of the longest arrow in unit edges, and the least length of the longest arrow of a load in
+/// metres. The first is at least 1. It is larger if unit edges are so short that small arrows would only be heads.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
     let bare = FigureContext::new(analysis, options, &Bare);

@@ -128,7 +128,7 @@ impl<'a> FigureContext<'a> {
     }
 
     /// Returns the box in metres that the panels of a row show. It is as wide as all frames need, so that structures
-    /// are aligned in columns, and as high as the frames of this row need.
+    /// are aligned in columns. It is as high as the frames of this row need.
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
         let row = rows.reduce(Bounds::union).unwrap_or(self.view);

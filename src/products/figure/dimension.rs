@@ -1,5 +1,5 @@
-//! Draws dimension lines at the edges of a picture: the width and height of all blocks, or of the block in the centre
-//! of a zoomed picture.
+//! Draws dimension lines at the edges of a picture. They show the width and height of all blocks, or of the block in
+//! the centre of a zoomed picture.
 
 use super::context::FigureContext;
 use super::words::quantity;

@@ -75,8 +75,8 @@ impl Course {
         course
     }
 
-    /// Returns the displacement of each block at this share of the path (0 to 1), by the index of the block; `None` for
-    /// a block at rest. The list is empty if nothing moves.
+    /// Returns the displacement of each block at this share of the path (0 to 1), by the index of the block. It is
+    /// `None` for a block at rest. The list is empty if nothing moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
         if self.groups.is_empty() {
             return Vec::new();

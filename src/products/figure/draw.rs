@@ -52,7 +52,7 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 
 /// Draws the pictures of an animation, all of one size and scale. Returns each picture with the time in seconds for
 /// which it is shown. A frame is shown for `seconds`. If the kind shows mechanisms, a frame that falls moves during
-/// this time, slowly at both ends, and is then shown at rest for one second.
+/// this time, slowly at both ends. Then it is shown at rest for one second.
 ///
 /// Units: seconds.
 pub fn film(

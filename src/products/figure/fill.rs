@@ -2,8 +2,8 @@
 //!
 //! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names it, and it is the same for
 //! all blocks. Only the rule of the thesis differs. There a held block shows the used share of its robot's limits. Any
-//! other block shows its amplitude as a share of the smallest limit of all robots, or of the largest amplitude if no
-//! robot has a limit.
+//! other block shows its amplitude as a share of the smallest limit of all robots. If no robot has a limit, it is a
+//! share of the largest amplitude.
 
 use super::option::Fill;
 use super::words::quantity;

@@ -157,8 +157,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     lines
 }
 
-/// Returns a point on the line of action of a force at `at` together with a torque: `at`, shifted across the force by
-/// torque divided by force.
+/// Returns a point on the line of action of a force at `at` and a torque together. It is `at`, shifted across the force
+/// by torque divided by force.
 fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
     let squared = force.norm_squared();
     if torque == 0.0 || squared <= 0.0 {
@@ -231,8 +231,9 @@ impl BlockForces<'_> {
         (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
     }
 
-    /// Returns the funicular polygon from the joint `first` over the lines of action of these loads, in this order, to
-    /// the joint `last`, or to the last load for `None`. Returns `None` if it does not close or leaves the block.
+    /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load for `None`. It
+    /// passes the lines of action of these loads in this order. Returns `None` if it does not close or leaves the
+    /// block.
     fn funicular(
         &self,
         first: &Line,
@@ -343,8 +344,8 @@ impl BlockForces<'_> {
             .collect()
     }
 
-    /// Returns the common point of a schematic path: the mean of the points of more than two forces, weighted with
-    /// their magnitudes, if it lies in the block. Otherwise it is the centroid.
+    /// Returns the common point of a schematic path. It is the mean of the points of the forces, weighted with their
+    /// magnitudes, if there are more than two and it lies in the block. Otherwise it is the centroid.
     fn meeting(&self, given: &[&Line]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;

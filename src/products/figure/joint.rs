@@ -1,4 +1,5 @@
-//! [`Joint`]: the motion of a mechanism at an interface: a hinge if one end keeps contact, a slip if the interface slides.
+//! [`Joint`]: the motion of a mechanism at an interface. It is a hinge if only one end keeps contact, and a slip if the
+//! interface slides.
 //!
 //! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
 //! with exactly this speed slips with friction. A contact that opens faster is free.

@@ -21,11 +21,11 @@ pub enum Kind {
     /// Every force, and every missing force, as an arrow on the block on which it acts.
     #[default]
     Forces,
-    /// The paths of the forces through the blocks: lines as wide as the forces, from the points where forces enter a
-    /// block to the points where they leave it.
+    /// The paths of the forces through the blocks, as lines as wide as the forces. In each block they lead from forces
+    /// that enter it to forces that leave it.
     Flow,
-    /// The beginning of the motion of a frame that falls: dashed outlines of the blocks in their places, the blocks
-    /// displaced as rigid bodies, hinges and slips.
+    /// The mechanism of a frame that falls: dashed outlines of the blocks in their places, the displaced blocks, hinges
+    /// and slips.
     Mechanism,
     /// The line of thrust through the blocks, from interface to interface.
     Thrust,
@@ -37,8 +37,8 @@ pub enum Kind {
     Build,
     /// The external forces on the structure, and their force polygon.
     Polygon,
-    /// The structure in its place, and its faint displaced shape just beyond its margin: with gravity turned, a
-    /// horizontal force added, or the loads increased.
+    /// The structure in its place, and dashed how it falls just beyond its margin. Gravity is turned, a horizontal load
+    /// is added, or the loads grow.
     Margin,
     /// The changes of blocks and forces from one frame to the next, with arrows to one scale in all panels.
     Compare,

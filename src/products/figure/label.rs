@@ -37,7 +37,7 @@ const ROOMY_UNIT_EDGE: f64 = 26.0;
 const FEW_BLOCKS: usize = 12;
 /// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
 const MAX_DISTANCE: f64 = 8.0;
-/// A name outside its block has a leader if the centroid of another block is nearer than this multiple of the distance
+/// A name outside its block has a leader if another block's centroid is close: at most at this multiple of the distance
 /// to its own block's centroid.
 const AMBIGUITY_RATIO: f64 = 1.5;
 /// Number of positions tried along each axis of a block.
@@ -466,8 +466,8 @@ fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     straight.chain(turning).collect()
 }
 
-/// True if the magnitude of an arrow is written. Those of loads and missing forces from `least` N on are written even
-/// if the options do not request magnitudes, because they are problem and answer.
+/// True if the magnitude of an arrow is written. Loads and missing forces of at least `least` N have magnitudes even if
+/// the options do not request them: they are the question and the answer of a scene.
 fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
     let options = pen.context.options;
     let missing = arrow.kind.is_failure() && !options.printed();

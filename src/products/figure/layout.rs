@@ -123,8 +123,8 @@ impl Layout {
                 } else {
                     MAX_PAGE_RATIO
                 };
-                // If the figure is too high for a page, use more columns: the least number with which it fits, or else
-                // the number with the least height.
+                // If the figure is too high for a page, use the least number of columns with which it fits. If there is
+                // none, use the number with the least height.
                 let narrow = roomy + 1..=count.min(MAX_COLUMNS);
                 let narrow = || {
                     narrow

@@ -67,8 +67,8 @@ const SAME_SHARE: f64 = 1e-6;
 /// A joint with a smaller share than this is not named, because it would be shown as 0 % or be noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// Describes the joints at their limit, or else the joint nearest to its limit. Empty for a figure with several frames,
-/// whose panels have no space for it.
+/// Describes the joints at their limit, or else the joint nearest to its limit. Empty if no joint is near its limit,
+/// for printed or zoomed figures, and for several frames, whose panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let options = context.options;

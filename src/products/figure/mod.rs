@@ -1,4 +1,4 @@
-//! Draws the results of an analysis. Only this folder uses both mechanics and pictures.
+//! Draws the results of an analysis as figures.
 //!
 //! The numbers of an [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing).
 //! No verdict depends on computations in this folder. The [`Kind`] of a figure determines its content; each kind is in

@@ -1,4 +1,4 @@
-//! [`Options`]: the options of a figure of forces.
+//! [`Options`]: the options of a figure.
 
 use crate::analysis::Toward;
 use crate::drawing::Theme;
@@ -43,8 +43,8 @@ pub enum ArrowScale {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fill {
-    /// The amplitude: the larger of a block's weight and the largest normal force on its interfaces, from 0 to the
-    /// largest value in the figure.
+    /// The amplitude: the larger of a block's weight and the largest normal force on its interfaces. The scale ends at
+    /// the largest amplitude in the figure.
     #[default]
     Amplitude,
     /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and are
@@ -55,8 +55,8 @@ pub enum Fill {
     /// None: blocks have one plain colour.
     None,
     /// The rule of the thesis, in its colours. A held block shows the used share of its robot's limits. Any other block
-    /// shows its amplitude as a share of the smallest limit of all robots, or of the largest amplitude if no robot has
-    /// a limit.
+    /// shows its amplitude as a share of the smallest limit of all robots. If no robot has a limit, it is a share of
+    /// the largest amplitude.
     Source,
 }
 

@@ -1,9 +1,10 @@
 //! Draws the force polygon: the external forces on a structure, placed tip to tail next to it.
 //!
-//! The sides are weights and loads, block by block, then the forces of the ground and the robots, and finally missing
-//! forces, hollow and dashed. The polygon is closed if the structure is in equilibrium. If it falls, the polygon only
-//! closes with the missing forces, outside or inside the structure; the text below says so. Each arrow has the same
-//! colour and force as on the structure; only its scale differs, by a round factor in the legend.
+//! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
+//! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If it
+//! falls, the polygon only closes with the missing forces, outside or inside the structure; the text below says so.
+//! Each arrow has the same colour and force as on the structure; only its scale differs, by a round factor in the
+//! legend.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::content::PanelContent;
@@ -29,8 +30,8 @@ use crate::scene::BodyId;
 const POLYGON_SIZE: f64 = 0.75;
 /// Gap between structure and polygon: a share of the structure's diagonal, and the least number of unit edges.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
-/// A polygon is closed if the gap between its last tip and its first tail is at most this share of the sum of all
-/// forces. Rounding errors are far smaller, and missing forces are far larger.
+/// A polygon is closed if its gap is at most this share of the sum of all forces. Rounding errors are far smaller, and
+/// missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
 /// True if a force acts on the structure from outside, so that it is a side of the polygon.
@@ -242,8 +243,7 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Returns the distance of a point from a side. Two sides overlap if the middle and the first quarter point of one
-    // lie on the other.
+    // Two sides overlap if the middle and the first quarter point of one nearly lie on the other.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
@@ -355,8 +355,8 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// Describes the scale factors between the forces in the polygon and those on the structure, for the given frames;
-/// `None` if there is no polygon.
+/// Describes how much larger the arrows of the polygons are than those on the structure. `times` has each frame with
+/// its factor. Returns `None` if it is empty.
 fn scales(times: &[(usize, f64)]) -> Option<String> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, times) in times {

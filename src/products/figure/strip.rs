@@ -329,8 +329,8 @@ impl Strip<'_> {
         }
     }
 
-    /// Draws the panel of a frame with its upper left corner at `at`: the picture of `view`, the caption with space for
-    /// `captions` lines, and the verdict. Also returns the position of its lower end, pixels.
+    /// Draws the panel of a frame with its upper left corner at `at`: picture, caption and verdict. The picture shows
+    /// `view` (metres); the caption has space for `captions` lines. Also returns the position of its lower end, pixels.
     fn panel(
         &self,
         frame: usize,

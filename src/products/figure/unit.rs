@@ -3,13 +3,13 @@
 use super::view;
 use crate::scene::{Block, BlockId, Scene};
 
-/// Blocks differ much in size if the root mean square of √area is more than this multiple of the median.
+/// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
 /// Returns the unit edge in metres. On a lattice it is the side of a cell, unless the blocks are far larger. Otherwise
 /// it is a typical size: 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If
-/// the root mean square of √area is far larger, it is used instead. With `zoom` it is the size of the smallest block in
-/// the surroundings of that block.
+/// √(mean area) is far larger, it is used in place of √area. With `zoom` it is the size of the smallest block in the
+/// surroundings of that block.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::around(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));

@@ -15,9 +15,9 @@ const ZOOM_REACH: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
 
-/// Returns a box in metres for each frame. It contains the blocks, plans, arrows (`marks`) and robots of the frame, the
-/// box `reach` of other marks, and the ground near the blocks of any frame. `disc` is the radius of a robot's disc in
-/// unit edges; `unit` is the unit edge in metres.
+/// Returns a box in metres for each frame. It contains the blocks, planned blocks, arrows (`marks`) and robots of the
+/// frame, and the box `reach` of other marks. It also contains the ground near the blocks of any frame. `disc` is the
+/// radius of a robot's disc in unit edges; `unit` is the unit edge in metres.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],

@@ -34,7 +34,7 @@ struct Piece {
 }
 
 impl Ink {
-    /// Adds a convex piece with these corners in order; two corners are a line without width.
+    /// Adds a convex shape with these corners in order. Two corners give a line without width.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
         self.piece(corners, false);
     }
@@ -150,12 +150,12 @@ impl Ink {
         ]);
     }
 
-    /// Adds an upright rectangle.
+    /// Adds a rectangle.
     pub fn rect(&mut self, rect: PageRect) {
         self.convex(corners(rect));
     }
 
-    /// Adds a label and its leader, neither of which another leader should cross.
+    /// Adds a label and its leader. Other leaders should not cross them.
     pub(super) fn add_label(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
         self.piece(corners(placed.rect), true);

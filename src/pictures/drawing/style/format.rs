@@ -133,7 +133,7 @@ impl Theme {
     }
 }
 
-/// A field of a theme that is one colour, by its key.
+/// A field of [`Theme`] that is a colour: its key and the field.
 type ColourField = (&'static str, fn(&mut Theme) -> &mut Colour);
 
 const COLOURS: [ColourField; 15] = [
@@ -154,14 +154,14 @@ const COLOURS: [ColourField; 15] = [
     ("undecided", |t| &mut t.undecided),
 ];
 
-/// A field of a theme that is a list of colours, by its key.
+/// A field of [`Theme`] that is a list of colours: its key and the field.
 type ListField = (&'static str, fn(&mut Theme) -> &mut Vec<Colour>);
 
 const LISTS: [ListField; 2] = [("arrows", |t| &mut t.arrows), ("robots", |t| &mut t.robots)];
 
 const AMPLITUDES: &str = "amplitudes";
 
-/// A width by its key, with the least and the most that can be drawn, and its unit.
+/// A field of [`Widths`]: its key, the field, its least and largest value, and its unit.
 type WidthField = (
     &'static str,
     fn(&mut Widths) -> &mut f64,
@@ -181,7 +181,7 @@ const WIDTHS: [WidthField; 6] = [
 const EDGES: &str = "unit edges";
 const PIXELS: &str = "pixels";
 
-/// A size by its key.
+/// A field of [`Sizes`]: its key and the field.
 type SizeField = (&'static str, fn(&mut Sizes) -> &mut f64);
 
 const SIZES: [SizeField; 7] = [
@@ -194,7 +194,7 @@ const SIZES: [SizeField; 7] = [
     ("amount", |s| &mut s.amount),
 ];
 
-/// Smaller letters cannot be read, larger ones leave no room for the figure.
+/// Least and largest font size. Smaller text cannot be read, and larger text leaves no space for the figure.
 const LETTERS: [f64; 2] = [8.0, 100.0];
 
 /// Returns the smallest list of evenly spaced stops that reproduces a ramp; in the worst case all 256 colours.

@@ -1,5 +1,5 @@
-//! The surroundings of a block: the bodies that touch it, the points at which forces act, and the part of the scene that is
-//! shown.
+//! Finds the surroundings of a block: the bodies that touch it, the points of action of forces, and the shown part of
+//! the scene.
 
 use super::arrow::{Arrow, MAX_LENGTH};
 use crate::analysis::{Analysis, Contact};
@@ -121,9 +121,9 @@ pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     }
 }
 
-/// Returns the point at which the unit normal ŝ is drawn: the middle of its interface. If the block has only one
-/// interface (`single`), it is a point on the edge of the neighbour, `clear` metres beyond an end of the interface, if
-/// nothing else is there.
+/// Returns the point at which the unit normal ŝ is drawn: the middle of its interface. `single` means that the block
+/// has no other interface. Then it is a point on the edge of the neighbour, `clear` metres beyond an end of the
+/// interface, unless another body is there.
 pub(super) fn aside(
     scene: &Scene,
     contact: &Contact,

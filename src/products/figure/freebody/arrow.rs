@@ -31,8 +31,9 @@ pub(super) struct Arrow {
 }
 
 impl Arrow {
-    /// Returns possible centres for the name of the arrow, which is `wide` and `high` pixels large: on both sides of
-    /// its shaft and beyond its tip, or around a torque arrow. `from` is the beginning of the arrow on the page.
+    /// Returns possible centres for the name of the arrow: on both sides of its shaft and beyond its tip, or around a
+    /// torque arrow. `wide` and `high` are the size of the name in pixels. `from` is the beginning of the arrow on the
+    /// page.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);

@@ -1,4 +1,4 @@
-//! The foot of a free-body diagram: the verdict, the scale, notes on what is left out, and the list of forces.
+//! Draws the lower part of a free-body diagram: the verdict, the scale, notes, and the list of forces.
 
 use super::arrow::WIDTH;
 use super::diagram::longest;
@@ -100,8 +100,8 @@ impl Sheet<'_> {
         })
     }
 
-    /// Returns notes for the reader, on arrows whose length does not show the magnitude, on forces and names that are
-    /// left out, and on forces that do not balance.
+    /// Returns notes for the reader: that lengths do not show magnitudes, which forces and names are left out, and that
+    /// forces do not balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {

@@ -242,7 +242,7 @@ pub(super) fn forces(
     forces
 }
 
-/// Returns the missing force of a failure on a block: its origin, its kind, the point where it acts, and force (N) and
+/// Returns the missing force of a failure on a block: its origin, its kind, its point of action, and force (N) and
 /// torque (N·m). Returns `None` if it does not act on this block.
 fn missing(
     analysis: &Analysis,

@@ -1,4 +1,4 @@
-//! The heading of a free-body diagram: the title of the scene, the block and the step.
+//! Writes the heading of a free-body diagram: the title of the scene, the block and the step.
 
 use super::{HEADING, MARGIN, SUBHEADING};
 use crate::analysis::Analysis;

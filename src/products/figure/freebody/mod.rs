@@ -1,8 +1,8 @@
 //! [`freebody`]: draws the free-body diagram of a block: all forces on it with their names, and a list of the forces
 //! with their sum.
 //!
-//! Each force has an arrow, whose length shows its magnitude, and a row in the list: weight, loads, forces of other
-//! bodies and robots, and missing forces. A block with one interface has separate normal and friction forces at each
+//! Weight, loads, forces of other bodies and robots, and missing forces each have an arrow and a row in the list. The
+//! length of the arrow shows the magnitude. A block with one interface has separate normal and friction forces at each
 //! end, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). With two or three interfaces
 //! each end has one force, numbered as in its figure 2. With more, each interface has one force. With
 //! [`Corners::All`](super::option::Corners) the arrows name every unknown of the program instead, even if it is zero.
