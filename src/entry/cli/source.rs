@@ -19,7 +19,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// The name of the file without folders and ending; `scene` for standard input.
+    /// Returns the name of the file without folders and ending; `scene` for standard input.
     pub(crate) fn stem(&self) -> String {
         stem(&self.path)
     }
@@ -229,7 +229,7 @@ pub(crate) fn isolated<R>(path: &Path, work: impl FnOnce() -> R) -> Result<R, Cl
     isolate(&name, work).map_err(|problems| CliError::Scene { name, problems })
 }
 
-/// The name of a file without folders and ending; `scene` for standard input.
+/// Returns the name of a file without folders and ending; `scene` for standard input.
 pub(crate) fn stem(path: &Path) -> String {
     if path == Path::new("-") {
         return "scene".into();

@@ -27,7 +27,7 @@ const MAX_SHOWN_ERROR: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../../assets/accuracy.css");
 
-/// The number of frames of a study in words: `41 frames`, `1 frame`.
+/// Writes the number of frames of a study: `41 frames`, `1 frame`.
 fn frames(study: &Study) -> String {
     match study.cases.len() {
         1 => "1 frame".into(),

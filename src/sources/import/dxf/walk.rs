@@ -373,7 +373,7 @@ fn new_part(place: &Place, form: Form, element: String) -> Part {
     }
 }
 
-/// A description with which the user finds an entity.
+/// Describes an entity, so that the user finds it in the drawing.
 fn described(entity: &Record<'_>, place: &Place) -> String {
     let layer = crate::text::heading(&place.layer, 60);
     format!("{} on layer {layer} in line {}", entity.kind, entity.line)
