@@ -197,7 +197,7 @@ fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Poin
         if force.norm() > 0.0 || torque != 0.0 {
             let what = match failure.robot() {
                 Some(robot) => format!("missing, robot {}", line(&scene.robots[robot.0].id)),
-                None => "missing, would have to stick".to_owned(),
+                None => "missing, as if the bodies stuck together".to_owned(),
             };
             forces.push(Force::new(what, failure.at(), force, torque, about));
         }

@@ -359,7 +359,7 @@ fn grid(scene: &Scene, forces: &[SharedForce]) -> Grid {
             "#first, N",
             "#second, N",
             "#change of the amount",
-            "#change with direction, of the larger",
+            "#change as a vector, relative to the larger",
         ],
     );
     for force in forces.iter().filter(|f| f.changed()) {
