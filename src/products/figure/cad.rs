@@ -1,4 +1,4 @@
-//! [`dxf`]: a frame as a DXF drawing in metres, for CAD programs.
+//! [`dxf`]: writes a frame as a DXF drawing in metres, for CAD programs.
 //!
 //! The file has the version R12 (AC1009), which every CAD program reads: closed polylines, lines, points and text. What is
 //! not part of the structure lies on layers whose names begin with `guide`; `drystone import` leaves these out, so that the
@@ -107,7 +107,7 @@ impl DxfWriter {
         self.group(8, layer);
     }
 
-    /// The header with the version and the unit metre, the layers, and the beginning of the entities.
+    /// Writes the header with the version and the unit metre, the layers, and the beginning of the entities.
     fn head(&mut self) {
         let header = [
             (0, "SECTION"),
@@ -161,7 +161,7 @@ impl DxfWriter {
         }
     }
 
-    /// A closed polyline.
+    /// Writes a closed polyline.
     fn polyline(&mut self, layer: &str, corners: &[Point]) {
         self.entity("POLYLINE", layer);
         self.group(66, "1");
@@ -174,8 +174,8 @@ impl DxfWriter {
     }
 }
 
-/// A line of text in ASCII: other characters as `\U+XXXX`, which CAD programs show as letters. Control characters are
-/// replaced by spaces, because a line break would end the group.
+/// Returns the text in ASCII. Other characters become `\U+XXXX`, which CAD programs show as characters. Control
+/// characters become spaces, because a line break would end the group.
 fn ascii(text: &str) -> String {
     let mut line = String::new();
     for c in text.chars() {

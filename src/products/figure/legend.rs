@@ -57,7 +57,8 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// The entry in `room` pixels: arrow colours lose the names of their blocks if these do not fit.
+    /// Returns the entry for a width of `room` pixels. Arrow colours lose the names of their blocks if these do not
+    /// fit.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         match self {
             Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
@@ -86,7 +87,7 @@ impl Entry {
         }
     }
 
-    /// Width of the sign to the left of the text, with the gap between them, pixels.
+    /// Returns the width of the sign to the left of the text, including the gap between them, pixels.
     fn sign_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
@@ -107,7 +108,7 @@ impl Entry {
         }
     }
 
-    /// The text to the right of the sign.
+    /// Returns the text to the right of the sign.
     fn words(&self) -> String {
         match self {
             Entry::Blocks(_) => String::new(),
@@ -124,7 +125,7 @@ impl Entry {
         }
     }
 
-    /// Width of the entry in one line, pixels.
+    /// Returns the width of the entry in one line, pixels.
     fn width(&self, theme: &Theme) -> f64 {
         let words = text::width(&self.words(), Face::Sans, theme.sizes.key);
         self.sign_width(theme) + words
@@ -235,14 +236,14 @@ impl Entry {
     }
 }
 
-/// A text of the legend that begins at `at`, the middle of the line's height.
+/// Returns a text of the legend. `at` is its left end, at half the height of the line.
 fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
     let size = theme.sizes.key;
     let at = at.moved(0.0, 0.36 * size);
     Text::new(at, words, Face::Sans, size, theme.faint).into()
 }
 
-/// The text with each number tied to the next word, so that both stay on one line.
+/// Replaces the space after each number by a non-breaking space, so that the number and the next word stay on one line.
 fn glued(words: &str) -> String {
     let mut glued = String::with_capacity(words.len());
     let mut after_digit = false;
@@ -281,7 +282,7 @@ impl<'e> Laid<'e> {
         }
     }
 
-    /// The height above that of an entry of one line, pixels.
+    /// Returns the additional height compared with an entry of one line, pixels.
     fn extra_height(&self, theme: &Theme) -> f64 {
         self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
     }

@@ -153,7 +153,8 @@ struct Gaps {
 }
 
 impl Gaps {
-    /// On a page as wide as a column of print texts are closer together, so that they do not fill half of it.
+    /// Returns the gaps of a page. They are smaller on a page as wide as a column of print, so that text does not fill
+    /// half of it.
     fn new(width: Option<f64>) -> Gaps {
         match width.is_some_and(|width| width < PRINT_COLUMN) {
             true => Gaps {
@@ -494,7 +495,8 @@ impl Strip<'_> {
         (items, below)
     }
 
-    /// The text next to the mark of a verdict. If it is wider than the panel: the verdict alone, and the rest of the text.
+    /// Returns the text next to the mark of a verdict. If it is wider than the panel, returns only the verdict, and the
+    /// rest of the text separately.
     fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
         let found = &self.context.analysis.frames[frame];
