@@ -43,6 +43,11 @@ struct UnplacedCorner {
     gap: f64,
 }
 
+/// A corner is paired with at most this number of corners at exactly its own position. One pair joins a corner to the
+/// cluster at its position; the others matter only if a body has several corners there. Thousands of equal outlines
+/// would have millions of such pairs.
+const MAX_COINCIDENT: usize = 64;
+
 /// The largest distance, in metres, by which each corner of a ring may move.
 ///
 /// It is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
@@ -221,7 +226,9 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
         Aabb { min: at, max: at }
     });
     let mut pairs = Vec::new();
+    let mut coincident = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
+        coincident.clear();
         // Search a square around each corner. Each pair within the smaller of the two gaps is listed once.
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = corner.gap;
@@ -233,9 +240,15 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(corners[j].gap);
             if j < i && corners[j].body != corner.body && distance <= gap {
-                pairs.push((distance, i, j));
+                match distance == 0.0 {
+                    true => coincident.push(j),
+                    false => pairs.push((distance, i, j)),
+                }
             }
         }
+        coincident.sort_unstable();
+        let first = coincident.iter().take(MAX_COINCIDENT);
+        pairs.extend(first.map(|j| (0.0, i, *j)));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     pairs

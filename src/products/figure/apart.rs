@@ -27,6 +27,8 @@ const GAP: f64 = 0.4;
 /// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows of the
 /// frame. It saves time and does not change the result: see `offset_of_least_change`.
 const NEARBY: f64 = 24.0;
+/// An arrow for which none of this number of candidates is free is drawn at its ideal offset: the page is full there.
+const MAX_CANDIDATES: usize = 1000;
 /// In frames with more arrows than this no arrows are moved, because nobody can follow a single arrow there.
 const MAX_ARROWS: usize = 4000;
 /// Distances from the ideal offset are rounded to this share of a shaft's width. Rounding errors must not decide
@@ -95,7 +97,7 @@ fn offset_of_least_change(
             }
         }
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
-        offsets.into_iter().find(clear)
+        offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
     // A small offset is final: arrows farther away only give larger offsets.
     let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));

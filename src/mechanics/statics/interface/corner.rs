@@ -4,6 +4,8 @@
 //! edge, the normal is that of the edge. If two corners touch, the normal has the direction of the difference of their
 //! inward unit bisectors.
 
+use std::collections::BTreeMap;
+
 use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
 use crate::scene::{BodyId, Scene};
@@ -64,6 +66,12 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
     places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();
+    // The ends of the contacts of each pair of bodies. Hundreds of wedges may meet in one point.
+    let mut ends_of_pair: BTreeMap<[BodyId; 2], Vec<[Point; 2]>> = BTreeMap::new();
+    for interface in known {
+        let ends = ends_of_pair.entry(interface.bodies).or_default();
+        ends.push(interface.ends);
+    }
     for place in places.into_iter().filter(|p| p.tip.is_convex()) {
         let (tip, at) = (&place.tip, place.tip.at);
         let reach = tolerance_between(tip.body, tip.body);
@@ -84,12 +92,12 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
             let Some(into_tip) = normal(tip, other, tolerance) else {
                 continue;
             };
-            let is_covered = known
+            let ends = ends_of_pair.entry(pair).or_default();
+            let is_covered = ends
                 .iter()
-                .chain(&found)
-                .filter(|i| i.bodies == pair)
-                .any(|i| distance_to_segment(at, i.ends) <= SAME_CONTACT_REACH * tolerance);
+                .any(|ends| distance_to_segment(at, *ends) <= SAME_CONTACT_REACH * tolerance);
             if !is_covered {
+                ends.push([at, at]);
                 let normal = if pair[0] == tip.body {
                     into_tip
                 } else {
