@@ -114,6 +114,8 @@ pub struct Options {
     pub amounts: bool,
     /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on it.
     pub width: Option<f64>,
+    /// Greatest height of the picture of a frame without its legend, pixels; `None` to choose it by the number of frames.
+    pub height: Option<f64>,
 }
 
 impl Default for Options {
@@ -138,6 +140,7 @@ impl Default for Options {
             labels: true,
             amounts: false,
             width: None,
+            height: None,
         }
     }
 }
@@ -166,6 +169,7 @@ impl Options {
         columns: usize, "The number of panels in a row.";
         zoom: BlockId, "The block to whose surroundings the picture is limited.";
         width: f64, "Width of the page, pixels. Font sizes do not depend on it.";
+        height: f64, "Greatest height of the picture of a frame without its legend, pixels.";
     }
 
     /// True if arrows look as in the figures of the thesis: separate components at the scale of the thesis.

@@ -136,7 +136,6 @@ impl Writer {
                     }
                 }
                 SheetPart::Charts(charts) => charts.iter().for_each(|chart| self.chart(chart)),
-                SheetPart::NewPage => {}
             }
         }
         Ok(())

@@ -142,6 +142,9 @@ impl Report {
         if counts.undecided > 0 {
             parts.push(verb(counts.undecided, "is undecided", "are undecided"));
         }
+        if number == 1 {
+            parts.retain(|part| !part.starts_with('0'));
+        }
         let mut words = format!("{}: ", counted(number, what));
         if self.compares {
             let rows = self.pieces.iter().map(|p| &p.row);

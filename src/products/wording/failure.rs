@@ -19,15 +19,6 @@ pub fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// Returns the size of the missing force or torque with its unit.
-pub fn amount_with_unit(failure: &Failure) -> String {
-    let unit = match failure {
-        Failure::RobotTorque { .. } => "N·m",
-        _ => "N",
-    };
-    quantity(amount(failure), unit)
-}
-
 /// Sorts the failures of a frame by size, largest first. Equal failures keep their order.
 pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
@@ -129,8 +120,13 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Writes a clause that names the bodies or the robot that would have to provide the missing force.
-pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
+/// Writes a clause that names the bodies or the robot that would have to provide the missing force. `write` writes an amount
+/// with its unit.
+pub fn missing_sentence(
+    scene: &Scene,
+    failure: &Failure,
+    write: &dyn Fn(f64, &str) -> String,
+) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
         Failure::Tension {
@@ -141,7 +137,7 @@ pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
             "{} would have to stick to {} with {}",
             named(a),
             named(b),
-            quantity(force.norm(), "N")
+            write(force.norm(), "N")
         ),
         Failure::Friction {
             bodies: [a, b],
@@ -151,17 +147,17 @@ pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
             "{} slides along {}, and friction would have to give {} more",
             named(a),
             named(b),
-            quantity(force.norm(), "N")
+            write(force.norm(), "N")
         ),
         Failure::RobotForce { robot, force, .. } => format!(
             "robot {} would have to give {} more",
             scene.robots[robot.0].id,
-            quantity(force.norm(), "N")
+            write(force.norm(), "N")
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
             "robot {} would have to give a torque of {}",
             scene.robots[robot.0].id,
-            quantity(torque.abs(), "N·m")
+            write(torque.abs(), "N·m")
         ),
     }
 }

@@ -34,7 +34,7 @@ fn carries(margin: &StatedMargin<'_>, load: &str) -> String {
         None if matches!(margin.interval, Interval::Undecided) => {
             format!("It carries its {load}; no proof shows how much more")
         }
-        None => format!("It carries its {load} times any factor"),
+        None => format!("It carries any multiple of its {load}"),
     }
 }
 

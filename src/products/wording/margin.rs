@@ -172,12 +172,12 @@ fn robot_limits<'a>(
     list
 }
 
-/// Returns the index of the most important margin: the load factor if there is one, otherwise the margin with the
-/// least reserve.
+/// Returns the index of the most important margin: the load factor if there is one and it has a limit, otherwise the
+/// margin with the least reserve.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list
         .iter()
-        .position(|m| m.parameter == Parameter::LoadFactor);
+        .position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
     let reserves = list.iter().map(StatedMargin::reserve).enumerate();
     loads.or_else(|| {
         reserves
@@ -246,6 +246,15 @@ impl StatedMargin<'_> {
             Position::Unknown if is_interval && low == high => format!("{now}, undecided"),
             _ => now,
         })
+    }
+
+    /// Returns true if it stands at the present value and however much the parameter grows or shrinks.
+    pub fn has_no_limit(&self) -> bool {
+        let free = |end: Option<&End>| matches!(end, Some(End::Unbounded));
+        let from_zero = self.interval.low().and_then(confirmed) == Some(0.0);
+        self.position == Position::Inside
+            && free(self.interval.high())
+            && (from_zero || free(self.interval.low()))
     }
 
     /// Returns the relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is

@@ -1,7 +1,7 @@
 //! Describes verdicts and their reasons.
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
-use super::number::listed;
+use super::number::{listed, quantity};
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::scene::Scene;
 
@@ -64,10 +64,18 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 /// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty if it
 /// stands otherwise.
 pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
+    reasons_with(scene, found, &quantity)
+}
+
+fn reasons_with(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    write: &dyn Fn(f64, &str) -> String,
+) -> String {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, found));
     let failures = by_amount(found).into_iter();
-    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f)).collect();
+    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f, write)).collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if found.only_by_wedging == Some(true) {
         parts.push(
@@ -83,6 +91,15 @@ pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// Writes a sentence with the verdict and its reasons, for readers who do not program.
 pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
+    sentence_with(scene, found, &quantity)
+}
+
+/// The same; `write` writes an amount with its unit.
+pub fn sentence_with(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    write: &dyn Fn(f64, &str) -> String,
+) -> String {
     match found.verdict {
         Verdict::Stable if found.only_by_wedging == Some(true) => {
             "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
@@ -95,7 +112,7 @@ pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
         Verdict::Stable => {
             "It stands: contacts can press and rub, and robots hold, so that every block stays at rest.".into()
         }
-        Verdict::Unstable => match reasons(scene, found) {
+        Verdict::Unstable => match reasons_with(scene, found, write) {
             reasons if reasons.is_empty() => {
                 "It falls: no forces that contacts and robots can give hold every block at rest."
                     .into()

@@ -9,17 +9,21 @@ use crate::output::svg::{self, OutlineError, Words};
 use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 use crate::wording::number::counted;
 
-const WIDTH: f64 = 860.0;
+const WIDTH: f64 = 920.0;
 /// Height of a row.
-const ROW: f64 = 30.0;
+const ROW: f64 = 32.0;
 /// Top of the first row.
-const TOP: f64 = 112.0;
+const TOP: f64 = 138.0;
 /// Left and right end of the axis of times.
-const TIMES: (f64, f64) = (214.0, 384.0);
+const TIMES: (f64, f64) = (220.0, 350.0);
 /// Left and right end of the axis of errors.
-const ERRORS: (f64, f64) = (432.0, 610.0);
+const ERRORS: (f64, f64) = (395.0, 550.0);
 /// Positions of the first and the last column of wrong verdicts.
-const WRONG: (f64, f64) = (664.0, 824.0);
+const WRONG: (f64, f64) = (600.0, 730.0);
+/// The same of verdicts that are undecided.
+const UNDECIDED: (f64, f64) = (764.0, 894.0);
+/// Sizes of names and numbers, and of what explains them, pixels.
+const SIZES: (f64, f64) = (15.0, 13.0);
 /// Smaller errors are shown as this: they are rounding of f64.
 const LEAST: f64 = 1e-16;
 
@@ -59,12 +63,8 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     }
     let sentence = "A dot is one tolerance of the solver, from loose (pale) to tight (dark); the default is ringed. Red: \
                     some verdict is wrong.";
-    items.push(page.words(
-        PagePoint::new(24.0, page.bottom + 34.0),
-        sentence,
-        Face::Sans,
-        12.0,
-    ));
+    let at = PagePoint::new(24.0, page.bottom + 34.0);
+    items.push(page.words(at, sentence, Face::Sans));
     Drawing {
         width: WIDTH,
         height: page.bottom + 52.0,
@@ -80,10 +80,11 @@ fn described(lines: &[Summary], frames: usize) -> String {
     let at = |line: &&Summary| default(line.tolerance);
     let described = lines.iter().filter(at).map(|line| {
         format!(
-            "{}: {:.2} times the time of standard, {} of {frames} verdicts wrong",
+            "{}: {:.2} times the time of standard, {} of {frames} verdicts wrong and {} undecided",
             line.method.name(),
             line.time,
-            line.wrong
+            line.wrong,
+            line.undecided
         )
     });
     let described: Vec<String> = described.collect();
@@ -102,8 +103,8 @@ struct Page<'p> {
 }
 
 impl Page<'_> {
-    fn words(&self, at: PagePoint, words: &str, face: Face, size: f64) -> Item {
-        Text::new(at, words, face, size, self.theme.faint).into()
+    fn words(&self, at: PagePoint, words: &str, face: Face) -> Item {
+        Text::new(at, words, face, SIZES.1, self.theme.faint).into()
     }
 
     fn head(&self, frames: usize) -> Vec<Item> {
@@ -120,19 +121,22 @@ impl Page<'_> {
         let under = format!("{frames}, drystone {}", env!("CARGO_PKG_VERSION"));
         let mut items: Vec<Item> = vec![
             title.into(),
-            self.words(PagePoint::new(24.0, 56.0), &under, Face::Sans, 12.0),
+            self.words(PagePoint::new(24.0, 58.0), &under, Face::Sans),
         ];
         let heads = [
-            (TIMES.0, "time, relative to standard"),
-            (ERRORS.0, "worst error of the total force"),
-            (WRONG.0 - 12.0, "wrong verdicts, by tolerance"),
+            (TIMES.0, ["time, relative", "to standard"]),
+            (ERRORS.0, ["worst error of", "the total force"]),
+            (WRONG.0 - 10.0, ["wrong verdicts,", "tolerance 10ⁿ, n ="]),
+            (UNDECIDED.0 - 10.0, ["undecided,", "tolerance 10ⁿ, n ="]),
         ];
-        for (x, words) in heads {
-            items.push(self.words(PagePoint::new(x, 82.0), words, Face::SansBold, 11.5));
+        for (x, [upper, lower]) in heads {
+            items.push(self.words(PagePoint::new(x, TOP - 50.0), upper, Face::SansBold));
+            items.push(self.words(PagePoint::new(x, TOP - 34.0), lower, Face::SansBold));
         }
         let mut tick = |x: f64, words: String, line: bool| {
             let at = PagePoint::new(x, TOP - 10.0);
-            let text = Text::new(at, words, Face::Sans, 11.0, theme.faint).anchored(Anchor::Middle);
+            let text =
+                Text::new(at, words, Face::Sans, SIZES.1, theme.faint).anchored(Anchor::Middle);
             items.push(text.into());
             if line {
                 let line =
@@ -145,7 +149,7 @@ impl Page<'_> {
                 tick(self.time(time), format!("{time}"), true);
             }
         }
-        for power in [-16, -12, -8, -4, 0] {
+        for power in [-16, -8, 0] {
             tick(
                 self.error(libm::pow(10.0, f64::from(power))),
                 power_of_ten(power),
@@ -153,11 +157,10 @@ impl Page<'_> {
             );
         }
         for (column, tolerance) in self.tolerances.iter().enumerate() {
-            tick(
-                self.column(column),
-                power_of_ten(libm::round(libm::log10(*tolerance)) as i32),
-                false,
-            );
+            let power = libm::round(libm::log10(*tolerance)) as i32;
+            let power = power.to_string().replace('-', "−");
+            tick(self.column(column, WRONG), power.clone(), false);
+            tick(self.column(column, UNDECIDED), power, false);
         }
         items
     }
@@ -170,9 +173,16 @@ impl Page<'_> {
         place(error.clamp(LEAST, 1.0), (LEAST, 1.0), ERRORS)
     }
 
-    fn column(&self, column: usize) -> f64 {
+    /// The position of a tolerance in a block of columns.
+    fn column(&self, column: usize, (from, to): (f64, f64)) -> f64 {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
-        WRONG.0 + (WRONG.1 - WRONG.0) * column as f64 / last
+        from + (to - from) * column as f64 / last
+    }
+
+    /// The number of a tolerance.
+    fn place(&self, line: &Summary) -> usize {
+        let found = self.tolerances.iter().position(|t| *t == line.tolerance);
+        found.unwrap_or(0)
     }
 
     fn row(&self, row: usize, method: Method, lines: &[&Summary]) -> Vec<Item> {
@@ -194,7 +204,7 @@ impl Page<'_> {
             PagePoint::new(24.0, y + 4.5),
             method.name(),
             face,
-            13.0,
+            SIZES.0,
             theme.ink,
         );
         items.push(name.into());
@@ -206,44 +216,41 @@ impl Page<'_> {
                 .filter_map(|l| Some((self.error(l.total_error?), *l))),
         );
         for (x, line) in dots {
-            let place = self
-                .tolerances
-                .iter()
-                .position(|t| *t == line.tolerance)
-                .unwrap_or(0);
             let at = PagePoint::new(x, y);
             let ring = chosen && default(line.tolerance);
             if ring {
                 let circle = Outline::circle(at, 8.5);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
             }
-            let dot = Path::filled(Outline::circle(at, 4.6), self.shade(place, line.wrong > 0));
+            let dot = Path::filled(Outline::circle(at, 4.6), self.shade(self.place(line), line.wrong > 0));
             items.push(dot.cased(theme.page, 0.8).into());
         }
         for line in lines {
-            let column = self
-                .tolerances
-                .iter()
-                .position(|t| *t == line.tolerance)
-                .unwrap_or(0);
-            let at = PagePoint::new(self.column(column), y + 4.5);
-            let (face, colour) = if line.wrong > 0 {
-                (Face::SansBold, theme.falls)
-            } else {
-                (Face::Sans, theme.faint)
-            };
-            let words = line.wrong.to_string();
-            items.push(
-                Text::new(at, words, face, 13.0, colour)
-                    .anchored(Anchor::Middle)
-                    .into(),
-            );
+            items.extend(self.counts(line, y));
             if chosen && default(line.tolerance) {
-                let circle = Outline::circle(at.moved(0.0, -4.5), 11.0);
+                let at = PagePoint::new(self.column(self.place(line), WRONG), y);
+                let circle = Outline::circle(at, 11.0);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
             }
         }
         items
+    }
+
+    /// How many verdicts are wrong and how many undecided.
+    fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
+        let counts = [
+            (line.wrong, WRONG, self.theme.falls),
+            (line.undecided, UNDECIDED, self.theme.ink),
+        ];
+        counts.map(|(count, block, full)| {
+            let at = PagePoint::new(self.column(self.place(line), block), y + 5.0);
+            let (face, colour) = match count {
+                0 => (Face::Sans, self.theme.faint),
+                _ => (Face::SansBold, full),
+            };
+            let words = Text::new(at, count.to_string(), face, SIZES.0, colour);
+            words.anchored(Anchor::Middle).into()
+        })
     }
 
     /// Returns the colour of a dot: the tighter the tolerance, the darker. `place` counts the tolerances from the
@@ -361,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_tells_its_wrong_verdicts_and_the_default_alone_is_ringed() {
+    fn every_row_shows_wrong_and_undecided_verdicts_and_only_the_default_is_ringed() {
         let lines = printed();
         let drawing = drawing(&lines, 41);
         let texts = |wanted: &str| {
@@ -371,8 +378,8 @@ mod tests {
         for method in Method::ALL {
             assert_eq!(texts(method.name()), 1, "{}", method.name());
         }
-        let none = lines.iter().filter(|l| l.wrong == 0).count();
-        assert_eq!(texts("0"), none);
+        let counts = lines.iter().flat_map(|l| [l.wrong, l.undecided]);
+        assert_eq!(texts("0"), counts.filter(|count| *count == 0).count());
         let ring = |item: &&Item| matches!(item, Item::Path(p) if p.fill.is_none() && p.stroke.as_ref().is_some_and(|s| s.width == 1.6));
         assert_eq!(drawing.items.iter().filter(ring).count(), 3);
         for item in &drawing.items {

@@ -1,7 +1,7 @@
 //! [`whole`] and [`of_block`]: tables of balanced forces for a check by hand. One is for the whole structure with its
 //! reactions, the other for one block as a free body.
 
-use super::unit::Column;
+use super::unit::{Column, Units};
 use super::{Grid, TableCell};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::geometry::{Point, Vector, cross};
@@ -23,22 +23,19 @@ struct Force {
     /// The point where it acts; `None` for a sum of forces.
     at: Option<Point>,
     force: Vector,
+    /// What it has besides the moment of the force, N·m.
+    torque: f64,
     /// The moment about the point of reference, N·m, anticlockwise positive.
     moment: f64,
 }
 
 impl Force {
     fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64, about: Point) -> Force {
-        let mut what = what.into();
-        // Smaller torques are rounding errors of the solver.
-        if torque.abs() > TORQUE_TOL * (1.0 + force.norm()) {
-            let stated = Column::new([torque], "N·m").with_unit(torque);
-            what.push_str(&format!(", and a torque of {stated}"));
-        }
         Force {
-            what,
+            what: what.into(),
             at: Some(at),
             force,
+            torque,
             moment: cross(at - about, force) + torque,
         }
     }
@@ -48,6 +45,7 @@ impl Force {
         Force {
             what: what.into(),
             at: None,
+            torque: 0.0,
             force: forces.iter().map(|f| f.force).sum(),
             moment: forces.iter().map(|f| f.moment).sum(),
         }
@@ -86,7 +84,8 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     }
     let loads = scene.loads.iter().filter(|l| supported.contains(&l.block));
     forces.extend(listed_loads(scene, loads, about));
-    table("Reactions, weights and loads", &forces, "the origin")
+    let caption = "Reactions, weights and loads; moments about the origin";
+    table(caption, &forces, Units::new(scene, found))
 }
 
 /// Lists the forces on one block, and their sum. Moments are about its centroid.
@@ -122,8 +121,11 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     }
     forces.extend(robots(scene, found, Some(block), about));
     forces.extend(missing(scene, found, &[block], about));
-    let caption = format!("Block {} cut free", line(&own.id));
-    table(&caption, &forces, "its centroid")
+    let caption = format!(
+        "Block {} cut free; moments about its centroid",
+        line(&own.id)
+    );
+    table(&caption, &forces, Units::new(scene, found))
 }
 
 /// Returns the force of an interface on one of its two bodies, N.
@@ -225,13 +227,11 @@ fn listed_loads<'l>(
     forces
 }
 
-fn table(caption: &str, forces: &[Force], about: &str) -> Grid {
-    let newtons = forces.iter().flat_map(|f| [f.force.x, f.force.y]);
-    let newtons = Column::new(newtons, "N");
-    let moments = Column::new(forces.iter().map(|f| f.moment), "N·m");
+fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
+    let newtons = units.newtons(forces.iter().flat_map(|f| [f.force.x, f.force.y]));
+    let moments = units.torques(forces.iter().map(|f| f.moment));
     let places = forces.iter().filter_map(|f| f.at);
     let metres = Column::metres(places.flat_map(|p| [p.x, p.y]));
-    let caption = format!("{caption}; moments about {about}");
     let mut grid = Grid::new(
         caption,
         &[
@@ -245,8 +245,14 @@ fn table(caption: &str, forces: &[Force], about: &str) -> Grid {
     );
     let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
     for force in forces {
+        let mut what = force.what.clone();
+        // Smaller torques are rounding of the solver.
+        if force.torque.abs() > TORQUE_TOL * (1.0 + force.force.norm()) {
+            let stated = moments.with_unit(force.torque);
+            what.push_str(&format!(", and a torque of {stated}"));
+        }
         let cells = [
-            force.what.clone(),
+            what,
             place(force.at.map(|p| p.x)),
             place(force.at.map(|p| p.y)),
             newtons.write(force.force.x),

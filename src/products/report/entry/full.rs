@@ -1,14 +1,15 @@
 //! [`appendix`]: all other results of a frame, for a full report.
 
 use super::cost::cost;
-use super::joints::Ranking;
+use super::joints::{Ranking, missing};
 use super::sheet::empty;
+use super::unit::Units;
 use super::{Chart, Grid, ReportOptions, Section, SheetPart};
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::chart::{self, Bars};
 use crate::scene::Scene;
 use crate::text::line;
-use crate::wording::number::prefixed;
+use crate::wording::number::{place, prefixed};
 use crate::wording::{failure, proof};
 
 /// Frames with fewer joints have no charts: a table shows more.
@@ -26,21 +27,22 @@ pub(super) fn appendix(analysis: &Analysis, number: usize, wanted: &ReportOption
         cost(found, wanted.timing),
         proved(found),
     ];
-    section.parts = vec![SheetPart::NewPage];
+    section.begins_page = true;
     section.parts.extend(grids.map(SheetPart::Table));
     section.parts.push(SheetPart::Charts(charts(found)));
     section
 }
 
 fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
-    let mut grid = Grid::new("What fails", &["what", "#missing"]);
+    let mut grid = Grid::new("What fails", &["what", "at"]);
     for what in failure::unsupported(scene, found, usize::MAX) {
-        grid.add("", [line(&what), "all of it".to_owned()]);
+        grid.add("", [line(&what), String::new()]);
     }
+    let units = Units::new(scene, found);
     for (number, failed) in found.failures.iter().enumerate() {
         let cells = [
-            line(&failure::sentence(scene, failed)),
-            failure::amount_with_unit(failed),
+            line(&missing(scene, failed, units)),
+            place(failed.at()),
         ];
         grid.add(format!("f{number}"), cells);
     }

@@ -5,7 +5,7 @@ use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::scene::Scene;
 use crate::text::line;
 use crate::wording::headline::headline;
-use crate::wording::margin::stated;
+use crate::wording::margin::{Parameter, StatedMargin, stated};
 
 /// Returns the number of the governing step, from 0. It is the first step that falls, else the first undecided step,
 /// else the step with the least margin.
@@ -35,7 +35,17 @@ pub(super) fn headline_words(scene: &Scene, number: usize, found: &FrameAnalysis
         .count();
     let margins = stated(scene, found);
     let first = margins.first();
-    first.map_or(String::new(), |margin| {
-        line(&headline(margin, found.verdict, loads))
-    })
+    let Some(first) = first else {
+        return String::new();
+    };
+    let mut words = headline(first, found.verdict, loads);
+    let load = margins
+        .iter()
+        .skip(1)
+        .find(|m| m.parameter == Parameter::LoadFactor);
+    if load.is_some_and(StatedMargin::has_no_limit) {
+        let load = if loads == 1 { "load" } else { "loads" };
+        words.push_str(&format!(" and carries any multiple of its {load}"));
+    }
+    line(&words)
 }

@@ -1,7 +1,7 @@
 //! Tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
 
 use super::Grid;
-use super::unit::Column;
+use super::unit::{Column, Units};
 use crate::geometry::Vector;
 use crate::scene::{BlockId, Limits, Scene};
 use crate::text::line;
@@ -32,7 +32,7 @@ impl Range {
 }
 
 /// Makes a table with a row for each material of the blocks of a frame.
-pub(super) fn materials(scene: &Scene, number: usize) -> Grid {
+pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     let mut groups: Vec<(Option<usize>, Vec<BlockId>)> = Vec::new();
     for block in &scene.frames[number].placed {
         let material = scene.blocks[block.0].body.material;
@@ -45,7 +45,7 @@ pub(super) fn materials(scene: &Scene, number: usize) -> Grid {
         let weights = blocks.iter().map(|id| scene.blocks[id.0].weight);
         weights.sum()
     };
-    let newtons = Column::new(groups.iter().map(|g| weight(&g.1)), "N");
+    let newtons = units.newtons(groups.iter().map(|g| weight(&g.1)));
     let mut grid = Grid::new(
         "",
         &[
@@ -88,15 +88,15 @@ fn density(scene: &Scene, block: BlockId) -> Option<f64> {
 
 /// Makes a table with a row for each load of a frame. Loads after the first [`MAX_ROWS`] share one row with their
 /// sum.
-pub(super) fn loads(scene: &Scene, number: usize) -> Grid {
+pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
     let placed = &scene.frames[number].placed;
     let loads: Vec<_> = scene
         .loads
         .iter()
         .filter(|l| placed.contains(&l.block))
         .collect();
-    let newtons = Column::new(loads.iter().map(|l| l.force.norm()), "N");
-    let torques = Column::new(loads.iter().map(|l| l.torque), "N·m");
+    let newtons = units.newtons(loads.iter().map(|l| l.force.norm()));
+    let torques = units.torques(loads.iter().map(|l| l.torque));
     let metres = Column::metres(loads.iter().flat_map(|l| [l.at.x, l.at.y]));
     let turns = loads.iter().any(|l| l.torque != 0.0);
     let mut heads = vec![
@@ -161,7 +161,7 @@ fn direction(force: Vector) -> String {
 }
 
 /// Makes a table of the robots that hold blocks in a frame, with their limits.
-pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
+pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new(
         "",
@@ -178,7 +178,7 @@ pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
             line(&robot.id),
             line(&scene.blocks[hold.block.0].id),
             place(hold.at),
-            limits(robot.limits),
+            limits(robot.limits, units),
         ];
         grid.add("", cells);
     }
@@ -189,17 +189,10 @@ pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
     grid
 }
 
-fn limits(limits: Limits) -> String {
-    let limit = |value: f64, unit: &str| match value {
-        value if value.is_finite() => {
-            let column = Column::new([value], unit);
-            format!(
-                "{} {}",
-                digits(column.write(value).parse().unwrap_or(value)),
-                column.unit
-            )
-        }
-        _ => "none".to_owned(),
+fn limits(limits: Limits, units: Units) -> String {
+    let limit = |value: f64, unit: &str| match value.is_finite() {
+        true => units.words(value, unit),
+        false => "none".to_owned(),
     };
     let parts = [
         limit(limits.fx, "N"),
@@ -210,7 +203,7 @@ fn limits(limits: Limits) -> String {
 }
 
 /// Makes a table of the other inputs: gravity, thickness, ground, friction of pairs, kernel, corners and tolerance.
-pub(super) fn facts(scene: &Scene) -> Grid {
+pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
     let mut grid = Grid::new("", &["input", "value"]);
     let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);
     let gravity = match scene.gravity.norm() {
@@ -218,6 +211,10 @@ pub(super) fn facts(scene: &Scene) -> Grid {
         g => format!("{} m/s² {}", digits(g), direction(scene.gravity)),
     };
     add("gravity", gravity);
+    let placed = &scene.frames[number].placed;
+    if !scene.loads.iter().any(|l| placed.contains(&l.block)) {
+        add("loads", "none but the weights".to_owned());
+    }
     add("thickness", format!("{} m", digits(scene.thickness)));
     add(
         "joints",
@@ -250,9 +247,7 @@ pub(super) fn facts(scene: &Scene) -> Grid {
         let moved = scene.tolerance_words().unwrap_or_default();
         add("tolerance", line(&moved));
     }
-    add(
-        "units",
-        "metres and degrees; forces as the head of each column says".to_owned(),
-    );
+    let [force, torque] = ["N", "N·m"].map(|unit| units.unit(unit));
+    add("units", format!("m, {force}, {torque}, degrees"));
     grid
 }

@@ -1,7 +1,7 @@
 //! [`Ranking`]: the joints of a frame, sorted by how near they are to opening or sliding. [`robots`] lists the forces
 //! of robots.
 
-use super::unit::Column;
+use super::unit::{Column, Units};
 use super::{Grid, HoverTarget, TableCell, touch};
 use crate::analysis::{Contact, Failure, FrameAnalysis, Verdict};
 use crate::interface::ContactKind;
@@ -35,6 +35,7 @@ pub(super) struct Ranking<'a> {
     scene: &'a Scene,
     found: &'a FrameAnalysis,
     used: Vec<Used>,
+    units: Units,
 }
 
 impl<'a> Ranking<'a> {
@@ -64,7 +65,12 @@ impl<'a> Ranking<'a> {
                 .total_cmp(&key(a))
                 .then(force(b).total_cmp(&force(a)))
         });
-        Ranking { scene, found, used }
+        Ranking {
+            scene,
+            found,
+            used,
+            units: Units::new(scene, found),
+        }
     }
 
     /// Returns the block to draw as a free body: a block at the largest failure, else a block at the joint with the
@@ -113,10 +119,10 @@ impl<'a> Ranking<'a> {
             false => &self.used[..self.used.len().min(MAX_JOINTS)],
         };
         let contacts = || shown.iter().map(|u| &self.found.contacts[u.contact]);
-        let newtons = Column::new(contacts().flat_map(|c| [normal(c), c.friction_force]), "N");
+        let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
         let metres = Column::metres(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
-        let offs = shown.iter().filter_map(|u| u.off_middle);
-        let offs = Column::metres(offs.map(|off| off.0));
+        // As exact as the lengths of the joints, in which it is counted.
+        let offs = Column::metres(contacts().map(|c| 0.5 * c.interface.length()));
         let mut grid = Grid::new(
             if all {
                 "All joints that carry force"
@@ -183,7 +189,7 @@ impl<'a> Ranking<'a> {
         if self.found.contacts.len() > MAX_HOVER_TARGETS {
             return Vec::new();
         }
-        let newtons = Column::new(self.found.contacts.iter().map(normal), "N");
+        let newtons = self.units.newtons(self.found.contacts.iter().map(normal));
         let joints = self.used.iter().map(|used| {
             let contact = &self.found.contacts[used.contact];
             let mut words = format!(
@@ -212,11 +218,17 @@ impl<'a> Ranking<'a> {
             .iter()
             .enumerate()
             .map(|(number, failed)| {
-                let words = format!("Failure: {}", failure::sentence(self.scene, failed));
+                let words = format!("Failure: {}", missing(self.scene, failed, self.units));
                 touch::target(format!("f{number}"), &words, failed.at())
             });
         joints.chain(robots).chain(failures).collect()
     }
+}
+
+/// A failure in words, in the unit of the sheet.
+pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
+    let write = |value: f64, unit: &str| units.words(value, unit);
+    failure::missing_sentence(scene, failed, &write)
 }
 
 fn size(contact: &Contact) -> f64 {
@@ -256,8 +268,9 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
 /// Makes a table of the robots of a frame, with their forces and the highest utilisation of their limits.
 pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
-    let newtons = Column::new(forces, "N");
-    let torques = Column::new(found.robots.iter().map(|r| r.torque), "N·m");
+    let units = Units::new(scene, found);
+    let newtons = units.newtons(forces);
+    let torques = units.torques(found.robots.iter().map(|r| r.torque));
     let mut grid = Grid::new(
         "Robots",
         &[

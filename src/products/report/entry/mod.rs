@@ -156,6 +156,7 @@ impl Entry {
             letter: String::new(),
             title: String::new(),
             verdict: self.row.verdict,
+            begins_page: false,
             parts: vec![SheetPart::Charts(vec![chart])],
         });
         let measured = accuracy_json(study);

@@ -26,8 +26,6 @@ pub enum SheetPart {
     Columns(Vec<Vec<SheetPart>>),
     /// Charts next to each other.
     Charts(Vec<Chart>),
-    /// In print, the next part begins on a new page.
-    NewPage,
 }
 
 /// The verdict with the headline margin.
@@ -52,6 +50,8 @@ pub struct Section {
     pub title: String,
     /// The verdict of the step.
     pub verdict: Verdict,
+    /// Whether it begins a page in print.
+    pub begins_page: bool,
     /// Its content.
     pub parts: Vec<SheetPart>,
 }

@@ -188,8 +188,7 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     Thumbnail { blocks, ground }
 }
 
-/// Writes an outline as SVG path data, rounded to 0.1 pixels. Points far outside are moved to 9 pixels outside the
-/// picture.
+/// SVG path data, rounded to 0.1 pixels. Points outside are moved to the border.
 fn path_data(outline: &Outline) -> String {
     let (width, height) = THUMBNAIL;
     let number = |x: f64| {
@@ -199,8 +198,8 @@ fn path_data(outline: &Outline) -> String {
     let point = |p: &PagePoint| {
         format!(
             "{} {}",
-            number(p.x.clamp(-9.0, width + 9.0)),
-            number(p.y.clamp(-9.0, height + 9.0))
+            number(p.x.clamp(0.0, width)),
+            number(p.y.clamp(0.0, height))
         )
     };
     let step = |segment: &Segment| match segment {

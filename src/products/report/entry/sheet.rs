@@ -3,6 +3,7 @@
 
 use super::governing::headline_words;
 use super::joints::{Ranking, robots};
+use super::unit::Units;
 use super::{
     Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs,
     story,
@@ -18,6 +19,8 @@ use crate::wording::{proof, verdict};
 
 /// Width of a figure, in pixels: half a page, so that its labels are legible in print and on a phone.
 const WIDTH: f64 = 440.0;
+/// Height of the picture in a figure, in pixels.
+const HEIGHT: f64 = 300.0;
 
 /// Returns the options for figures in a report. Figures have no titles and verdicts, because the page shows them.
 pub(super) fn options(wanted: &ReportOptions) -> Options {
@@ -27,6 +30,7 @@ pub(super) fn options(wanted: &ReportOptions) -> Options {
         captions: false,
         verdicts: false,
         width: Some(WIDTH),
+        height: Some(HEIGHT),
         ..Options::default()
     }
 }
@@ -46,12 +50,18 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
             false => title,
         },
         verdict,
+        begins_page: false,
         parts: Vec::new(),
     }
 }
 
 /// Makes the two pages on a frame.
-pub(super) fn sheet(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
+pub(super) fn sheet(
+    analysis: &Analysis,
+    number: usize,
+    steps: Option<Grid>,
+    wanted: &ReportOptions,
+) -> Section {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let ranking = Ranking::new(scene, found);
     let mut section = empty(scene, number, found.verdict);
@@ -61,19 +71,19 @@ pub(super) fn sheet(analysis: &Analysis, number: usize, wanted: &ReportOptions) 
         analysis, number, wanted, &ranking,
     )));
     parts.extend(told(analysis, number));
-    parts.push(given(scene, number));
-    if scene.frames.len() == 1 {
-        parts.push(SheetPart::NewPage);
+    parts.push(given(scene, number, Units::new(scene, found)));
+    if let Some(steps) = steps {
+        parts.push(SheetPart::Heading("Steps".to_owned()));
+        parts.push(SheetPart::Table(steps));
     }
+    parts.push(SheetPart::Heading("Reactions and balance".to_owned()));
+    parts.push(SheetPart::Table(balance::whole(analysis, number)));
     parts.push(SheetPart::Heading("Governing joints".to_owned()));
     parts.push(SheetPart::Table(ranking.table(false)));
     parts.push(SheetPart::Note(ranking.words()));
     parts.push(SheetPart::Table(robots(scene, found)));
-    parts.push(SheetPart::Heading(
-        "Balance, to be recalculated by hand".to_owned(),
-    ));
-    parts.push(SheetPart::Table(balance::whole(analysis, number)));
     if let Some(block) = ranking.block() {
+        parts.push(SheetPart::Heading("Governing block".to_owned()));
         parts.push(SheetPart::Table(balance::of_block(analysis, number, block)));
     }
     parts.push(SheetPart::Note(balance::check_words(found)));
@@ -106,7 +116,7 @@ pub(super) fn others(
                 plain(own.verdict)
             )),
             SheetPart::Figures(figures),
-            SheetPart::Note(line(&verdict::sentence(scene, found))),
+            SheetPart::Note(sentence(scene, found)),
         ]
     };
     let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
@@ -116,12 +126,19 @@ pub(super) fn others(
         .collect()
 }
 
+/// The verdict with its reasons, in the unit of the sheet.
+fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
+    let units = Units::new(scene, found);
+    let write = |value: f64, unit: &str| units.words(value, unit);
+    line(&verdict::sentence_with(scene, found, &write))
+}
+
 fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
     Badge {
         verdict: found.verdict,
         headline: headline_words(scene, number, found),
         bar: bullet::margin_bars(scene, found).into_iter().next(),
-        sentence: line(&verdict::sentence(scene, found)),
+        sentence: sentence(scene, found),
     }
 }
 
@@ -143,9 +160,8 @@ fn figures(
         let one = |options: &Options| {
             let mut options = options.clone();
             change(&mut options);
-            figure::panels_of(analysis, kind, &options, &[number])
-                .into_iter()
-                .next()
+            let panels = figure::panels_of(analysis, kind, &options, &[number]);
+            panels.into_iter().next()
         };
         Some((one(&options)?, dark.as_ref().and_then(one)))
     };
@@ -230,7 +246,7 @@ fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
 }
 
 /// Makes two columns with the inputs of a frame.
-fn given(scene: &Scene, number: usize) -> SheetPart {
+fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
         true => Vec::new(),
         false => vec![
@@ -238,12 +254,12 @@ fn given(scene: &Scene, number: usize) -> SheetPart {
             SheetPart::Table(grid),
         ],
     };
-    let mut left = titled("Materials", inputs::materials(scene, number));
-    left.extend(titled("Loads", inputs::loads(scene, number)));
-    left.extend(titled("Robots", inputs::robots(scene, number)));
+    let mut left = titled("Materials", inputs::materials(scene, number, units));
+    left.extend(titled("Loads", inputs::loads(scene, number, units)));
+    left.extend(titled("Robots", inputs::robots(scene, number, units)));
     SheetPart::Columns(vec![
         left,
-        titled("Supports and settings", inputs::facts(scene)),
+        titled("Supports and settings", inputs::facts(scene, number, units)),
     ])
 }
 

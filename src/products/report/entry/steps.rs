@@ -5,7 +5,7 @@ use super::governing::{governing, headline_words};
 use super::joints::Ranking;
 use super::row::thumbnail;
 use super::sheet::{empty, others, sheet};
-use super::{Grid, ReportOptions, Section, SheetPart, TableCell, full};
+use super::{Grid, ReportOptions, Section, TableCell, full};
 use crate::analysis::{Analysis, Verdict};
 use crate::text::line;
 use crate::wording::number::letter;
@@ -17,17 +17,13 @@ const MAX_FALLING: usize = 4;
 /// Makes the sections of a report on a scene.
 pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Section> {
     let count = analysis.frames.len();
-    let mut sections = Vec::new();
     let governing = governing(analysis);
-    let mut first = sheet(analysis, governing, wanted);
+    let steps = (count > 1).then(|| table(analysis));
+    let mut first = sheet(analysis, governing, steps, wanted);
     if count > 1 {
         first.title = format!("{} (the step that governs)", first.title);
-        let mut overview = empty(&analysis.scene, governing, analysis.verdict());
-        (overview.letter, overview.title) = (String::new(), "Steps".to_owned());
-        overview.parts = vec![SheetPart::Table(table(analysis))];
-        sections.push(overview);
     }
-    sections.push(first);
+    let mut sections = vec![first];
     let falling =
         (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
     let falling: Vec<usize> = falling

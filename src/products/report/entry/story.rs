@@ -1,24 +1,24 @@
 //! [`fails_first`] and [`would_take`]: sentences on where a frame fails first, and what would change its verdict.
 
 use super::joints::name;
-use crate::analysis::{Analysis, End, Failure, FrameAnalysis, Motion, Toward, Verdict};
+use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
 use crate::figure::{Joint, joints};
 use crate::scene::Scene;
 use crate::text::line;
-use crate::wording::failure::{by_amount, sentence, shortened, unsupported_phrase};
+use crate::wording::failure::{shortened, unsupported_phrase};
 use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 use crate::wording::number::{counted, listed, place, three};
 
 /// A sentence names at most this many joints or blocks.
-const MAX_NAMED: usize = 5;
-/// At most this many failures are described one by one.
-const MAX_LISTED_FAILURES: usize = 3;
+const MAX_NAMED: usize = 4;
+/// Speeds below this share of the largest one are rounding of the solver.
+const MOTION_TOL: f64 = 2e-3;
 
 /// Returns the margin whose end shows how a standing frame would fall: load factor, else tilt, else horizontal load.
 /// `None` if no end of these has a mechanism.
 pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
     let intervals = &found.margins.as_ref()?.intervals;
-    let has_edge = |interval: &Option<crate::analysis::Interval>| {
+    let has_edge = |interval: &Option<Interval>| {
         let ends = interval.iter().flat_map(|i| [i.low(), i.high()]);
         ends.flatten()
             .any(|end| matches!(end, End::At { mechanism, .. } if !mechanism.is_empty()))
@@ -41,13 +41,6 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
         Verdict::Undecided => None,
         Verdict::Unstable => {
             let mut said: Vec<String> = unsupported_phrase(scene, found).into_iter().collect();
-            let failures = by_amount(found);
-            let sentences = failures.iter().map(|f: &&Failure| sentence(scene, f));
-            said.extend(sentences.take(MAX_LISTED_FAILURES));
-            let more = failures.len().saturating_sub(MAX_LISTED_FAILURES);
-            if more > 0 {
-                said.push(format!("and {} more", counted(more, "failure")));
-            }
             said.extend(collapse(analysis, number, &found.mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
         }
@@ -88,7 +81,10 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     let at = |joint: &&Joint| {
         let contact = &contacts[joint.contact];
         match joint.hinge {
-            Some(point) => format!("{} at {}", name(scene, contact), place(point)),
+            Some(point) => {
+                let at = place(point).replace('-', "−");
+                format!("{} at {at}", name(scene, contact))
+            }
             None => name(scene, contact),
         }
     };
@@ -111,16 +107,21 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
             counted(slides.len(), "sliding joint")
         ));
     }
-    let verb = if mechanism.len() == 1 {
-        "moves"
-    } else {
-        "move"
-    };
-    let blocks = format!("{} {verb}", counted(mechanism.len(), "block"));
+    let moving = moving(scene, mechanism);
+    let verb = if moving == 1 { "moves" } else { "move" };
+    let blocks = format!("{} {verb}", counted(moving, "block"));
     Some(match said.is_empty() {
         true => blocks,
-        false => format!("{blocks}, with {}", said.join(" and ")),
+        false => format!("{blocks}, with {}", said.join(", and ")),
     })
+}
+
+/// The number of blocks that move.
+fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
+    let moving = mechanism
+        .iter()
+        .filter(|m| m.fastest(scene) > MOTION_TOL);
+    moving.count()
 }
 
 /// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for
@@ -133,39 +134,38 @@ pub(super) fn would_take(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
 }
 
 fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
+    if matches!(margin.interval, Interval::Undecided) {
+        return None;
+    }
     let low = margin.interval.low().and_then(confirmed);
     let high = margin.interval.high().and_then(confirmed);
-    let now = margin.present.map(|present| present.0).unwrap_or(0.0);
+    let now = three(margin.present.map_or(0.0, |present| present.0));
     let inside = margin.position == Position::Inside;
     Some(match (margin.parameter, verdict, inside) {
-        (Parameter::LoadFactor, Verdict::Stable, true) => match (low, high) {
-            (_, Some(high)) => format!("To fall: its loads times {}.", three(high)),
-            _ => "To fall: no multiple of its loads suffices.".to_owned(),
+        (Parameter::LoadFactor, Verdict::Stable, true) => match high {
+            Some(high) => format!("It would fall under {} times its loads.", three(high)),
+            _ => "No multiple of its loads makes it fall.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
-            (Some(low), _) if low > 1.0 => format!("To stand: its loads times {}.", three(low)),
-            (_, Some(high)) => format!("To stand: its loads times {}.", three(high)),
-            _ => "To stand: no factor on its loads suffices.".to_owned(),
+            (Some(low), _) if low > 1.0 => {
+                format!("It would stand under {} times its loads.", three(low))
+            }
+            (_, Some(high)) => format!("It would stand under {} of its loads.", three(high)),
+            _ => "It falls whatever the factor on its loads.".to_owned(),
         },
         (Parameter::Friction, Verdict::Stable, true) => match low {
             Some(low) if low > 0.0 => {
-                format!(
-                    "To slide: a friction coefficient below {} instead of {}.",
-                    three(low),
-                    three(now)
-                )
+                let low = three(low);
+                format!("It would fall with a friction coefficient below {low}; now {now}.")
             }
-            _ => "Friction is not needed.".to_owned(),
+            _ => "It needs no friction.".to_owned(),
         },
         (Parameter::Friction, Verdict::Unstable, false) => match low {
             Some(low) if low > 0.0 => {
-                format!(
-                    "To stand: a friction coefficient of {} instead of {}.",
-                    three(low),
-                    three(now)
-                )
+                let low = three(low);
+                format!("It would stand with a friction coefficient of {low}; now {now}.")
             }
-            _ => "To stand: no friction suffices.".to_owned(),
+            _ => "More friction does not help.".to_owned(),
         },
         (Parameter::Tilt, Verdict::Stable, _) => {
             let sides = [
@@ -175,7 +175,10 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
             let sides: Vec<String> = sides.into_iter().flatten().collect();
             match sides.is_empty() {
                 true => return None,
-                false => format!("To tip: gravity turned {}.", sides.join(" or ")),
+                false => format!(
+                    "It would fall if gravity turned {}.",
+                    sides.join(" or ")
+                ),
             }
         }
         _ => return None,

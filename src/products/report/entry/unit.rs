@@ -1,4 +1,9 @@
-//! [`Column`]: the unit and the decimals that all numbers of a column share.
+//! [`Units`]: the prefix that all forces of a sheet share; [`Column`]: the decimals that all numbers of a column share.
+
+use crate::analysis::FrameAnalysis;
+use crate::scene::Scene;
+use crate::wording::failure;
+use crate::wording::number::three;
 
 /// The format of the numbers of a column.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,25 +17,66 @@ pub(super) struct Column {
 /// Significant digits of the largest number of a column.
 const DIGITS: i32 = 4;
 
-impl Column {
-    /// Chooses the prefix for numbers in a unit without prefix. The largest absolute value decides: k above 10³, M
-    /// above 10⁷, m below 0.01, µ below 10⁻⁵.
-    pub fn new(numbers: impl IntoIterator<Item = f64>, unit: &str) -> Column {
-        let largest = largest(numbers);
-        let (prefix, factor) = match largest {
-            x if x > 1e7 => ("M", 1e-6),
+/// The SI prefix that all forces and torques of a sheet share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    prefix: &'static str,
+    factor: f64,
+}
+
+impl Units {
+    /// The prefix for the forces of a frame: k where one exceeds 1000 N.
+    pub fn new(scene: &Scene, found: &FrameAnalysis) -> Units {
+        let contacts = found.contacts.iter().map(|c| c.resultant.force.norm());
+        let robots = found.robots.iter().map(|r| r.force.norm());
+        let missing = found.failures.iter().map(failure::amount);
+        let loads = scene.loads.iter().map(|l| l.force.norm());
+        let weights = scene.blocks.iter().map(|b| b.weight);
+        let given = loads.chain(weights);
+        Units::of(contacts.chain(robots).chain(missing).chain(given))
+    }
+
+    fn of(forces: impl IntoIterator<Item = f64>) -> Units {
+        let (prefix, factor) = match largest(forces) {
+            x if x > 1e8 => ("M", 1e-6),
             x if x > 1e3 => ("k", 1e-3),
             x if x >= 0.01 || x == 0.0 => ("", 1.0),
             x if x >= 1e-5 => ("m", 1e3),
             _ => ("µ", 1e6),
         };
+        Units { prefix, factor }
+    }
+
+    /// The column for numbers in newtons.
+    pub fn newtons(self, numbers: impl IntoIterator<Item = f64>) -> Column {
+        self.column(numbers, "N")
+    }
+
+    /// The column for numbers in newton metres.
+    pub fn torques(self, numbers: impl IntoIterator<Item = f64>) -> Column {
+        self.column(numbers, "N·m")
+    }
+
+    /// A unit with the prefix.
+    pub fn unit(self, unit: &str) -> String {
+        format!("{}{unit}", self.prefix)
+    }
+
+    fn column(self, numbers: impl IntoIterator<Item = f64>, unit: &str) -> Column {
         Column {
-            unit: format!("{prefix}{unit}"),
-            factor,
-            decimals: decimals(largest * factor),
+            unit: self.unit(unit),
+            factor: self.factor,
+            decimals: decimals(largest(numbers) * self.factor),
         }
     }
 
+    /// An amount in a sentence: three significant digits and its unit.
+    pub fn words(self, value: f64, unit: &str) -> String {
+        format!("{} {}", three(value * self.factor), self.unit(unit))
+    }
+}
+
+impl Column {
     /// Chooses the decimals for coordinates in metres.
     pub fn metres(numbers: impl IntoIterator<Item = f64>) -> Column {
         Column {
@@ -80,8 +126,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_column_has_one_unit_and_the_same_decimals() {
-        let column = Column::new([110_395.0, -42.0, 0.0], "N");
+    fn a_sheet_has_one_unit_and_a_column_the_same_decimals() {
+        let units = Units::of([110_395.0, 7.5]);
+        let column = units.newtons([110_395.0, -42.0, 0.0]);
         assert_eq!(column.unit, "kN");
         assert_eq!(column.write(110_395.0), "110.4");
         assert_eq!(
@@ -89,7 +136,8 @@ mod tests {
             ("0.0".into(), "0.0".into())
         );
         assert_eq!(column.write(-420.0), "−0.4");
-        let small = Column::new([7.5], "N");
-        assert_eq!(small.with_unit(7.5), "7.500 N");
+        assert_eq!(units.torques([7.5]).with_unit(7.5), "0.007500 kN·m");
+        assert_eq!(units.words(504.8, "N"), "0.505 kN");
+        assert_eq!(Units::of([7.5]).newtons([7.5]).with_unit(7.5), "7.500 N");
     }
 }

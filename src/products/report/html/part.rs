@@ -56,7 +56,7 @@ fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
         figures: 0,
     };
     html! {
-        section.step id=(id) aria-label=(label) {
+        section.step.newpage[section.begins_page] id=(id) aria-label=(label) {
             @if !section.title.is_empty() {
                 h3 {
                     @if !section.letter.is_empty() { "(" (section.letter) ") " }
@@ -92,7 +92,6 @@ impl Writer {
                 SheetPart::Table(of) => (grid(of)),
                 SheetPart::Columns(columns) => div.columns { @for parts in columns { div { (self.parts(parts)) } } },
                 SheetPart::Charts(charts) => div.charts { @for of in charts { (chart(of)) } },
-                SheetPart::NewPage => div.newpage {},
             }
         }
     }
@@ -139,7 +138,10 @@ fn badge(badge: &Badge) -> Markup {
             p.word { (verdict(badge.verdict)) }
             div {
                 @if !badge.headline.is_empty() { p.headline { strong { bdi dir="ltr" { (badge.headline) "." } } } }
-                @if let Some(bar) = &badge.bar { p.small { bdi dir="ltr" { (bar.short()) } } }
+                @if let Some(of) = &badge.bar {
+                    (bar(of))
+                    p.small { bdi dir="ltr" { (of.short()) } }
+                }
                 p.sentence { bdi dir="ltr" { (badge.sentence) } }
             }
         }

@@ -23,18 +23,19 @@ impl Flow {
         let sentence = self.legible(&badge.sentence);
         let short = badge.bar.as_ref().map(|bar| self.legible(&bar.short()));
         let inner = room - beside - GAP;
-        let lines = |words: &str, size: f64| {
-            LINE * size * wrap(words, Face::Sans, size, inner).len() as f64
+        let lines = |words: &str, face: Face, size: f64| {
+            LINE * size * wrap(words, face, size, inner).len() as f64
         };
+        let headline = self.legible(&format!("{}.", badge.headline));
         let high =
             20.0 + if badge.headline.is_empty() {
                 0.0
             } else {
-                lines(&badge.headline, 14.0)
+                lines(&headline, Face::SansBold, 14.0)
             } + short
                 .as_ref()
-                .map_or(0.0, |words| 22.0 + lines(words, SMALL))
-                + lines(&sentence, SMALL);
+                .map_or(0.0, |words| 22.0 + lines(words, Face::Sans, SMALL))
+                + lines(&sentence, Face::Sans, SMALL);
         self.reserve(high + 8.0);
         let top = self.y;
         let panel = |from: f64, to: f64| {
@@ -59,9 +60,8 @@ impl Flow {
         self.close(Role::Paragraph);
         (self.left, self.room) = (left + beside, inner);
         if !badge.headline.is_empty() {
-            let words = format!("{}.", badge.headline);
             self.words(
-                &words,
+                &headline,
                 Face::SansBold,
                 14.0,
                 self.theme.ink,

@@ -24,6 +24,10 @@ pub(super) const SMALL: f64 = 10.5;
 pub(super) const LINE: f64 = 1.38;
 /// The largest height of a figure.
 const MAX_FIGURE_HEIGHT: f64 = 300.0;
+/// The height of a heading with the space around it.
+pub(super) const HEADING: f64 = 32.0;
+/// A paragraph of at most this many lines stays on one page.
+const UNBROKEN_LINES: usize = 6;
 /// Space between two columns.
 pub(super) const GAP: f64 = 14.0;
 
@@ -135,7 +139,11 @@ impl Flow {
 
     pub fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour, role: &Role) {
         let words = self.legible(words);
-        for row in wrap(&words, face, size, self.room) {
+        let rows = wrap(&words, face, size, self.room);
+        if rows.len() <= UNBROKEN_LINES {
+            self.reserve(LINE * size * rows.len() as f64);
+        }
+        for row in rows {
             if self.y + LINE * size > BOTTOM {
                 self.close(role.clone());
                 self.new_page();

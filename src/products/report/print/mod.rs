@@ -15,7 +15,7 @@ use crate::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Th
 use crate::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
 use crate::text::line;
 use crate::wording::verdict::plain;
-use flow::{Flow, MARGIN, PAGE, SMALL};
+use flow::{Flow, HEADING, MARGIN, PAGE, SMALL};
 
 /// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.
 #[derive(Clone, Debug, Default)]
@@ -60,20 +60,21 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
 
 /// Makes the pages of a scene.
 pub(super) fn section(entry: &Entry) -> Vec<Page> {
-    let mut flow = Flow::new(format!("{}, {}", entry.origin, line(&entry.row.name)));
+    let mut flow = Flow::new(foot(entry));
     let row = &entry.row;
     let title = format!("{}: {}", row.title, plain(row.verdict));
     flow.title(&title, &entry.details);
     for (number, section) in entry.sections.iter().enumerate() {
+        if section.begins_page {
+            flow.new_page();
+        } else if number > 0 && !section.title.is_empty() {
+            // Its pictures must still fit.
+            flow.reserve(420.0);
+        }
         match (section.letter.as_str(), section.title.as_str()) {
             ("", "") => {}
             ("", title) => flow.heading(title, 16.0, 3),
             (letter, title) => {
-                // An appendix, or the comparison of a step, begins on a new page if its pictures do not fit on this
-                // one.
-                if number > 1 {
-                    flow.reserve(420.0);
-                }
                 let words = format!("({letter}) {title}: {}", plain(section.verdict));
                 flow.heading(&words, 16.0, 3);
             }
@@ -83,8 +84,20 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     flow.pages
 }
 
+/// The line at the foot of every page: the program, the scene and the names of its files, without folders.
+fn foot(entry: &Entry) -> String {
+    let names = entry.row.name.split(" → ");
+    let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));
+    format!("{}, {}", entry.origin, names.collect::<Vec<_>>().join(" → "))
+}
+
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
-    for part in parts {
+    for (number, part) in parts.iter().enumerate() {
+        // A heading stays with the table below it.
+        if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
+        {
+            flow.reserve(HEADING + flow.least(grid));
+        }
         match part {
             SheetPart::Badge(badge) => flow.badge(badge),
             SheetPart::Heading(words) => flow.heading(words, 13.0, 4),
@@ -94,7 +107,6 @@ fn parts(flow: &mut Flow, parts: &[SheetPart]) {
             SheetPart::Table(grid) => flow.grid(grid),
             SheetPart::Columns(columns) => flow.columns(columns, &self::parts),
             SheetPart::Charts(charts) => flow.charts(charts),
-            SheetPart::NewPage => flow.new_page(),
         }
     }
 }

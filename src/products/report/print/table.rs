@@ -8,18 +8,23 @@ use crate::output::pdf::Role;
 use crate::report::entry::{Grid, TableCell, Thumbnail};
 
 /// A table up to this share of a page stays on one page.
-const UNBROKEN_SHARE: f64 = 0.4;
+const UNBROKEN_SHARE: f64 = 0.3;
 /// Width of a bar in a table.
 const BAR: f64 = 160.0;
 /// Width and height of a small picture in a table.
 const PICTURE: (f64, f64) = (64.0, 40.0);
+/// A column is made wider by at most this where a table is narrower than its page.
+const MAX_SPREAD: f64 = 45.0;
 /// A small picture is drawn for this width.
 const PICTURE_WIDTH: f64 = 96.0;
 
 /// The layout of a table.
 struct Layout {
     number: usize,
-    heads: Vec<(TableCell, bool)>,
+    head: Vec<TableCell>,
+    rows: Vec<Vec<TableCell>>,
+    /// Whether a column contains numbers.
+    is_number: Vec<bool>,
     widths: Vec<f64>,
 }
 
@@ -28,6 +33,33 @@ impl Flow {
         if grid.lines.is_empty() {
             return;
         }
+        self.tables += 1;
+        let layout = self.layout(grid);
+        self.reserve(layout.least(grid));
+        if !grid.caption.is_empty() {
+            self.y += 0.2 * TEXT_SIZE;
+            self.strong(&grid.caption);
+        }
+        self.row(&layout, &layout.head, 0);
+        for (number, row) in layout.rows.iter().enumerate() {
+            if self.y + layout.height(row) > BOTTOM {
+                self.new_page();
+                self.row(&layout, &layout.head, 0);
+            }
+            self.row(&layout, row, number + 1);
+        }
+        self.y += 0.5 * TEXT_SIZE;
+    }
+
+    /// The height that a table needs to begin on a page.
+    pub fn least(&self, grid: &Grid) -> f64 {
+        match grid.lines.is_empty() {
+            true => 0.0,
+            false => self.layout(grid).least(grid),
+        }
+    }
+
+    fn layout(&self, grid: &Grid) -> Layout {
         let legible = |cell: &TableCell| TableCell {
             words: self.legible(&cell.words),
             ..cell.clone()
@@ -37,40 +69,17 @@ impl Flow {
             .iter()
             .map(|l| l.cells.iter().map(legible).collect())
             .collect();
-        self.tables += 1;
-        let heads = grid
-            .heads
-            .iter()
-            .map(|h| (TableCell::strong_if(true, self.legible(&h.0)), h.1));
-        let heads: Vec<(TableCell, bool)> = heads.collect();
-        let layout = Layout {
+        let heads = grid.heads.iter();
+        let head: Vec<TableCell> = heads
+            .map(|h| TableCell::strong_if(true, self.legible(&h.0)))
+            .collect();
+        Layout {
             number: self.tables,
-            widths: widths(&heads, &rows, self.room),
-            heads,
-        };
-        let head: Vec<TableCell> = layout.heads.iter().map(|h| h.0.clone()).collect();
-        let head_height = layout.height(&head);
-        // A short table stays on one page. A long one keeps at least two rows with its head.
-        let whole: f64 = rows.iter().map(|row| layout.height(row)).sum();
-        let least = if whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
-            whole
-        } else {
-            2.0 * LINE * SMALL
-        };
-        self.reserve(1.5 * TEXT_SIZE + head_height + least);
-        if !grid.caption.is_empty() {
-            self.y += 0.2 * TEXT_SIZE;
-            self.strong(&grid.caption);
+            widths: widths(&head, &rows, self.room),
+            is_number: grid.heads.iter().map(|h| h.1).collect(),
+            head,
+            rows,
         }
-        self.row(&layout, &head, 0);
-        for (number, row) in rows.iter().enumerate() {
-            if self.y + layout.height(row) > BOTTOM {
-                self.new_page();
-                self.row(&layout, &head, 0);
-            }
-            self.row(&layout, row, number + 1);
-        }
-        self.y += 0.5 * TEXT_SIZE;
     }
 
     /// Adds a row. Row 0 is the head.
@@ -79,7 +88,7 @@ impl Flow {
         let mut x = self.left;
         for (column, (cell, wide)) in row.iter().zip(&layout.widths).enumerate() {
             self.y = top;
-            let is_number = layout.heads.get(column).is_some_and(|h| h.1);
+            let is_number = layout.is_number.get(column) == Some(&true);
             self.cell(cell, x, *wide, is_number);
             self.close(Role::Cell {
                 table: layout.number,
@@ -139,6 +148,17 @@ impl Flow {
 }
 
 impl Layout {
+    /// A short table stays on one page. A long one keeps at least two rows with its head.
+    fn least(&self, grid: &Grid) -> f64 {
+        let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
+        let rows = match whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
+            true => whole,
+            false => 2.0 * LINE * SMALL,
+        };
+        let caption = if grid.caption.is_empty() { 0.2 } else { 1.6 };
+        caption * TEXT_SIZE + self.height(&self.head) + rows
+    }
+
     fn height(&self, row: &[TableCell]) -> f64 {
         let cells = row.iter().zip(&self.widths);
         let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
@@ -167,9 +187,9 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// Returns the widths of the columns of a table, in pixels. A column is as wide as its text; if there is no space for
-/// that, the widest columns are narrowed.
-fn widths(heads: &[(TableCell, bool)], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
+/// The widths of the columns of a table: the width of their text and a share of what is left over if there is space.
+/// Otherwise heads break at their spaces, and then the widest columns are narrowed.
+fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();
         parts
@@ -181,17 +201,26 @@ fn widths(heads: &[(TableCell, bool)], rows: &[Vec<TableCell>], space: f64) -> V
         (_, Some(_)) => PICTURE.0,
         _ => width(&cell.words, face(cell), SMALL),
     };
-    let wide = |column: usize| {
-        let own = rows.iter().filter_map(|row| row.get(column));
-        let own = own.map(cell_width).fold(0.0, f64::max);
-        // A head breaks at its spaces and widens its column only by its longest word.
-        let head = &heads[column].0.words;
-        own.max(longest(head))
-            .max(width(head, Face::SansBold, SMALL).min(60.0))
-            + 2.0
+    let own = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(cell_width).fold(0.0, f64::max)
     };
-    let mut widths: Vec<f64> = (0..heads.len()).map(wide).collect();
     let room = space - GAP * heads.len().saturating_sub(1) as f64;
+    let columns = 0..heads.len();
+    let whole = |column: usize| width(&heads[column].words, Face::SansBold, SMALL);
+    let mut widths: Vec<f64> = columns
+        .clone()
+        .map(|column| own(column).max(whole(column)) + 2.0)
+        .collect();
+    let left = room - widths.iter().sum::<f64>();
+    if left >= 0.0 {
+        let more = (left / heads.len().max(1) as f64).min(MAX_SPREAD);
+        return widths.into_iter().map(|wide| wide + more).collect();
+    }
+    for column in columns {
+        let head = longest(&heads[column].words).max(whole(column).min(60.0));
+        widths[column] = own(column).max(head) + 2.0;
+    }
     loop {
         let sum: f64 = widths.iter().sum();
         if sum <= room {
