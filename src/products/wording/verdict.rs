@@ -75,7 +75,9 @@ fn reasons_with(
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, found));
     let failures = by_amount(found).into_iter();
-    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f, write)).collect();
+    let failures: Vec<String> = failures
+        .map(|f| missing_sentence(scene, f, write))
+        .collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if found.only_by_wedging == Some(true) {
         parts.push(

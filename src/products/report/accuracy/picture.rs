@@ -222,7 +222,10 @@ impl Page<'_> {
                 let circle = Outline::circle(at, 8.5);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
             }
-            let dot = Path::filled(Outline::circle(at, 4.6), self.shade(self.place(line), line.wrong > 0));
+            let dot = Path::filled(
+                Outline::circle(at, 4.6),
+                self.shade(self.place(line), line.wrong > 0),
+            );
             items.push(dot.cased(theme.page, 0.8).into());
         }
         for line in lines {

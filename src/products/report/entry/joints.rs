@@ -119,7 +119,9 @@ impl<'a> Ranking<'a> {
             false => &self.used[..self.used.len().min(MAX_JOINTS)],
         };
         let contacts = || shown.iter().map(|u| &self.found.contacts[u.contact]);
-        let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
+        let newtons = self
+            .units
+            .newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
         let metres = Column::metres(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // As exact as the lengths of the joints, in which it is counted.
         let offs = Column::metres(contacts().map(|c| 0.5 * c.interface.length()));

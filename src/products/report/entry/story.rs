@@ -118,9 +118,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
 
 /// The number of blocks that move.
 fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
-    let moving = mechanism
-        .iter()
-        .filter(|m| m.fastest(scene) > MOTION_TOL);
+    let moving = mechanism.iter().filter(|m| m.fastest(scene) > MOTION_TOL);
     moving.count()
 }
 
@@ -175,10 +173,7 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
             let sides: Vec<String> = sides.into_iter().flatten().collect();
             match sides.is_empty() {
                 true => return None,
-                false => format!(
-                    "It would fall if gravity turned {}.",
-                    sides.join(" or ")
-                ),
+                false => format!("It would fall if gravity turned {}.", sides.join(" or ")),
             }
         }
         _ => return None,

@@ -88,7 +88,11 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
 fn foot(entry: &Entry) -> String {
     let names = entry.row.name.split(" → ");
     let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));
-    format!("{}, {}", entry.origin, names.collect::<Vec<_>>().join(" → "))
+    format!(
+        "{}, {}",
+        entry.origin,
+        names.collect::<Vec<_>>().join(" → ")
+    )
 }
 
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
