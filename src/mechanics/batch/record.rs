@@ -17,7 +17,7 @@ const MAX_RECORD_BYTES: usize = 1 << 28;
 pub struct Record {
     /// Its file, as given by the user; `None` for standard input.
     pub file: Option<PathBuf>,
-    /// Its line, counted from 1; `None` for a scene in a file of its own.
+    /// Its line, counted from 1; `None` if the file contains only this scene.
     pub line: Option<usize>,
     /// Its bytes without the line ending, or the reason why they could not be read.
     pub bytes: Result<Vec<u8>, String>,
@@ -38,7 +38,7 @@ pub enum Input {
         /// The open stream. If `None`, the file is opened when the earlier inputs have been read.
         reader: Option<Box<dyn Read + Send>>,
     },
-    /// A scene in a file of its own.
+    /// A file that contains one scene.
     Whole(PathBuf),
 }
 
@@ -61,8 +61,8 @@ impl Input {
     }
 }
 
-/// An iterator over the records of several inputs. Every line is a record, also an empty one, so that answer N belongs to
-/// line N. The last line needs no line ending.
+/// An iterator over the records of several inputs. Every line is a record, also an empty one, so that answer N belongs
+/// to line N. The last line needs no line ending.
 #[derive(Debug)]
 pub struct Records {
     inputs: std::vec::IntoIter<Input>,

@@ -110,7 +110,7 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            // The spare friction of the cone takes rounding along the contact.
+            // Rounding along the contact can be taken by friction that the cone allows but that is not used.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
@@ -151,8 +151,8 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
 
 /// Returns the largest imbalance τ of all bodies, and the largest residual of a body relative to its load.
 ///
-/// τ is computed in the order of upper bounds, and only for bodies whose upper bound exceeds the largest τ found so
-/// far.
+/// Bodies are taken in the order of decreasing upper bounds. τ is computed only while the bound exceeds the largest τ
+/// found so far.
 pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;
@@ -171,7 +171,8 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
         let bound = quick_gauge_bound(&body.generators, residual).unwrap_or(f64::INFINITY);
         bounds.push((bound, number));
     }
-    // The largest bound first: once a bound is no larger than the τ found, no later body can exceed it.
+    // Start with the largest bound. If a bound is not larger than the τ found so far, no later body can have a larger
+    // τ.
     bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     let mut imbalance: f64 = 0.0;
     for (bound, number) in bounds {
@@ -219,7 +220,8 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     }
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let acting = &mut acting[grip.body];
-        // Each component is a generator of its own, because each may be changed by τ of its own amount.
+        // Each component is a separate generator, because τ limits the change of each component relative to its own
+        // amount.
         acting.force(grip.at, Vector::new(held.force.x, 0.0));
         acting.force(grip.at, Vector::new(0.0, held.force.y));
         acting.torque(held.torque);

@@ -73,12 +73,12 @@ impl Proof {
     /// [`Proof::IMBALANCE_TOL`].
     pub const MIN_POWER_RATIO: f64 = 1e7;
 
-    /// Whether the proof meets [`ProofThreshold::STANDARD`].
+    /// True if the proof meets [`ProofThreshold::STANDARD`].
     pub fn holds(&self) -> bool {
         self.meets(ProofThreshold::STANDARD)
     }
 
-    /// Whether the proof meets a threshold.
+    /// True if the proof meets the threshold.
     pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
             Proof::Forces {
@@ -94,8 +94,7 @@ impl Proof {
         }
     }
 
-    /// Returns the sum of forces Σ(N + |T|), relative to the moving loads, below which a motion rules out every
-    /// balance.
+    /// Returns the force sum below which the motion rules out equilibrium: Σ(N + |T|), relative to the moving loads.
     ///
     /// It equals power / violation, and includes the forces of robots without limits. It is infinite if nothing is
     /// violated: then no forces balance, however large. It is 0 for a proof by forces.
@@ -345,8 +344,8 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     (power, summed)
 }
 
-/// Checks a motion of an assembly, one entry per body: the power of the loads, and the velocity against which contacts or
-/// grips could act.
+/// Checks a motion of an assembly, one entry per body: the power of the loads, and the velocity against which contacts
+/// or grips could act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly
@@ -362,10 +361,10 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             worst_violation: 0.0,
         };
     }
-    // Contacts: the worst violation. Loads: their power.
+    // The worst violation at contacts, and the power of the loads.
     let mut violation = worst_violation(assembly, motions);
     let (mut power, mut summed) = power_of_loads(assembly, motions);
-    // Robots: a limit resists with the power limit · speed. An unlimited grip must not move.
+    // A robot with a limit resists with the power limit · speed. A grip without a limit must not move.
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         let limits = grip.limits;
@@ -377,8 +376,8 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (at_grip.y, limits.fy, unsure.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
-            // With a limit far above the loads, the rounding of a speed would become a power. Such a grip must not
-            // move.
+            // If the limit is far above the loads, the rounding of a speed would become a noticeable power. Such a grip
+            // must not move.
             if limit > NON_BINDING * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {

@@ -19,31 +19,32 @@ pub enum BodyId {
     Block(BlockId),
 }
 
-/// A colour, 8 bits a channel.
+/// A colour: red, green and blue, each from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rgb(pub [u8; 3]);
 
-/// What a block and the ground have in common, in its place in the world.
+/// The shape, position and surface of a block or of a part of the ground.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Body {
-    /// Outline and holes in metres.
+    /// Outline and holes in the coordinates of the scene, metres.
     pub polygon: Polygon,
-    /// The lattice cells, where the body is made of them.
+    /// The lattice cells, if the body consists of cells.
     pub cells: Option<Vec<Cell>>,
-    /// Number of its material.
+    /// The number of its material; `None` if it has none.
     pub material: Option<usize>,
-    /// Its own friction coefficient (the body's, else its material's, else the scene's).
+    /// Friction coefficient: the body's own, or else its material's, or else the scene's.
     pub friction: f64,
-    /// The author's fill, of the body or of its material.
+    /// The fill colour that the file gives for the body or for its material.
     pub fill: Option<Rgb>,
-    /// Another body within this touches it, metres; a small stone has a smaller one than the scene. 0 on a lattice.
+    /// The largest distance at which another body touches it, metres. It is smaller for a small stone, and 0 on a
+    /// lattice.
     pub gap: f64,
-    /// Its coordinates are off by no more than this, metres. 0 on a lattice.
+    /// The largest error of its coordinates, metres; 0 on a lattice.
     pub rounding: f64,
 }
 
-/// A part of the ground: carries anything, never moves.
+/// A part of the ground. It carries any load and never moves.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Ground {
@@ -65,7 +66,7 @@ pub struct Block {
     pub weight: f64,
 }
 
-/// Largest amounts a robot can give, per component, each way. Infinite: no limit.
+/// The largest force components and torque of a robot, in either direction; infinite if there is no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Horizontal force, N.
@@ -86,7 +87,7 @@ impl Default for Limits {
     }
 }
 
-/// Where a robot grips a block.
+/// A block and the point at which a robot grips it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Grip {
@@ -102,9 +103,9 @@ pub struct Grip {
 pub struct Robot {
     /// The name given in the file.
     pub id: String,
-    /// What it can give.
+    /// Its largest force and torque.
     pub limits: Limits,
-    /// What it holds in a scene without steps.
+    /// The block that it holds in a scene without steps.
     pub holds: Option<Grip>,
 }
 

@@ -1,8 +1,8 @@
 //! The scene file as Rust types: one type for each object of the JSON. The JSON Schema is made from these types.
 //!
-//! Build a [`SceneFile`] in Rust, by methods with the keys' names, or read one; [`SceneFile::build`] checks it. Nothing
-//! here is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. Only this
-//! file and its folder name serde, serde_json and schemars in the scene module.
+//! A [`SceneFile`] is read from text, or built in code by methods with the names of the keys. Only the types of values
+//! are checked here; [`SceneFile::build`] checks the rest. A key may be absent or `null` if its field is an `Option`.
+//! No other part of the scene module uses serde, serde_json or schemars.
 
 mod body;
 mod build;
@@ -23,17 +23,18 @@ pub use map::Map;
 pub use schema::schema;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 
-/// A place or a displacement, `[x, y]`; y points up.
+/// A position or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
 
-/// A scene of dry-laid blocks: what stands where, and who holds what. SI units, y up, angles in degrees anticlockwise.
+/// A scene of dry-laid blocks: their positions, and the robots that hold them. SI units, y up, angles in degrees
+/// anticlockwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
 #[non_exhaustive]
 pub struct SceneFile {
-    /// Where the JSON Schema of this file lies, for editors; not read.
+    /// Path or address of the JSON Schema, for editors; ignored.
     #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// Version of the scene format: 1.
@@ -50,7 +51,7 @@ pub struct SceneFile {
     /// Date of the calculation, for reports: any text. Reports never read a clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub date: Option<String>,
-    /// Gravity [x, y] in m/s²; weights act along it, or not at all where it is [0, 0]. Default [0, -9.81].
+    /// Gravity [x, y] in m/s². Weights act along it; at [0, 0] there are none. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
@@ -58,8 +59,8 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.7)))]
     pub friction: Option<f64>,
-    /// Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default
-    /// 0.
+    /// Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length.
+    /// Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0)))]
     pub kernel: Option<f64>,
@@ -80,8 +81,8 @@ pub struct SceneFile {
     /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
-    /// Shapes by name. The triangular lattice also has the shapes up, down, hexagon, linkh, linkr and linkl; these names are
-    /// reserved.
+    /// Shapes by name. The triangular lattice also has the shapes up, down, hexagon, linkh, linkr and linkl; these
+    /// names are reserved.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub shapes: Map<ShapeEntry>,
     /// Parts of the ground: they support any load and never move.
@@ -89,7 +90,7 @@ pub struct SceneFile {
     pub ground: Vec<GroundEntry>,
     /// The blocks.
     pub blocks: Vec<BlockEntry>,
-    /// Robots that can hold a block each.
+    /// Robots, each of which can hold one block.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub robots: Vec<RobotEntry>,
     /// Loads on blocks, in addition to their weights.
@@ -189,7 +190,7 @@ pub struct MaterialEntry {
     pub fill: Option<String>,
 }
 
-/// The friction coefficient between two materials; wins over both materials' own.
+/// The friction coefficient between two materials. It takes precedence over the coefficients of the materials.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -258,14 +259,16 @@ pub enum CellHalf {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct ShapeEntry {
-    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
+    /// be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
+    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
+    /// hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges, each listed once.
+    /// Lattice cells, connected by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -274,13 +277,13 @@ pub struct ShapeEntry {
 #[cfg(feature = "schema")]
 const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
 
-/// What serde makes of a text, for tests of the reading.
+/// Parses a text with serde, for tests of the reader.
 #[cfg(test)]
 pub(super) fn parse(text: &str) -> Option<SceneFile> {
     serde_json::from_str(text).ok()
 }
 
-/// Whether the syntax tree of a text says what serde_json says, for tests of the reading.
+/// True if the syntax tree of a text has the same values as serde_json, for tests of the reader.
 #[cfg(test)]
 pub(super) fn agrees(text: &str) -> bool {
     use super::tree::{self, Node, NodeKind, Tree};

@@ -4,7 +4,7 @@ use super::format::Expectation;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
-/// A robot holding a block.
+/// A robot that holds a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Hold {
@@ -16,7 +16,7 @@ pub struct Hold {
     pub at: Point,
 }
 
-/// A block a robot is about to place: drawn as an outline, carries no force.
+/// A block that a robot is about to place. It is drawn as an outline and carries no force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Plan {
@@ -32,11 +32,11 @@ pub struct Plan {
 pub struct Frame {
     /// The step's title; empty if it has none.
     pub title: String,
-    /// The placed blocks, in placing order: the k-th wears colour k of the sequence.
+    /// The placed blocks, in the order of placing. The k-th block is drawn in colour k of the sequence.
     pub placed: Vec<BlockId>,
-    /// Who holds what, by robot number.
+    /// The blocks that robots hold, in the order of the robots' numbers.
     pub holds: Vec<Hold>,
-    /// Planned blocks, by robot number.
+    /// The planned blocks, in the order of the robots' numbers.
     pub plans: Vec<Plan>,
     /// The verdict that the author expects, if the file says so.
     pub expected: Option<Expectation>,

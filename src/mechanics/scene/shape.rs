@@ -1,7 +1,8 @@
 //! The built-in shapes of the triangular lattice as sets of cells.
 //!
-//! Each is a set of whole cells about an origin that is a lattice point, so that it can be turned by 60° and moved by
-//! lattice steps without leaving the lattice. The links' centroids are no lattice points; their origins are corners.
+//! Each shape is a set of whole cells. Its origin is a lattice point, so that it can be rotated by 60° and moved by
+//! lattice steps without leaving the lattice. The centroids of the links are not lattice points, so their origins are
+//! corners.
 //!
 //! | name | cells | origin |
 //! |---|---|---|

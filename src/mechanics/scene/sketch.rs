@@ -1,6 +1,6 @@
 //! [`Sketch`]: the drawable parts of a scene file, valid or not, and the places of its problems.
 //!
-//! Nothing here may be examined: outlines may cross, and bodies may lie in each other.
+//! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
 use super::problem::{Place, SceneError};
 use super::resolution::{self, SketchedBody};
@@ -16,21 +16,21 @@ pub struct Sketch {
     pub title: String,
     /// Every body whose corners can be drawn, the ground first.
     pub bodies: Vec<SketchedBody>,
-    /// What is wrong, in the order of the text; nothing where the scene is sound.
+    /// The problems, in the order of the text; empty if the scene is valid.
     pub problems: SceneError,
-    /// For each problem where it lies, where that can be drawn.
+    /// The place of each problem, if it can be drawn.
     pub places: Vec<Option<Spot>>,
-    /// The scene, where each of its bodies is sound by itself. They may overlap.
+    /// The scene, if each of its bodies is valid. The bodies may overlap.
     pub(crate) scene: Option<Scene>,
 }
 
-/// Where a problem lies.
+/// The place of a problem.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
     /// The place, metres.
     pub at: Point,
-    /// The bodies it is about.
+    /// The bodies that it concerns.
     pub bodies: Vec<BodyId>,
 }
 

@@ -204,7 +204,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(MU, json!(0.7)),
         ),
         Claim(
-            "Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default 0.",
+            "Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length. Default 0.",
             file(json!({ "kernel": 0.2 })),
             Result(
                 "/frames/0/interfaces/0/application_points",
@@ -246,14 +246,14 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/robots/0/id", json!("r0")),
         ),
         Claim(
-            "nothing without `holds`. Default: the block's centroid.",
+            "ignored without `holds`. Default: the block's centroid.",
             file(
                 json!({ "robots": [{ "id": "r", "at": [0.25, 0.25] }], "steps": [{ "place": ["a"], "hold": { "r": "a" } }] }),
             ),
             Result("/frames/0/robots/0/at", json!([0.5, 0.5])),
         ),
         Claim(
-            "What it can give. Default: any force, no torque.",
+            "Its largest force and torque. Default: any force, no torque.",
             held(json!(null)),
             stands(),
         ),
@@ -268,7 +268,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(STANDS, json!("unstable")),
         ),
         Claim(
-            "Both `fx` and `fy`, where they are not given themselves",
+            "Limit for `fx` and `fy` if they are not given",
             held(json!({ "force": 5, "fy": 20 })),
             Result("/frames/0/robots/0/limit_used", json!(0.5)),
         ),

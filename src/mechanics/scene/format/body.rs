@@ -14,14 +14,16 @@ use super::{CellEntry, Pair};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct GroundEntry {
-    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
+    /// be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
+    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
+    /// hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges, each listed once.
+    /// Lattice cells, connected by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -60,14 +62,16 @@ pub struct BlockEntry {
     /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
+    /// be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
+    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
+    /// hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges, each listed once.
+    /// Lattice cells, connected by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -87,11 +91,11 @@ pub struct BlockEntry {
     /// Name of its material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Weight in newtons along gravity, at least 0. Wins over `mass` and `density`.
+    /// Weight in newtons along gravity, at least 0. Takes precedence over `mass` and `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub weight: Option<f64>,
-    /// Mass in kg, at least 0. Wins over `density`.
+    /// Mass in kg, at least 0. Takes precedence over `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub mass: Option<f64>,
@@ -121,15 +125,16 @@ pub struct RobotEntry {
     /// The block it holds in a scene without steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub holds: Option<String>,
-    /// Where it grips the block it `holds`, [x, y] in metres; nothing without `holds`. Default: the block's centroid.
+    /// Grip point [x, y] in metres on the block that it `holds`; ignored without `holds`. Default: the block's
+    /// centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
-    /// What it can give. Default: any force, no torque.
+    /// Its largest force and torque. Default: any force, no torque.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsEntry>,
 }
 
-/// Largest amounts a robot can give, per component, each way.
+/// The largest force components and torque of a robot, in either direction.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -147,7 +152,7 @@ pub struct LimitsEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
     pub torque: Option<f64>,
-    /// Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.
+    /// Limit for `fx` and `fy` if they are not given; newtons, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub force: Option<f64>,

@@ -191,8 +191,8 @@ impl BlockEntry {
 
     body!();
     optional_setters! {
-        weight: f64, "Weight in newtons along gravity, at least 0. Wins over mass and density.";
-        mass: f64, "Mass in kg, at least 0. Wins over density.";
+        weight: f64, "Weight in newtons along gravity, at least 0. Takes precedence over mass and density.";
+        mass: f64, "Mass in kg, at least 0. Takes precedence over density.";
         density: f64, "Its own density in kg/m³, at least 0.";
     }
     words! {
@@ -207,7 +207,7 @@ impl RobotEntry {
     }
 
     optional_setters! {
-        at: Pair, "Where it grips the block it `holds`, [x, y] in metres.";
+        at: Pair, "Grip point [x, y] in metres on the block that it `holds`.";
         limits: LimitsEntry, "What it can give.";
     }
     words! {
@@ -221,7 +221,7 @@ impl LimitsEntry {
         fx: f64, "Largest horizontal force in newtons, at least 0.";
         fy: f64, "Largest vertical force in newtons, at least 0.";
         torque: f64, "Largest torque in N·m, at least 0.";
-        force: f64, "Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.";
+        force: f64, "Limit for `fx` and `fy` if they are not given; newtons, at least 0.";
     }
 }
 
@@ -248,7 +248,7 @@ impl StepEntry {
     }
 
     words! {
-        title, "Title of the frame this step leads to.";
+        title, "Title of the frame after this step.";
     }
 
     /// Adds robots that release their blocks.

@@ -12,16 +12,16 @@ use super::{Map, Pair};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct StepEntry {
-    /// Title of the frame this step leads to.
+    /// Title of the frame after this step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
-    /// Robots that let go of what they hold.
+    /// Robots that release their blocks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub release: Vec<String>,
-    /// Blocks taken away.
+    /// Blocks that are removed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remove: Vec<String>,
-    /// Blocks placed, in this order.
+    /// Blocks that are placed, in this order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub place: Vec<String>,
     /// Blocks that robots take hold of, by robot.
@@ -30,7 +30,8 @@ pub struct StepEntry {
     /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
-    /// The expected verdict. A frame that falls as expected ends `check` like one that stands. Default: that of the scene.
+    /// The expected verdict. A frame that falls as expected ends `check` like one that stands. Default: that of the
+    /// scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }

@@ -115,13 +115,13 @@ impl fmt::Display for EffectName {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct EffectReport {
-    /// Which effect.
+    /// The effect.
     pub effect: EffectName,
     /// Whether it was simulated.
     pub simulated: bool,
     /// Why it was simulated or skipped, in words.
     pub why: String,
-    /// How many force unknowns it added to the programs, or would have added if it was skipped.
+    /// The number of force unknowns that it added to the programs, or would have added if it was skipped.
     pub unknowns: usize,
 }
 
@@ -165,7 +165,7 @@ enum Applicability {
     Skipped {
         /// Why it is skipped, in words.
         reason: String,
-        /// How many unknowns this saves.
+        /// The number of unknowns that this saves.
         saved_unknowns: usize,
     },
 }
