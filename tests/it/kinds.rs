@@ -295,3 +295,71 @@ fn what_stands_without_thrust_has_no_family() {
     assert!(analysis.thrust_states(0).least.is_none());
     assert_eq!(Kind::Thrust.stated_margins(&analysis), None);
 }
+
+/// The ends of a group's only line.
+fn line(group: &Group) -> [(f64, f64); 2] {
+    let points: Vec<_> = paths(group)
+        .flat_map(|path| path.outline.points())
+        .collect();
+    [points[0], points[1]].map(|p| (p.x, p.y))
+}
+
+#[test]
+fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
+    let path = format!("{}/tests/scenes/archload.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("the scene is there");
+    let scene = Scene::from_json(&text).expect("sound");
+    let analysis = Analysis::new(&scene);
+    let options = Options::default().with_polygon(true);
+    let drawing = figure::draw(&analysis, Kind::Thrust, &options);
+    let rays = all(&drawing, "ray");
+    let blocks = scene.frames()[0].placed.len();
+    assert_eq!(rays.len(), blocks + 1, "a joint more than blocks");
+    let mut scale = None;
+    for (k, ray) in rays.iter().enumerate() {
+        let words = ray.title.strip_prefix(&format!("Ray {}: ", k + 1));
+        let words = words.unwrap_or_else(|| panic!("{}", ray.title));
+        let amount: f64 = words
+            .split(' ')
+            .next()
+            .and_then(|n| n.parse().ok())
+            .expect("N");
+        let amount = amount * if words.contains("kN") { 1000.0 } else { 1.0 };
+        let [pole, tip] = line(ray);
+        let length = (tip.0 - pole.0).hypot(tip.1 - pole.1);
+        let scale = *scale.get_or_insert(amount / length);
+        assert!(
+            (amount / length - scale).abs() < 0.01 * scale,
+            "{}: {length} pixels",
+            ray.title
+        );
+    }
+    // Weights and loads lead from the first ray's end to the last one's.
+    let loads = all(&drawing, "load");
+    let loads: Vec<&Group> = loads
+        .into_iter()
+        .filter(|l| l.title.contains(" on block "))
+        .collect();
+    let (first, last) = (line(loads[0])[0], line(loads[loads.len() - 1])[1]);
+    for (end, ray) in [(first, rays[0]), (last, rays[rays.len() - 1])] {
+        let tip = line(ray)[1];
+        assert!(
+            (tip.0 - end.0).hypot(tip.1 - end.1) < 0.1,
+            "{tip:?} {end:?}"
+        );
+    }
+    for width in [397.0, 823.0] {
+        let drawing = figure::draw(&analysis, Kind::Thrust, &options.clone().width(width));
+        for group in all(&drawing, "polygon") {
+            for text in crate::labels::texts(group) {
+                let [left, top, right, bottom] = crate::labels::ink(&text);
+                let inside = left >= 0.0 && top >= 0.0;
+                let inside = inside && right <= drawing.width && bottom <= drawing.height;
+                assert!(inside && text.size >= 9.0, "{}", text.words);
+            }
+        }
+    }
+    let slide = self::scene("study/stack-harmonic-stands.json");
+    let drawing = figure::draw(&Analysis::new(&slide), Kind::Thrust, &options);
+    assert!(svg::write(&drawing).contains("no force polygon"));
+}

@@ -350,6 +350,7 @@ impl Render {
             keys: !self.no_key,
             scale_bar: self.scale_bar,
             dimensions: self.dimensions,
+            with_polygon: self.with_polygon,
             corners: if self.corners {
                 figure::Corners::All
             } else {

@@ -106,6 +106,9 @@ pub struct Options {
     pub scale_bar: bool,
     /// Whether dimension lines show the width and height of all blocks of a frame.
     pub dimensions: bool,
+    /// Whether [`Kind::Thrust`](super::Kind::Thrust) has its force polygon next to it: a load line, a pole, and a ray for
+    /// each joint.
+    pub with_polygon: bool,
     /// The block to whose surroundings the picture is limited; `None` for the whole structure.
     pub zoom: Option<BlockId>,
     /// Whether blocks and robots have labels with their names, in frames with at most 60 blocks.
@@ -136,6 +139,7 @@ impl Default for Options {
             keys: true,
             scale_bar: false,
             dimensions: false,
+            with_polygon: false,
             zoom: None,
             labels: true,
             amounts: false,
@@ -161,6 +165,7 @@ impl Options {
         keys: bool, "Whether the scale of arrows and the legend are drawn.";
         scale_bar: bool, "Whether a scale bar in metres is drawn.";
         dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
+        with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) has its force polygon next to it.";
         labels: bool, "Whether blocks and robots have labels with their names, in frames with at most 60 blocks.";
         amounts: bool, "Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.";
     }

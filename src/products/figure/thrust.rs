@@ -4,6 +4,11 @@
 //! block, a lighter line joins the joints; the legend calls it schematic. So the line runs from support to support
 //! without gaps. The tips of load arrows are at the points where loads act, and their lengths have one scale.
 
+mod chain;
+mod fan;
+
+use fan::Fans;
+
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::by_colour::ByColour;
@@ -19,10 +24,13 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
 use super::words::{force, quantity};
-use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
+use crate::analysis::{
+    Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict,
+};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
+use crate::interface::ContactKind;
 use crate::scene::{BodyId, Frame, Scene};
 
 /// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
@@ -77,6 +85,21 @@ impl PanelContent for ThrustLine {
         marks(analysis, frame, options, newtons_per_unit)
     }
 
+    fn extent(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        unit: f64,
+        _: &Marks,
+        options: &Options,
+    ) -> Option<Bounds> {
+        if !options.with_polygon {
+            return None;
+        }
+        let states = analysis.thrust_states(frame);
+        Some(fans(analysis, frame, &states, unit)?.bounds)
+    }
+
     fn picture(
         &self,
         context: &FigureContext<'_>,
@@ -101,13 +124,15 @@ impl PanelContent for ThrustLine {
         let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
         let lines = lines(&pen, scene, found, &segments);
         let loads = pen.arrows(false);
-        composed(
-            &pen,
-            view,
-            pen.blocks(),
-            vec![seams, least, greatest, lines, dots, loads],
-            ink,
-        )
+        let fans = match context.options.with_polygon {
+            true => fans(context.analysis, frame, family, context.unit),
+            false => None,
+        };
+        let theme = &context.options.theme;
+        let polygon = fans.map(|fans| fans.draw(scene, found, camera, theme, &mut ink));
+        let marks = [seams, least, greatest, lines, dots, loads];
+        let marks = marks.into_iter().chain(polygon).collect();
+        composed(&pen, view, pen.blocks(), marks, ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
@@ -138,6 +163,9 @@ impl PanelContent for ThrustLine {
             let what = "schematic: no single line of action runs through the block".to_owned();
             entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
         }
+        if context.options.with_polygon {
+            entries.push(Entry::Note(polygon_note(context).to_owned()));
+        }
         entries.extend(legend::robots(context));
         entries
     }
@@ -147,11 +175,11 @@ impl PanelContent for ThrustLine {
 
         let why = verdict::reason(scene, found);
         match found.verdict {
-            Verdict::Stable => match other_figures(context, frame) {
-                Some(other) if why.is_empty() => other,
-                Some(other) => format!("{why}; {other}"),
-                None => why,
-            },
+            Verdict::Stable => {
+                let state = other_figures(context, frame).or_else(|| one_of_many(context, frame));
+                let parts = [Some(why).filter(|why| !why.is_empty()), state];
+                parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+            }
             Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
             Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
         }
@@ -211,6 +239,31 @@ fn largest(context: &FigureContext<'_>) -> f64 {
         .map(|c| c.resultant.force)
         .chain(robots.map(|r| r.force));
     forces.map(|f| f.norm()).fold(0.0, f64::max)
+}
+
+/// The force polygon of the state that the figure shows; `None` if no chain of blocks has a thrust, or nothing stands.
+fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
+    let scene = &analysis.scene;
+    let found = &analysis.frames[frame];
+    let shown = states.central.as_ref().map_or(found, |state| &state.frame);
+    (found.verdict == Verdict::Stable)
+        .then(|| Fans::new(scene, &scene.frames[frame], shown, unit))
+        .flatten()
+}
+
+/// What the legend says about the force polygon.
+fn polygon_note(context: &FigureContext<'_>) -> &'static str {
+    let mut frames = 0..context.analysis.frames.len();
+    let any = frames.any(|frame| {
+        let states = context.thrust_states(frame);
+        fans(context.analysis, frame, states, context.unit).is_some()
+    });
+    match any {
+        true => {
+            "force polygon: each ray from the pole O is the force in the joint of the same number"
+        }
+        false => "no force polygon: no chain of blocks that stands has a thrust",
+    }
 }
 
 fn colour(theme: &Theme) -> Colour {
@@ -281,6 +334,19 @@ fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     Some(format!(
         "other figures show the forces of least sum, with a horizontal thrust of {present}"
     ))
+}
+
+/// Names the state that a frame without a family of lines shows; `None` if balance alone fixes all forces.
+fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
+    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let unknowns = |contact: &Contact| match contact.interface.kind {
+        ContactKind::Corner => 2,
+        _ => 3,
+    };
+    let contacts: usize = found.contacts.iter().map(unknowns).sum();
+    let unknowns = contacts + 3 * found.robots.len();
+    (unknowns > 3 * scene.frames[frame].placed.len())
+        .then(|| "the line shown is that of the forces of least sum".to_owned())
 }
 
 /// Draws thin lines of least and of greatest thrust.

@@ -70,6 +70,9 @@ pub(crate) struct Render {
     /// Draw dimension lines at the edges of each panel: width and height of all blocks, or of the block of --zoom
     #[arg(long)]
     pub(super) dimensions: bool,
+    /// Draw the force polygon next to the line of thrust of --kind thrust: a load line, a pole, and a ray for each joint
+    #[arg(long)]
+    pub(super) with_polygon: bool,
     /// Show the neighbourhood of one block only, by its id
     #[arg(long, value_name = "ID")]
     pub(super) zoom: Option<String>,

@@ -1,0 +1,117 @@
+//! [`Chain`]: blocks one after the other, each between two joints, and the forces in these joints.
+
+use crate::analysis::{Contact, FrameAnalysis};
+use crate::geometry::{Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Frame, Scene};
+
+use super::super::bearing::bearings;
+
+/// A chain has at least this many blocks.
+const MIN_BLOCKS: usize = 3;
+/// The largest number of chains that are drawn: those of the greatest thrust.
+const MAX_CHAINS: usize = 3;
+/// The rays of a chain with less thrust than this share of its largest force lie nearly on the load line.
+const MIN_THRUST: f64 = 0.15;
+
+/// Blocks one after the other from left to right, each pressed in two joints only.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Chain {
+    pub blocks: Vec<BlockId>,
+    /// The contacts before, between and after the blocks, by number.
+    pub joints: Vec<usize>,
+    /// The force in each joint on the body after it, N.
+    pub forces: Vec<Vector>,
+}
+
+impl Chain {
+    /// The largest component across gravity of the forces, N.
+    pub fn thrust(&self, across: Vector) -> f64 {
+        let amounts = self.forces.iter().map(|f| f.dot(&across).abs());
+        amounts.fold(0.0, f64::max)
+    }
+
+    fn largest(&self) -> f64 {
+        self.forces.iter().map(|f| f.norm()).fold(0.0, f64::max)
+    }
+}
+
+/// Returns the chains of a frame with a thrust, the one with the greatest thrust first.
+pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Chain> {
+    let bearings = bearings(scene, found);
+    let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
+    for (number, contact) in found.contacts.iter().enumerate() {
+        if bearings[number].is_some() {
+            for body in contact.interface.bodies {
+                if let BodyId::Block(block) = body {
+                    joints[block.0].push(number);
+                }
+            }
+        }
+    }
+    let across = quarter_turn(scene.down());
+    let mut chains: Vec<Chain> = Vec::new();
+    for block in frame.placed.iter().filter(|b| joints[b.0].len() == 2) {
+        for first in joints[block.0].clone() {
+            let before = other(&found.contacts[first], BodyId::Block(*block));
+            if !matches!(before, BodyId::Block(b) if joints[b.0].len() == 2) {
+                chains.extend(walked(*block, first, &joints, found));
+            }
+        }
+    }
+    // Each chain was walked from both of its ends.
+    let place = |joint: usize| across.dot(&found.contacts[joint].resultant.at.coords);
+    chains.retain(|chain| {
+        let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);
+        chain.blocks.len() >= MIN_BLOCKS
+            && place(ends.0) < place(ends.1)
+            && chain.thrust(across) > MIN_THRUST * chain.largest()
+    });
+    chains.sort_by(|a, b| b.thrust(across).total_cmp(&a.thrust(across)));
+    chains.truncate(MAX_CHAINS);
+    chains
+}
+
+/// Walks from block to block, from the first joint of a block to where the chain ends; `None` if it runs in a ring.
+fn walked(
+    start: BlockId,
+    first: usize,
+    joints: &[Vec<usize>],
+    found: &FrameAnalysis,
+) -> Option<Chain> {
+    let mut chain = Chain {
+        blocks: Vec::new(),
+        joints: vec![first],
+        forces: vec![force_on(&found.contacts[first], BodyId::Block(start))],
+    };
+    let (mut block, mut joint) = (start, first);
+    loop {
+        chain.blocks.push(block);
+        joint = *joints[block.0].iter().find(|j| **j != joint)?;
+        let next = other(&found.contacts[joint], BodyId::Block(block));
+        chain.joints.push(joint);
+        chain.forces.push(force_on(&found.contacts[joint], next));
+        match next {
+            BodyId::Block(next) if joints[next.0].len() == 2 => block = next,
+            _ => return Some(chain),
+        }
+        if chain.blocks.len() > joints.len() {
+            return None;
+        }
+    }
+}
+
+/// The body on the other side of a contact.
+fn other(contact: &Contact, body: BodyId) -> BodyId {
+    let [a, b] = contact.interface.bodies;
+    if a == body { b } else { a }
+}
+
+/// The force of a contact on one of its bodies, N.
+fn force_on(contact: &Contact, body: BodyId) -> Vector {
+    let force = contact.resultant.force;
+    if contact.resultant.on == body {
+        force
+    } else {
+        -force
+    }
+}

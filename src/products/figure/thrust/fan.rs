@@ -1,0 +1,301 @@
+//! The force polygon next to the line of thrust, in the classical form: a load line, a pole, and from the pole a ray for
+//! each joint. Ray and joint have the same number. The ray is the force in the joint; between the ends of two rays lie
+//! the weight and the loads of the block between their joints.
+
+use super::chain::{Chain, chains};
+use crate::analysis::FrameAnalysis;
+use crate::drawing::placement::Ink;
+use crate::drawing::{
+    Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
+use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::scene::{Frame, Scene};
+
+use super::super::view;
+use super::super::words::{force, quantity, round_below};
+
+/// Width of the fans, as a share of the structure's width.
+const WIDTH: f64 = 0.42;
+/// Height of the fans, as a share of the structure's height, and the gap between two of them.
+const HEIGHT: (f64, f64) = (0.8, 0.2);
+/// A structure higher than wide counts as this many times as wide as high, and the other way round, so that its fan is
+/// not a sliver.
+const LEAST_SIDE: f64 = 0.7;
+/// Space to the left of the pole and to the right of the load line, as a share of the structure's larger side.
+const SPACE: (f64, f64) = (0.1, 0.12);
+/// Least width of the fans with their labels, as a share of the structure's larger side.
+const LEAST_WIDTH: f64 = 0.34;
+/// Size of the numbers and of the amounts, pixels.
+const NUMBER_SIZE: f64 = 9.5;
+const AMOUNT_SIZE: f64 = 11.5;
+/// What the weight and the loads of a block leave of its balance is a robot's force if it exceeds this share.
+const ROBOT_TOL: f64 = 1e-6;
+/// Width of the load line, pixels.
+const LOAD_WIDTH: f64 = 1.8;
+/// Numbers on the load line are at least this far apart, pixels.
+const NUMBER_GAP: f64 = 9.0;
+
+/// A fan of a chain in the scene.
+struct Fan {
+    chain: Chain,
+    pole: Point,
+    /// The ends of the rays.
+    vertices: Vec<Point>,
+    /// Length of a newton, metres.
+    metres: f64,
+}
+
+/// The fans of a frame.
+pub(crate) struct Fans {
+    fans: Vec<Fan>,
+    /// Newtons that are a metre long.
+    newtons_per_metre: f64,
+    /// The box around the fans and their labels, metres.
+    pub bounds: Bounds,
+}
+
+impl Fans {
+    /// The fans of a frame to the right of the structure; `None` if no chain of blocks has a thrust. `unit` is the unit
+    /// edge in metres.
+    pub fn new(scene: &Scene, frame: &Frame, found: &FrameAnalysis, unit: f64) -> Option<Fans> {
+        let blocks = frame.placed.iter();
+        let structure = blocks
+            .map(|id| scene.blocks[id.0].body.polygon.bounds())
+            .reduce(Bounds::union)?;
+        let chains = chains(scene, frame, found);
+        let boxes: Vec<Bounds> = chains
+            .iter()
+            .filter_map(|chain| {
+                let tips = chain.forces.iter().map(|f| Point::from(*f));
+                Bounds::from_points(tips.chain([Point::origin()]))
+            })
+            .collect();
+        let widest = boxes.iter().map(|b| b.width()).fold(0.0, f64::max);
+        let high: f64 = boxes.iter().map(|b| b.height()).sum();
+        if chains.is_empty() || widest <= 0.0 || high <= 0.0 {
+            return None;
+        }
+        let side = LEAST_SIDE * structure.width().max(structure.height());
+        let (width, height) = (structure.width().max(side), structure.height().max(side));
+        let gaps = HEIGHT.1 * height * (boxes.len() - 1) as f64;
+        let metres =
+            (WIDTH * width / widest).min((HEIGHT.0 * height - gaps).max(0.2 * height) / high);
+        let right = view::ground_shown(scene, unit)
+            .map_or(structure.max.x, |ground| structure.max.x.max(ground.max.x));
+        let larger = structure.width().max(structure.height());
+        let left = right + SPACE.0 * larger;
+        let mut top = structure.max.y;
+        let mut fans = Vec::new();
+        for (chain, own) in chains.into_iter().zip(boxes) {
+            let pole = Point::new(left - metres * own.min.x, top - metres * own.max.y);
+            let vertices = chain.forces.iter().map(|f| pole + *f * metres).collect();
+            top -= metres * own.height() + HEIGHT.1 * height;
+            fans.push(Fan {
+                chain,
+                pole,
+                vertices,
+                metres,
+            });
+        }
+        let bounds = Bounds {
+            min: Point::new(right, top.min(structure.min.y)),
+            max: Point::new(
+                (left + metres * widest + SPACE.1 * larger).max(right + LEAST_WIDTH * larger),
+                structure.max.y,
+            ),
+        };
+        Some(Fans {
+            fans,
+            newtons_per_metre: 1.0 / metres,
+            bounds,
+        })
+    }
+
+    /// Draws the fans, and the numbers of the joints on the structure. Labels avoid `ink`.
+    pub fn draw(
+        &self,
+        scene: &Scene,
+        found: &FrameAnalysis,
+        camera: &Camera,
+        theme: &Theme,
+        ink: &mut Ink,
+    ) -> Group {
+        let mut group = Group::with_class("polygon").titled("Force polygon");
+        let mut number = 0;
+        let middle = 0.5 * (self.bounds.min.x + self.bounds.max.x);
+        let page = camera.rect(self.bounds);
+        ink.rect(page);
+        for fan in &self.fans {
+            fan.draw(scene, number, (camera, page), theme, &mut group);
+            fan.number_joints(found, number, middle, (camera, theme), ink, &mut group);
+            number += fan.vertices.len();
+        }
+        self.draw_scale(camera, theme, page, &mut group);
+        group
+    }
+
+    /// Draws a bar of a round force below the fans.
+    fn draw_scale(&self, camera: &Camera, theme: &Theme, page: PageRect, group: &mut Group) {
+        let points = self.fans.iter().flat_map(|f| &f.vertices);
+        let all = points.chain(self.fans.iter().map(|fan| &fan.pole)).copied();
+        let Some(all) = Bounds::from_points(all) else {
+            return;
+        };
+        let newtons = round_below(0.7 * all.width() * self.newtons_per_metre);
+        let amount = quantity(newtons, "N");
+        let length = camera.length(newtons / self.newtons_per_metre);
+        let low = camera.place(Point::new(all.min.x, all.min.y));
+        let wide = length + 5.0 + text::width(&amount, Face::Sans, AMOUNT_SIZE);
+        let at = PagePoint::new(within(low.x, wide, page), low.y + 2.4 * AMOUNT_SIZE);
+        if wide > page.width {
+            return;
+        }
+        let mut bar = Outline::line([at, at.moved(length, 0.0)]);
+        for x in [0.0, length] {
+            bar.extend(Outline::line([at.moved(x, -3.0), at.moved(x, 3.0)]));
+        }
+        group
+            .items
+            .push(Path::stroked(bar, Stroke::new(theme.faint, 1.2)).into());
+        let words = at.moved(length + 5.0, 0.36 * AMOUNT_SIZE);
+        let words = Text::new(words, amount, Face::Sans, AMOUNT_SIZE, theme.faint);
+        group.items.push(words.into());
+    }
+}
+
+impl Fan {
+    /// Draws the load line, the rays and their numbers, which follow `before`.
+    fn draw(
+        &self,
+        scene: &Scene,
+        before: usize,
+        (camera, page): (&Camera, PageRect),
+        theme: &Theme,
+        group: &mut Group,
+    ) {
+        let pole = camera.place(self.pole);
+        let last = self.vertices.len() - 1;
+        for (k, (vertex, ray)) in self.vertices.iter().zip(&self.chain.forces).enumerate() {
+            let width = if k == 0 || k == last { 1.8 } else { 0.9 };
+            let line = Outline::line([pole, camera.place(*vertex)]);
+            let title = format!("Ray {}: {}", before + k + 1, force(*ray));
+            let drawn = Group::with_class("ray").titled(title);
+            let path = Path::stroked(line, Stroke::new(theme.motion, width));
+            group.items.push(drawn.with(path).into());
+        }
+        self.draw_load_line(scene, camera, theme, group);
+        let words = |at: PagePoint, words: String, size: f64, anchor: Anchor| {
+            Text::new(at, words, Face::Sans, size, theme.ink).anchored(anchor)
+        };
+        let o = words(
+            pole.moved(-4.0, 0.36 * NUMBER_SIZE),
+            "O".into(),
+            NUMBER_SIZE,
+            Anchor::End,
+        );
+        group.items.push(o.into());
+        let mut below = f64::NEG_INFINITY;
+        for (k, vertex) in self.vertices.iter().enumerate() {
+            let at = camera.place(*vertex).moved(6.0, 0.36 * NUMBER_SIZE);
+            let free = at.y - below >= NUMBER_GAP;
+            let reserved = camera.place(self.vertices[last]).y + 0.36 * NUMBER_SIZE - at.y;
+            if free && (k == last || reserved >= NUMBER_GAP) {
+                let number = (before + k + 1).to_string();
+                group
+                    .items
+                    .push(words(at, number, NUMBER_SIZE, Anchor::Start).into());
+                below = at.y;
+            }
+        }
+        // The pole distance is the thrust.
+        let across = quarter_turn(scene.down());
+        let thrust = quantity(self.chain.thrust(across), "N");
+        let ends = self.vertices.iter().copied().chain([self.pole]);
+        let Some(all) = Bounds::from_points(ends) else {
+            return;
+        };
+        let at = camera.place(Point::new(all.min.x, all.min.y));
+        let thrust = format!("H = {thrust}");
+        let wide = text::width(&thrust, Face::Sans, AMOUNT_SIZE);
+        let at = PagePoint::new(within(at.x, wide, page), at.y + 1.25 * AMOUNT_SIZE);
+        let label = words(at, thrust, AMOUNT_SIZE, Anchor::Start);
+        if wide <= page.width {
+            group.items.push(label.into());
+        }
+    }
+
+    /// Draws the weights, the loads and the forces of robots from the end of each ray to the next.
+    fn draw_load_line(&self, scene: &Scene, camera: &Camera, theme: &Theme, group: &mut Group) {
+        for (k, id) in self.chain.blocks.iter().enumerate() {
+            let block = &scene.blocks[id.0];
+            let loads = scene.loads.iter().filter(|l| l.block == *id);
+            let loads = loads.map(|l| (l.force, theme.load, "Load"));
+            let weight = (scene.down() * block.weight, theme.ink, "Weight");
+            let mut pieces: Vec<_> = [weight].into_iter().chain(loads).collect();
+            let sum = self.chain.forces[k + 1] - self.chain.forces[k];
+            let held: Vector = sum - pieces.iter().map(|p| p.0).sum::<Vector>();
+            if held.norm() > ROBOT_TOL * sum.norm() {
+                pieces.push((held, theme.faint, "Robots"));
+            }
+            let mut at = self.vertices[k];
+            for (amount, colour, what) in pieces {
+                let end = at + amount * self.metres;
+                let line = Outline::line([at, end].map(|p| camera.place(p)));
+                let title = format!("{what} on block {}: {}", block.id, force(amount));
+                let path = Path::stroked(line, Stroke::new(colour, LOAD_WIDTH));
+                let drawn = Group::with_class("load").titled(title).with(path);
+                group.items.push(drawn.into());
+                at = end;
+            }
+        }
+        for vertex in &self.vertices {
+            let dot = Outline::circle(camera.place(*vertex), 0.8 * LOAD_WIDTH);
+            group.items.push(Path::filled(dot, theme.ink).into());
+        }
+    }
+
+    /// Writes the number of each joint next to the end of the joint that is farther from the middle of the structure.
+    fn number_joints(
+        &self,
+        found: &FrameAnalysis,
+        before: usize,
+        middle: f64,
+        (camera, theme): (&Camera, &Theme),
+        ink: &mut Ink,
+        group: &mut Group,
+    ) {
+        let points = self.chain.joints.iter();
+        let points = points.map(|j| found.contacts[*j].resultant.at);
+        let own = Bounds::from_points(points).map_or(middle, |b| 0.5 * (b.min.x + b.max.x));
+        for (k, joint) in self.chain.joints.iter().enumerate() {
+            let ends = found.contacts[*joint].interface.ends;
+            let outward = |p: &Point| p.y + 0.5 * (p.x - own).abs();
+            let [inner, outer] = if outward(&ends[0]) < outward(&ends[1]) {
+                ends
+            } else {
+                [ends[1], ends[0]]
+            };
+            let number = (before + k + 1).to_string();
+            let wide = text::width(&number, Face::Sans, NUMBER_SIZE);
+            let along: Vector = outer - inner;
+            let (x, y) = camera.turn(along);
+            let length = x.hypot(y).max(f64::MIN_POSITIVE);
+            let (x, y) = (x / length, y / length);
+            let centre = camera.place(outer).moved((4.0 + 0.6 * wide) * x, 8.5 * y);
+            ink.rect(PageRect {
+                at: centre.moved(-0.5 * wide, -0.5 * NUMBER_SIZE),
+                width: wide,
+                height: NUMBER_SIZE,
+            });
+            let at = centre.moved(0.0, 0.36 * NUMBER_SIZE);
+            let label = Text::new(at, number, Face::Sans, NUMBER_SIZE, theme.motion);
+            let label = label.anchored(Anchor::Middle).with_halo(theme.page, 1.6);
+            group.items.push(label.into());
+        }
+    }
+}
+
+/// The left end of a text of this width that begins at `x` if the page has space for it, and ends at its edge otherwise.
+fn within(x: f64, wide: f64, page: PageRect) -> f64 {
+    x.min(page.at.x + page.width - wide)
+}
