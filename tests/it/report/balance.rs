@@ -99,21 +99,51 @@ fn check((caption, head, rows): &(String, String, Vec<Row>)) {
 
 #[test]
 fn the_printed_forces_balance_and_their_moments_follow_from_them() {
-    let arch = include_str!("../intervals/archmech.json");
-    let plank = include_str!("../intervals/plank.json");
-    let starter = include_str!("../../../assets/starter.json");
-    let folder = Folder::new(&[
-        ("in/a.json", STANDS),
-        ("in/b.json", FALLS),
-        ("in/c.json", arch),
-        ("in/d.json", plank),
-        ("in/e.json", starter),
-    ]);
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes");
+    let named = [
+        "arch13",
+        "arch13thin",
+        "archload",
+        "buttress",
+        "doorway",
+        "leaning",
+        "loaded",
+        "robots10",
+        "slide",
+        "tinyhuge",
+        "masonry/arch-on-piers",
+        "masonry/arch-spreads",
+        "masonry/corbels",
+        "masonry/cranes",
+        "masonry/flat-arch",
+    ];
+    let mut files = vec![
+        ("in/a.json".to_owned(), STANDS.to_owned()),
+        ("in/b.json".to_owned(), FALLS.to_owned()),
+        (
+            "in/c.json".to_owned(),
+            include_str!("../intervals/archmech.json").to_owned(),
+        ),
+        (
+            "in/d.json".to_owned(),
+            include_str!("../intervals/plank.json").to_owned(),
+        ),
+    ];
+    files.extend(named.map(|name| {
+        let text = std::fs::read_to_string(format!("{scenes}/{name}.json"));
+        (format!("in/{name}.json"), text.expect("readable"))
+    }));
+    let files: Vec<(&str, &str)> = files
+        .iter()
+        .map(|(name, text)| (name.as_str(), text.as_str()))
+        .collect();
+    let folder = Folder::new(&files);
     folder.done("report in -o r.md");
     let balances = balances(&folder.text("r.md"));
     assert!(
-        balances.len() >= 9,
-        "two for nearly each of five scenes: {}",
+        balances.len() >= 2 * files.len() - 2,
+        "two for nearly each of {} scenes: {}",
+        files.len(),
         balances.len()
     );
     balances.iter().for_each(check);

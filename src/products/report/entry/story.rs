@@ -41,7 +41,9 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
         Verdict::Undecided => None,
         Verdict::Unstable => {
             let mut said: Vec<String> = unsupported_phrase(scene, found).into_iter().collect();
-            said.extend(collapse(analysis, number, &found.mechanism));
+            // The mechanism that the figure shows.
+            let shown = alone(analysis, number).elementary();
+            said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
         }
         Verdict::Stable => {
@@ -70,11 +72,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     if mechanism.is_empty() {
         return None;
     }
-    let mut moved = Analysis {
-        scene: analysis.scene.clone(),
-        frames: vec![analysis.frames[number].clone()],
-        notes: Vec::new(),
-    };
+    let mut moved = alone(analysis, number);
     moved.frames[0].mechanism = mechanism.to_vec();
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
     let found = joints(&moved, 0);
@@ -116,7 +114,16 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     })
 }
 
-/// The number of blocks that move.
+/// Makes an analysis of one frame.
+fn alone(analysis: &Analysis, number: usize) -> Analysis {
+    Analysis {
+        scene: analysis.scene.clone(),
+        frames: vec![analysis.frames[number].clone()],
+        notes: Vec::new(),
+    }
+}
+
+/// Counts the blocks that move.
 fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
     let moving = mechanism.iter().filter(|m| m.fastest(scene) > MOTION_TOL);
     moving.count()

@@ -46,17 +46,20 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
 fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
     let id = format!("scene-{number}-step-{place}");
     let label = format!("{} {}", section.letter, section.title);
-    let label = if label.trim().is_empty() {
-        "Sheet"
-    } else {
-        label.trim()
+    // A landmark needs a name that no other has.
+    let label = match label.trim() {
+        "" => None,
+        label => Some(format!("Scene {number}: {label}")),
     };
     let mut writer = Writer {
         mark: format!("s{number}x{place}x"),
+        place: format!("{number}.{place}"),
+        level: if section.title.is_empty() { 3 } else { 4 },
         figures: 0,
+        tables: 0,
     };
     html! {
-        section.step.newpage[section.begins_page] id=(id) aria-label=(label) {
+        section.step.newpage[section.begins_page] id=(id) aria-label=[label] {
             @if !section.title.is_empty() {
                 h3 {
                     @if !section.letter.is_empty() { "(" (section.letter) ") " }
@@ -72,7 +75,12 @@ fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
 /// Writes the parts of a section and numbers its figures.
 struct Writer {
     mark: String,
+    /// The numbers of the scene and of the section.
+    place: String,
+    /// The level of the headings of parts.
+    level: u8,
     figures: usize,
+    tables: usize,
 }
 
 impl Writer {
@@ -84,15 +92,52 @@ impl Writer {
         html! {
             @match part {
                 SheetPart::Badge(of) => (badge(of)),
-                SheetPart::Heading(words) => h4 { bdi dir="ltr" { (words) } },
+                SheetPart::Heading(words) => {
+                    @if self.level == 3 { h3.part { bdi dir="ltr" { (words) } } }
+                    @else { h4.part { bdi dir="ltr" { (words) } } }
+                },
                 // Sentences run from left to right, even if they begin with a name in another script.
                 SheetPart::Text(words) => p.text { bdi dir="ltr" { (words) } },
                 SheetPart::Note(words) => p.small { bdi dir="ltr" { (words) } },
                 SheetPart::Figures(figures) => div.plates { @for figure in figures { (self.plate(figure)) } },
-                SheetPart::Table(of) => (grid(of)),
+                SheetPart::Table(of) => (self.grid(of)),
                 SheetPart::Columns(columns) => div.columns { @for parts in columns { div { (self.parts(parts)) } } },
                 SheetPart::Charts(charts) => div.charts { @for of in charts { (chart(of)) } },
             }
+        }
+    }
+
+    fn grid(&mut self, of: &Grid) -> Markup {
+        if of.lines.is_empty() {
+            return html! {};
+        }
+        self.tables += 1;
+        let what = match (of.caption.as_str(), of.heads.first()) {
+            ("", Some((head, _))) => head,
+            (caption, _) => caption,
+        };
+        let label = format!("Table {}.{}: {what}", self.place, self.tables);
+        let table = html! {
+            div.wide tabindex="0" role="region" aria-label=(label) {
+                table.sums[of.has_sum].margins[of.heads.iter().any(|h| h.0 == "bar")] {
+                    @if !of.caption.is_empty() { caption { (of.caption) } }
+                    thead { tr { @for (head, number) in &of.heads { th.number[*number] scope="col" { (head) } } } }
+                    tbody {
+                        @for line in &of.lines {
+                            tr data-mark=[(!line.mark.is_empty()).then_some(&line.mark)] {
+                                @for (i, of_cell) in line.cells.iter().enumerate() {
+                                    td.number[of.heads.get(i).is_some_and(|h| h.1)] { (cell(of_cell)) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        };
+        html! {
+            @if of.lines.len() > LONG {
+                details.long { summary { (label) ": " (of.lines.len()) " lines" } (table) }
+            } @else { (table) }
         }
     }
 
@@ -170,38 +215,6 @@ fn cell(cell: &TableCell) -> Markup {
         @else if let Some(picture) = &cell.picture { (thumbnail(picture)) }
         @else if cell.strong { strong { bdi dir="ltr" { (cell.words) } } }
         @else { bdi dir="ltr" { (cell.words) } }
-    }
-}
-
-fn grid(of: &Grid) -> Markup {
-    if of.lines.is_empty() {
-        return html! {};
-    }
-    let label = match (of.caption.as_str(), of.heads.first()) {
-        ("", Some((head, _))) => format!("Table by {head}"),
-        (caption, _) => caption.to_owned(),
-    };
-    let table = html! {
-        div.wide tabindex="0" role="region" aria-label=(label) {
-            table.sums[of.has_sum].margins[of.heads.iter().any(|h| h.0 == "bar")] {
-                @if !of.caption.is_empty() { caption { (of.caption) } }
-                thead { tr { @for (head, number) in &of.heads { th.number[*number] scope="col" { (head) } } } }
-                tbody {
-                    @for line in &of.lines {
-                        tr data-mark=[(!line.mark.is_empty()).then_some(&line.mark)] {
-                            @for (i, of_cell) in line.cells.iter().enumerate() {
-                                td.number[of.heads.get(i).is_some_and(|h| h.1)] { (cell(of_cell)) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    };
-    html! {
-        @if of.lines.len() > LONG {
-            details.long { summary { (label) ": " (of.lines.len()) " lines" } (table) }
-        } @else { (table) }
     }
 }
 
