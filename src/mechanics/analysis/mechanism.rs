@@ -62,7 +62,8 @@ impl Analysis {
     }
 
     /// Returns the nearer limit of stability of a frame (numbered from 0), and the elementary mechanism there. `None`
-    /// if margins were not computed or the frame does not fall in this direction.
+    /// if margins were not computed or the frame does not fall in this direction. Loads without largest factor have the
+    /// least.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -78,7 +79,7 @@ impl Analysis {
         let edges = match toward {
             Toward::Tilt => sides(&margins.tilt),
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
-            Toward::LoadFactor => [side(&margins.load_factor, 1.0), None],
+            Toward::LoadFactor => [side(&margins.load_factor, 1.0), margins.least_factor()],
         };
         // Take the nearer of the two sides.
         let (at, motions) = edges
@@ -100,7 +101,8 @@ impl Analysis {
                 scene.gravity = gravity + quarter_turn(gravity) * share;
             }
             Toward::LoadFactor => {
-                let factor = at * (1.0 + BEYOND.to_radians());
+                let outward = margins.least_factor().map_or(1.0, |_| -1.0);
+                let factor = at * (1.0 + outward * BEYOND.to_radians());
                 for load in &mut scene.loads {
                     load.force *= factor;
                     load.torque *= factor;

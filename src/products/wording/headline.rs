@@ -1,7 +1,7 @@
 //! [`headline`]: describes the most important margin in one sentence.
 
 use super::margin::{Parameter, StatedMargin, confirmed};
-use super::number::three;
+use super::number::{three_down, three_up};
 use crate::analysis::{End, Interval, Verdict};
 
 /// Describes a margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33
@@ -29,12 +29,21 @@ fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
 }
 
 fn carries(margin: &StatedMargin<'_>, load: &str) -> String {
-    match end(margin.interval.high(), &three) {
+    let low = margin.interval.low().and_then(confirmed);
+    match end(margin.interval.high(), &three_down) {
         Some(value) => format!("It carries {value} times its {load}"),
         None if matches!(margin.interval, Interval::Undecided) => {
             format!("It carries its {load}; no proof shows how much more")
         }
-        None => format!("It carries any multiple of its {load}"),
+        None => match low {
+            Some(low) if low > 0.0 => {
+                format!(
+                    "It carries {} times its {load} and any larger multiple",
+                    three_up(low)
+                )
+            }
+            _ => format!("It carries any multiple of its {load}"),
+        },
     }
 }
 
@@ -43,9 +52,9 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
         return format!("It falls; no proof shows which part of its {load} it carries");
     }
     let low = margin.interval.low().and_then(confirmed);
-    match (low, end(margin.interval.high(), &three)) {
+    match (low, end(margin.interval.high(), &three_down)) {
         (Some(low), _) if low > 1.0 => {
-            format!("It falls: it needs {} times its {load}", three(low))
+            format!("It falls: it needs {} times its {load}", three_up(low))
         }
         (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
         _ => format!("It falls at every factor on its {load}"),
@@ -69,7 +78,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
             Some((angle, side)) => {
                 format!(
                     "It stands until gravity turns {}° to the {side}",
-                    three(angle)
+                    three_down(angle)
                 )
             }
             None => "It stands however far gravity turns".to_owned(),
@@ -77,7 +86,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         Parameter::HorizontalLoad => match nearest() {
             Some((share, side)) => format!(
                 "It stands until a horizontal force of {} of its weight pushes it to the {side}",
-                three(share)
+                three_down(share)
             ),
             None => "It stands under any horizontal push".to_owned(),
         },
@@ -85,12 +94,12 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
             Some(least) if least > 0.0 => {
                 format!(
                     "It stands down to a friction coefficient of {}",
-                    three(least)
+                    three_up(least)
                 )
             }
             _ => "It stands even without friction".to_owned(),
         },
-        Parameter::Kernel => match end(margin.interval.high(), &three) {
+        Parameter::Kernel => match end(margin.interval.high(), &three_down) {
             Some(most) => format!("It stands up to a safety kernel of {most}"),
             None => "It stands at every safety kernel".to_owned(),
         },
@@ -103,7 +112,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
     match (margin.parameter, low) {
         (Parameter::Friction, Some(least)) if least > 0.0 => format!(
             "It falls: it would stand with a friction coefficient of {}",
-            three(least)
+            three_up(least)
         ),
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
             "It falls at every friction coefficient".to_owned()

@@ -167,6 +167,30 @@ pub fn three(x: f64) -> String {
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
+/// Writes a number above 0 like [`three`], but never larger than it is, as far as margins are accurate.
+pub fn three_down(x: f64) -> String {
+    three_beyond(x, -1.0)
+}
+
+/// Writes a number above 0 like [`three`], but never smaller than it is, as far as margins are accurate.
+pub fn three_up(x: f64) -> String {
+    three_beyond(x, 1.0)
+}
+
+/// Writes a number with three significant digits, or the next such number in the direction of `sign` if rounding went the
+/// other way.
+fn three_beyond(x: f64, sign: f64) -> String {
+    // Margins are accurate to this relative distance.
+    const ACCURATE: f64 = 1e-6;
+    let nearest = three(x);
+    let written: f64 = nearest.parse().unwrap_or(x);
+    if x <= 0.0 || (x - written) * sign <= ACCURATE * x {
+        return nearest;
+    }
+    let digit = libm::exp10(libm::floor(libm::log10(x)) - 2.0);
+    three(written + sign * digit)
+}
+
 /// Chooses one unit for a column of numbers up to `largest`. Returns the unit with its SI prefix, and the factor for
 /// the numbers.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {

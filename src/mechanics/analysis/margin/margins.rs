@@ -96,6 +96,18 @@ pub struct Margins {
 impl Margins {
     /// The largest friction coefficient that is tried.
     pub const MOST_FRICTION: f64 = 1e3;
+
+    /// Returns the least factor on loads that may grow without limit, and the mechanism below it. `None` if they may not,
+    /// or if no factor is too small.
+    pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
+        let low = self.intervals.load_factor.as_ref()?.low()?;
+        match (&self.load_factor, low) {
+            (Margin::Unbounded, End::At { value, mechanism }) if !mechanism.is_empty() => {
+                Some((*value, mechanism.clone()))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// A robot's least sufficient limits. Each limit is changed alone; the robot's other limits and those of other robots

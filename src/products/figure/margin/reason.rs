@@ -65,7 +65,10 @@ fn parameter(toward: Toward) -> &'static str {
 /// Describes the margin of a frame that stands: the nearest end of the interval, and for loads also the lower end.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
-    if let Some((edge, _)) = analysis.edge(frame, toward) {
+    // Below the least factor on its loads a frame falls, but it is not what loads may grow to.
+    let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
+    let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
+    if let Some(edge) = edge.filter(is_upper) {
         return match toward {
             Toward::Tilt => format!(
                 "falls once gravity is turned by {} to the {}",

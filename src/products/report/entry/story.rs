@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::text::line;
 use crate::wording::failure::{shortened, unsupported_phrase};
 use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
-use crate::wording::number::{counted, listed, place, three};
+use crate::wording::number::{counted, listed, place, three, three_down, three_up};
 
 /// A sentence names at most this many joints or blocks.
 const MAX_NAMED: usize = 4;
@@ -50,7 +50,10 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
             let toward = toward(found)?;
             let (value, mechanism) = analysis.edge(number, toward)?;
             let when = match toward {
-                Toward::LoadFactor => format!("At {} times its loads", three(value)),
+                Toward::LoadFactor if value < 1.0 => {
+                    format!("Below {} times its loads", three_up(value))
+                }
+                Toward::LoadFactor => format!("At {} times its loads", three_up(value)),
                 Toward::Tilt => {
                     let side = if value < 0.0 { "left" } else { "right" };
                     format!("If gravity turns {}° to the {side}", three(value.abs()))
@@ -147,35 +150,46 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     let now = three(margin.present.map_or(0.0, |present| present.0));
     let inside = margin.position == Position::Inside;
     Some(match (margin.parameter, verdict, inside) {
-        (Parameter::LoadFactor, Verdict::Stable, true) => match high {
-            Some(high) => format!("It would fall under {} times its loads.", three(high)),
+        (Parameter::LoadFactor, Verdict::Stable, true) => match (low, high) {
+            (Some(low), Some(high)) if low > 0.0 => format!(
+                "It would fall under {} times its loads, and under less than {} times.",
+                three_up(high),
+                three_down(low)
+            ),
+            (_, Some(high)) => format!("It would fall under {} times its loads.", three_up(high)),
+            (Some(low), None) if low > 0.0 => {
+                format!(
+                    "It would fall under less than {} times its loads.",
+                    three_down(low)
+                )
+            }
             _ => "No multiple of its loads makes it fall.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
             (Some(low), _) if low > 1.0 => {
-                format!("It would stand under {} times its loads.", three(low))
+                format!("It would stand under {} times its loads.", three_up(low))
             }
-            (_, Some(high)) => format!("It would stand under {} of its loads.", three(high)),
+            (_, Some(high)) => format!("It would stand under {} of its loads.", three_down(high)),
             _ => "It falls whatever the factor on its loads.".to_owned(),
         },
         (Parameter::Friction, Verdict::Stable, true) => match low {
             Some(low) if low > 0.0 => {
-                let low = three(low);
+                let low = three_down(low);
                 format!("It would fall with a friction coefficient below {low}; now {now}.")
             }
             _ => "It needs no friction.".to_owned(),
         },
         (Parameter::Friction, Verdict::Unstable, false) => match low {
             Some(low) if low > 0.0 => {
-                let low = three(low);
+                let low = three_up(low);
                 format!("It would stand with a friction coefficient of {low}; now {now}.")
             }
             _ => "More friction does not help.".to_owned(),
         },
         (Parameter::Tilt, Verdict::Stable, _) => {
             let sides = [
-                low.map(|v| format!("{}° to the left", three(v.abs()))),
-                high.map(|v| format!("{}° to the right", three(v))),
+                low.map(|v| format!("{}° to the left", three_up(v.abs()))),
+                high.map(|v| format!("{}° to the right", three_up(v))),
             ];
             let sides: Vec<String> = sides.into_iter().flatten().collect();
             match sides.is_empty() {
