@@ -39,6 +39,9 @@ const AVOIDED_COST: f64 = 110.0;
 /// Positions whose costs differ by less than this, pixels, are equally good, and the first one tried is taken: rounding
 /// must not decide.
 const COST_TIE: f64 = 1e-3;
+/// After this number of labels without a free position the page is full: the others get their preferred position or
+/// none. A search around an anchor among thousands of arrows takes tens of milliseconds.
+const MAX_MISSES: usize = 100;
 
 /// A label that needs a position.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,9 +99,14 @@ pub fn place_avoiding(
     ink.index();
     let ink_without_labels = ink.clone();
     let mut placed = Vec::with_capacity(requests.len());
+    let mut misses = 0;
     for (number, request) in requests.iter().enumerate() {
-        let position = preferred_position(ink, page, request)
-            .or_else(|| ring_position(ink, page, request, &|rect| avoid(number, rect)));
+        let position =
+            preferred_position(ink, page, request).or_else(|| match misses < MAX_MISSES {
+                true => ring_position(ink, page, request, &|rect| avoid(number, rect)),
+                false => None,
+            });
+        misses += usize::from(position.is_none());
         ink.add_label(position.as_ref());
         placed.push(position);
     }

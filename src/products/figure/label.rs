@@ -58,10 +58,6 @@ const SPELLED: &str = "U+";
 /// Height of a line, as a multiple of the font size.
 const LINE_HEIGHT: f64 = 0.96;
 
-/// Positions are sought for this number of labels of a frame. More do not fit anyway, and with thousands of loads the
-/// search would take minutes.
-const MAX_PLACED: usize = 500;
-
 /// A label without a position yet.
 struct Label {
     /// Its lines of text.
@@ -115,8 +111,7 @@ pub(crate) fn labels_with(
     }
     let mut ink = ink();
     let page = pen.camera.rect(view);
-    let placed_first = labels.iter().take(MAX_PLACED);
-    let requests: Vec<LabelRequest> = placed_first.map(|l| l.request.clone()).collect();
+    let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
     let solids = Solids::new(pen);
     let covers_other_block = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
@@ -124,7 +119,6 @@ pub(crate) fn labels_with(
     };
     let places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
     let mut missing: Vec<(&str, usize)> = Vec::new();
-    let places = places.into_iter().chain(std::iter::repeat(None));
     for (label, placed) in labels.iter().zip(places) {
         if placed.is_none_or(|p| p.avoided) {
             pen.context.cramped.set(pen.context.cramped.get() + 1);
