@@ -579,6 +579,15 @@ fn slow_cuts_of_the_tilt_are_hurried() {
     assert!(found.is_empty(), "{found:?}");
 }
 
+/// Ends beyond half a turn were once off by 0.0001005 degrees.
+#[test]
+fn a_tilt_beyond_half_a_turn_is_as_exact_as_a_small_one() {
+    for number in [10581, 10850] {
+        let found = problems(number);
+        assert!(found.is_empty(), "{found:?}");
+    }
+}
+
 #[test]
 fn a_session_has_the_margins_of_the_scene() {
     for number in 0..12 {

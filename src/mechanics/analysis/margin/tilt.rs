@@ -243,9 +243,9 @@ pub(super) fn steps() -> impl Iterator<Item = f64> {
         .take_while(|step| *step <= FAR)
 }
 
-/// Returns the size in degrees to which distances from a tilt are relative: its magnitude, at least 1.
+/// Returns the size in degrees to which distances from a tilt are relative: its magnitude, from 1 to a right angle.
 pub(super) fn size(turn: f64) -> f64 {
-    turn.abs().max(1.0)
+    turn.abs().clamp(1.0, 90.0)
 }
 
 /// Returns the end of the tilts on one side (`side` is −1 or 1) if only weights act and no limit bounds a force. The
