@@ -192,7 +192,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     assert_eq!(all(&drawing.items, "gravity").len(), 1);
     let svg = drystone::output::svg::write(&drawing);
     assert!(
-        svg.contains("falls once gravity is turned by 14° to the"),
+        svg.contains("falls once gravity is turned by 14° to "),
         "{svg}"
     );
     // Without margins there is nothing to show, and that is said.

@@ -40,6 +40,11 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
 /// Describes briefly why a frame does not stand, or that it stands only by wedging, for the line below a figure.
 /// Empty if it stands otherwise.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
+    if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
+        // What decides has to fit in two lines. Remedies are in the report and on the terminal.
+        let doubt = found.doubt();
+        return doubt.split("; ").next().unwrap_or_default().to_owned();
+    }
     let mut sentences = Vec::new();
     sentences.extend(unsupported_phrase(scene, found));
     if !found.failures.is_empty() {
@@ -54,9 +59,6 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
         sentences.push(
             "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
         );
-    }
-    if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
-        sentences.push(found.doubt());
     }
     sentences.join("; ")
 }

@@ -296,5 +296,5 @@ fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
     let ran = bench.run("render stands.json --kind margin --margin horizontal-load -o push.svg");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("push.svg")).expect("drawn");
-    assert!(svg.contains("of each weight pushes to the"), "{svg}");
+    assert!(svg.contains("falls once pushed by "), "{svg}");
 }

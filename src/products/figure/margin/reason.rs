@@ -64,22 +64,22 @@ fn parameter(toward: Toward) -> &'static str {
 
 /// Describes the margin of a frame that stands: the nearest end of the interval, and for loads also the lower end.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
-    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     // Below the least factor on its loads a frame falls, but it is not what loads may grow to.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {
         return match toward {
-            Toward::Tilt => format!(
-                "falls once gravity is turned by {} to the {}",
-                degrees(edge.abs()),
-                side(edge)
-            ),
-            Toward::HorizontalLoad => format!(
-                "falls once {} of each weight pushes to the {} as well",
-                percent_of(edge),
-                side(edge)
-            ),
+            Toward::Tilt => {
+                let turn = |edge: f64| degrees(edge.abs());
+                format!(
+                    "falls once gravity is turned by {}",
+                    both_ends(edge, interval, turn)
+                )
+            }
+            Toward::HorizontalLoad => {
+                let push = |edge: f64| format!("{} of each weight", percent_of(edge));
+                format!("falls once pushed by {}", both_ends(edge, interval, push))
+            }
             Toward::LoadFactor => {
                 let below = least_factor(interval);
                 let below = below.map_or_else(String::new, |low| {
@@ -108,6 +108,28 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
             ),
         },
         _ => "how far it is from falling was not found".to_owned(),
+    }
+}
+
+/// Describes the nearer end of an interval about 0, and the end on its other side if that is known.
+fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
+    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
+    let ends = [interval.low(), interval.high()].into_iter().flatten();
+    let mut ends = ends.filter_map(End::value);
+    let near = amount(edge);
+    match ends
+        .find(|other| other * edge < 0.0)
+        .map(|other| (other, amount(other)))
+    {
+        Some((_, far)) if far == near => format!("{near} to either side"),
+        Some((other, far)) => {
+            format!(
+                "{near} to the {}, or by {far} to the {}",
+                side(edge),
+                side(other)
+            )
+        }
+        None => format!("{near} to the {}", side(edge)),
     }
 }
 
