@@ -23,7 +23,7 @@ use crate::geometry::{Bounds, Vector};
 /// over most of their lengths. Arrows at a larger angle cross, and a reader can distinguish them.
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Gap between two parallel arrows, in widths of the wider shaft.
-const GAP: f64 = 0.4;
+pub(super) const GAP: f64 = 0.4;
 /// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows of the
 /// frame. It saves time and does not change the result: see `offset_of_least_change`.
 const NEARBY: f64 = 24.0;

@@ -5,6 +5,7 @@
 //! ([Vallat23](crate::doc::references) §2.0.9). Arrows of robots are wider. Arrows of missing forces are widest and
 //! red.
 
+use super::apart;
 use super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
 use super::unit::unit;
@@ -423,17 +424,56 @@ impl ArrowMaker<'_> {
                     Some(_) => force * self.metres_per_newton,
                     None => self.missing(force, largest),
                 };
+                let width = self.width(look.1, vector);
+                // The figures of the source begin every arrow at its point.
+                let at = match self.options.printed() {
+                    true => at,
+                    false => self.on_own_side(kind, block, at, vector, width),
+                };
                 marks.arrows.push(ForceArrow {
                     on,
                     at,
                     vector,
                     force,
                     colour: look.0,
-                    width: self.width(look.1, vector),
+                    width,
                     head: self.head(),
                     kind,
                 });
             }
+        }
+    }
+}
+
+impl ArrowMaker<'_> {
+    /// Returns the beginning, in metres, at which the arrow of a missing force lies on its own block.
+    ///
+    /// A missing pull moves along its line of action until its head is at the joint: begun there, it would lie on the other
+    /// block and look like a push. Missing friction moves across by half the distance of parallel arrows.
+    fn on_own_side(
+        &self,
+        kind: ArrowKind,
+        block: BlockId,
+        at: Point,
+        vector: Vector,
+        width: f64,
+    ) -> Point {
+        match kind {
+            ArrowKind::MissingPull(_) => {
+                // The heads of the pair stay apart by a little more than the gap between arrows.
+                let length = vector.norm();
+                at - vector * ((length + 0.6 * apart::GAP * width) / length)
+            }
+            ArrowKind::MissingFriction(_) => {
+                let left = quarter_turn(vector) / vector.norm();
+                let across = left * (0.5 * (1.0 + apart::GAP) * width);
+                let polygon = &self.scene.blocks[block.0].body.polygon;
+                match polygon.contains(at + across * 0.1) {
+                    true => at + across,
+                    false => at - across,
+                }
+            }
+            _ => at,
         }
     }
 }
