@@ -375,8 +375,8 @@ fn entry(
     }
 }
 
-/// Replaces characters that the fonts of drystone lack, in figures only. In Markdown, the reader's program sets the
-/// other text.
+/// Replaces the characters that the fonts of drystone lack, but only in figures. The program that shows the Markdown has
+/// fonts of its own for the other text.
 fn make_figures_legible(
     entry: &mut Entry,
     read: &[(Source, String)],

@@ -98,7 +98,7 @@ impl FromStr for FrameChoice {
         };
         match number {
             Some(number) if number > 0 => Ok(FrameChoice::Number(number - 1)),
-            _ => Err("give the number of a frame from 1, its letter, or last".into()),
+            _ => Err("give a frame: its number, counted from 1, its letter, or `last`".into()),
         }
     }
 }

@@ -177,7 +177,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
             format!("{}mm", number(mm * drawing.height / drawing.width)),
         ),
     };
-    // Write attributes that most shapes and texts share only once, here.
+    // Most shapes and texts share these attributes, so write them once, here.
     svg.put(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \

@@ -184,7 +184,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     (needed > 0.0).then_some((needed, distances[0].min(distances[1])))
 }
 
-/// Returns the beginning, the end and half the width of the shaft and of the head, in metres along the arrow.
+/// Returns, for the shaft and for the head: where it begins and ends along the arrow, and half its width; all in metres.
 fn parts(arrow: &ForceArrow) -> [(f64, f64, f64); 2] {
     let length = arrow.reach().norm();
     let (long, wide) = head_size(length, arrow.width);

@@ -64,7 +64,7 @@ pub(crate) trait PanelContent: Sync {
         false
     }
 
-    /// True if arrows may be longer than a unit edge if unit edges are short on the page.
+    /// True if arrows may be longer than a unit edge where unit edges are short on the page.
     fn stretches_arrows(&self) -> bool {
         false
     }

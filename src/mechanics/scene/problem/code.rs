@@ -50,7 +50,7 @@ codes! {
     NestedTooDeep "nested_too_deep" "more than 127 brackets are open at once",
     OtherFormat "other_format" "the text is written in another format, such as YAML, TOML or XML",
     NotJson "not_json" "the text is not JSON at this place",
-    WrongType "wrong_type" "a value of another type is expected here, such as a number instead of a string",
+    WrongType "wrong_type" "the value has the wrong type, such as a string where a number is expected",
     WrongLength "wrong_length" "a list has too many or too few entries, such as a point with three coordinates",
     UnknownKey "unknown_key" "the format has no such key here",
     DuplicateKey "duplicate_key" "a key occurs twice in one object",

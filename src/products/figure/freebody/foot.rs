@@ -125,7 +125,10 @@ impl Sheet<'_> {
         }
         let found = &self.analysis.frames[self.frame];
         if found.unsupported.contains(&self.block) {
-            notes.push("no adhesion could hold this block: its forces do not balance".to_owned());
+            notes.push(
+                "the forces on this block do not balance, because no adhesion could hold it"
+                    .to_owned(),
+            );
         }
         notes
     }
