@@ -105,19 +105,11 @@ impl Batch {
             destination::make_folder(folder).map_err(|c| vec![c])?;
         }
         pace.skipped(output.done());
-        let threads = self.jobs.map_or_else(
-            || {
-                let cores = thread::available_parallelism().map_or(1, usize::from);
-                // A thread that writes a picture waits for the disk. More threads than cores keep all cores busy.
-                cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
-            },
-            usize::from,
-        );
         let mut ending = ExitStatus::Done;
         let mut failed = None;
         in_order(
             records,
-            Capacity::new(threads),
+            Capacity::new(self.threads()),
             move |record| work.answer(record),
             |answer| {
                 let written = match answer {
@@ -148,6 +140,18 @@ impl Batch {
             (Some(complaint), _) | (None, Err(complaint)) => Err(vec![complaint]),
             (None, Ok(_)) => Ok(ending),
         }
+    }
+
+    /// Returns the number of threads that analyse scenes.
+    fn threads(&self) -> usize {
+        self.jobs.map_or_else(
+            || {
+                let cores = thread::available_parallelism().map_or(1, usize::from);
+                // A thread that writes a picture waits for the disk. More threads than cores keep all cores busy.
+                cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
+            },
+            usize::from,
+        )
     }
 
     /// Returns the form of the output, from the ending of its file.

@@ -77,57 +77,15 @@ impl Check {
             }
         }
         // If the program itself fails on one scene, the other scenes are still answered.
-        let is_wrong =
-            |(.., complaint): &(usize, PathBuf, CliError)| !complaint.is_internal_fault();
+        let is_wrong = |(.., complaint): &Refused| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
             return Err(refused
                 .into_iter()
                 .map(|(.., complaint)| complaint)
                 .collect());
         }
-        let shown = if terminal.shows_progress() {
-            Shown::WhenLong
-        } else {
-            Shown::Never
-        };
-        let progress = Progress::begin(sources.len(), shown);
-        let options = Options {
-            verdict_only: self.verdict_only,
-            ..self.margins.add_to(self.level.options())
-        };
-        let timing = if self.no_timing {
-            Timing::LeftOut
-        } else {
-            Timing::Included
-        };
         let width = terminal.width();
-        let answer = |source: &Source| -> Answer {
-            let mut analysis = Analysis::with(&source.scene, &options);
-            if self.no_notes {
-                analysis.notes.clear();
-            }
-            let ending = ExitStatus::from_analysis(&analysis);
-            let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
-            if self.json {
-                let file = source.path.to_string_lossy();
-                let json = to_json_of(&file, &analysis, timing, layout);
-                return (ending, verdicts, json, Page::default());
-            }
-            let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
-            page.append(&noted(&analysis.notes));
-            page.end();
-            (ending, verdicts, String::new(), page)
-        };
-        let answers: Vec<Result<Answer, CliError>> = sources
-            .par_iter()
-            .map(|(_, source)| {
-                progress.doing(&source.name());
-                let answer = source::isolated(&source.path, || answer(source));
-                progress.step();
-                answer
-            })
-            .collect();
-        drop(progress);
+        let answers = self.answers(&sources, layout, terminal, width);
 
         let mut done = Vec::new();
         for ((number, source), answer) in sources.into_iter().zip(answers) {
@@ -138,29 +96,11 @@ impl Check {
         }
         refused.sort_by_key(|(number, ..)| *number);
         let printed = if self.json {
-            let mut objects: Vec<String> =
-                done.iter().map(|(_, _, json, _)| json.clone()).collect();
-            for (number, path, complaint) in &refused {
-                let file = path.to_string_lossy();
-                objects.insert(*number, refusal(&file, &complaint.problems(), layout));
-            }
-            terminal.print_bytes(objects.concat().as_bytes())
+            terminal.print_bytes(objects(&done, &refused, layout).as_bytes())
+        } else if terminal.is_quiet() {
+            terminal.print(&Page::default())
         } else {
-            let mut page = Page::default();
-            if !terminal.is_quiet() {
-                for (.., table) in &done {
-                    page.append(table);
-                }
-                if done.len() > 1 {
-                    page.line(&total(
-                        done.iter().map(|(_, verdicts, ..)| verdicts.as_slice()),
-                    ));
-                }
-                if self.explain {
-                    page.append(&table::explained(width));
-                }
-            }
-            terminal.print(&page)
+            terminal.print(&self.tables(&done, width))
         };
         for (.., complaint) in &refused {
             terminal.refuse(complaint);
@@ -174,6 +114,84 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
+    /// Computes the answers for all scenes, in parallel, with their progress on the terminal.
+    fn answers(
+        &self,
+        sources: &[(usize, Source)],
+        layout: Layout,
+        terminal: &Terminal,
+        width: Option<usize>,
+    ) -> Vec<Result<Answer, CliError>> {
+        let shown = if terminal.shows_progress() {
+            Shown::WhenLong
+        } else {
+            Shown::Never
+        };
+        let progress = Progress::begin(sources.len(), shown);
+        let options = Options {
+            verdict_only: self.verdict_only,
+            ..self.margins.add_to(self.level.options())
+        };
+        sources
+            .par_iter()
+            .map(|(_, source)| {
+                progress.doing(&source.name());
+                let answer = source::isolated(&source.path, || {
+                    self.answer(source, &options, layout, width)
+                });
+                progress.step();
+                answer
+            })
+            .collect()
+    }
+
+    /// Computes the answer for one scene.
+    fn answer(
+        &self,
+        source: &Source,
+        options: &Options,
+        layout: Layout,
+        width: Option<usize>,
+    ) -> Answer {
+        let mut analysis = Analysis::with(&source.scene, options);
+        if self.no_notes {
+            analysis.notes.clear();
+        }
+        let timing = if self.no_timing {
+            Timing::LeftOut
+        } else {
+            Timing::Included
+        };
+        let ending = ExitStatus::from_analysis(&analysis);
+        let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
+        if self.json {
+            let file = source.path.to_string_lossy();
+            let json = to_json_of(&file, &analysis, timing, layout);
+            return (ending, verdicts, json, Page::default());
+        }
+        let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
+        page.append(&noted(&analysis.notes));
+        page.end();
+        (ending, verdicts, String::new(), page)
+    }
+
+    /// Returns the tables of all scenes, with the totals and the explanation below them.
+    fn tables(&self, done: &[Answer], width: Option<usize>) -> Page {
+        let mut page = Page::default();
+        for (.., table) in done {
+            page.append(table);
+        }
+        if done.len() > 1 {
+            page.line(&total(
+                done.iter().map(|(_, verdicts, ..)| verdicts.as_slice()),
+            ));
+        }
+        if self.explain {
+            page.append(&table::explained(width));
+        }
+        page
+    }
+
     fn detail(&self, timing: Timing) -> Detail {
         match self.verbose {
             true => Detail::Full(timing),
@@ -184,6 +202,23 @@ impl Check {
 
 /// The exit status of a scene, the verdicts of its frames, and its JSON or its table.
 type Answer = (ExitStatus, Vec<Verdict>, String, Page);
+
+/// The number and the path of a file that got no answer, and the reason.
+type Refused = (usize, PathBuf, CliError);
+
+/// Returns the JSON of all files in their order: answers, and the problems of refused files, which are sorted by number.
+fn objects(done: &[Answer], refused: &[Refused], layout: Layout) -> String {
+    let mut objects: Vec<&str> = done.iter().map(|(_, _, json, _)| json.as_str()).collect();
+    let problems = refused.iter().map(|(number, path, complaint)| {
+        let file = path.to_string_lossy();
+        (*number, refusal(&file, &complaint.problems(), layout))
+    });
+    let problems: Vec<(usize, String)> = problems.collect();
+    for (number, json) in &problems {
+        objects.insert(*number, json);
+    }
+    objects.concat()
+}
 
 /// Counts the verdicts of several scenes: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`.
 fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {

@@ -135,23 +135,7 @@ impl Import {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let stdout = Path::new("-");
         let file = self.output.as_deref().filter(|path| *path != stdout);
-        if self.json && file.is_none() {
-            let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
-            return Err(vec![CliError::CommandLine(why.into())]);
-        }
-        if let Some(file) = file.filter(|f| f.is_dir()) {
-            let why = format!("{} is a folder; name the scene file in it", file.display());
-            return Err(vec![CliError::CommandLine(why)]);
-        }
-        if let Some(file) = file {
-            destination::apart(&[file.to_owned()], &[&self.drawing]).map_err(|c| vec![c])?;
-        }
-        if let (Some(DrawnAt::Metres(metres)), Some(_)) = (self.scale, self.unit) {
-            let why = format!(
-                "--scale {metres} is already metres per unit, so --unit says nothing more; leave one of them out, or give the scale as 1:50"
-            );
-            return Err(vec![CliError::CommandLine(why)]);
-        }
+        self.check_options(file).map_err(|c| vec![c])?;
         let existing = if self.force {
             Existing::Replace
         } else {
@@ -182,10 +166,9 @@ impl Import {
                 let files = [(path.to_owned(), scene.into_bytes())];
                 destination::write(&files, existing).map_err(|c| vec![c])?;
             }
-            None => {
-                let printed = terminal.print_bytes(scene.as_bytes());
-                printed.map_err(|c| vec![c])?;
-            }
+            None => terminal
+                .print_bytes(scene.as_bytes())
+                .map_err(|c| vec![c])?,
         }
         self.tell(terminal, &name, &imported);
         if self.json {
@@ -193,6 +176,28 @@ impl Import {
             terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
         }
         Ok(ExitStatus::Done)
+    }
+
+    /// Refuses contradictory options, and a scene file that cannot be written.
+    fn check_options(&self, file: Option<&Path>) -> Result<(), CliError> {
+        if self.json && file.is_none() {
+            let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
+            return Err(CliError::CommandLine(why.into()));
+        }
+        if let Some(file) = file.filter(|f| f.is_dir()) {
+            let why = format!("{} is a folder; name the scene file in it", file.display());
+            return Err(CliError::CommandLine(why));
+        }
+        if let Some(file) = file {
+            destination::apart(&[file.to_owned()], &[&self.drawing])?;
+        }
+        if let (Some(DrawnAt::Metres(metres)), Some(_)) = (self.scale, self.unit) {
+            let why = format!(
+                "--scale {metres} is already metres per unit, so --unit says nothing more; leave one of them out, or give the scale as 1:50"
+            );
+            return Err(CliError::CommandLine(why));
+        }
+        Ok(())
     }
 
     fn format(&self) -> Result<Format, CliError> {

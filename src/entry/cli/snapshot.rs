@@ -88,14 +88,7 @@ impl Snapshot {
         } else {
             report.store(Acceptance::Propose)
         };
-        let mut written = Vec::new();
-        if let Some(Some(file)) = &self.review {
-            written.push((file.clone(), page.into_bytes()));
-        }
-        if let Some(file) = &self.junit {
-            written.push((file.clone(), ci::junit(&report).into_bytes()));
-        }
-        destination::write(&written, Existing::Replace).map_err(|c| vec![c])?;
+        self.write_reports(&report, page).map_err(|c| vec![c])?;
         drop(turn);
         self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
@@ -113,6 +106,18 @@ impl Snapshot {
             return answer::ask(terminal, &mut report);
         }
         Ok(ending(&report))
+    }
+
+    /// Writes the review page and the JUnit file, if the options name them.
+    fn write_reports(&self, report: &CheckOutcome, page: String) -> Result<(), CliError> {
+        let mut written = Vec::new();
+        if let Some(Some(file)) = &self.review {
+            written.push((file.clone(), page.into_bytes()));
+        }
+        if let Some(file) = &self.junit {
+            written.push((file.clone(), ci::junit(report).into_bytes()));
+        }
+        destination::write(&written, Existing::Replace)
     }
 
     /// Refuses contradictory options.
