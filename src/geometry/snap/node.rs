@@ -1,4 +1,4 @@
-//! [`Nodes`]: points that are shared by corners of several bodies.
+//! [`Nodes`]: the points that replace the corners; corners that are close together share one.
 //!
 //! Corners are clustered bottom up with complete linkage: pairs are merged in the order of their distance, and two
 //! clusters are merged only if every corner of one lies within the gap of every corner of the other. Chains of close

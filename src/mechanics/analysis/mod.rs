@@ -129,7 +129,7 @@ pub struct FrameAnalysis {
     pub mechanism: Vec<Motion>,
     /// How far the frame is from its limit of stability, if requested.
     pub margins: Option<Margins>,
-    /// Whether the frame stands only by a self-stress that its loads do not cause from rest. `None` if not requested,
+    /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not requested,
     /// if the frame does not stand, or if no answer was found.
     pub only_by_wedging: Option<bool>,
     /// The proof that the frame stands only by a self-stress, if it does.

@@ -27,7 +27,8 @@ impl Forces {
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A limit above this counts as no limit.
     let binding = NON_BINDING * moving_load(assembly, motions);
-    // `worst` is δ. Grips without a binding limit increase it; the others are subtracted from the power.
+    // `worst` is δ. Components of grips without a binding limit can increase it; for the others, the
+    // excess over δ is subtracted from the power.
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();
     for grip in &assembly.grips {

@@ -1,4 +1,4 @@
-//! [`apart`]: moves arrows that lie on one line next to each other.
+//! [`apart`]: moves overlapping arrows on one line sideways, so that they are drawn side by side.
 //!
 //! The ground often pushes a block up on the same line on which its weight pulls it down. Drawn there, the two look
 //! like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
@@ -37,7 +37,7 @@ const OFFSET_RESOLUTION: f64 = 1e-6;
 /// Relative tolerance of the least distance, because candidates lie exactly at it.
 const CLEAR_TOL: f64 = 1e-6;
 
-/// Moves arrows of a frame that lie on one line next to each other.
+/// Moves overlapping arrows of a frame sideways, so that they are drawn side by side.
 pub(crate) fn apart(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {

@@ -80,7 +80,7 @@ pub(crate) trait PanelContent: Sync {
         0.0
     }
 
-    /// Returns the arrows of a frame. An arrow of `newtons_per_unit` N is one unit edge long.
+    /// Returns the arrows of a frame. A force of `newtons_per_unit` N has an arrow as long as the unit edge.
     fn marks(
         &self,
         _analysis: &Analysis,

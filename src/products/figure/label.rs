@@ -591,7 +591,8 @@ fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
-/// Adds the lines of a label about its centre to a group, with a halo of this colour if one is given.
+/// Adds the lines of a label to a group, centred at the given point. If a halo is given, the letters get a halo of
+/// that colour.
 fn lettered(
     mut group: Group,
     label: &Label,

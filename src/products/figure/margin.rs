@@ -122,7 +122,7 @@ impl PanelContent for CollapseMargin {
                 let along = (there.x - from.x, there.y - from.y);
                 let group = Group::with_class("gravity").titled(match toward {
                     Toward::HorizontalLoad => {
-                        format!("Beside gravity {} of it across", percent_of(edge))
+                        format!("In addition to gravity, {} of it across", percent_of(edge))
                     }
                     _ => format!("Gravity turned by {}", degrees(edge.abs())),
                 });
@@ -156,7 +156,8 @@ impl PanelContent for CollapseMargin {
                     entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
                 }
                 Toward::HorizontalLoad => {
-                    let push = "largest push across gravity, beside gravity".to_owned();
+                    let push =
+                        "largest push perpendicular to gravity, in addition to it".to_owned();
                     entries.push(Entry::Sign(push_sign, 26.0, push));
                 }
                 Toward::LoadFactor => {}

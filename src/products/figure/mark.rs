@@ -93,7 +93,8 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     most
 }
 
-/// Returns all arrows of frame `frame` (from 0). An arrow of `newtons_per_unit` N is one unit edge long.
+/// Returns all arrows of frame `frame` (from 0). A force of `newtons_per_unit` N has an arrow
+/// as long as the unit edge.
 ///
 /// The unit edge is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
 /// exist or `newtons_per_unit` is not above 0.

@@ -1,4 +1,5 @@
-//! [`ring`]: draws a colour wheel of the arrow colours, with the colours of robots and failures below it.
+//! [`ring`]: draws the arrow colours as a wheel whose sectors list the blocks of each colour; robots and failures are
+//! below it.
 
 use core::f64::consts::TAU;
 

@@ -216,7 +216,7 @@ pub(crate) fn marks(
     }
 }
 
-/// Returns the largest load on the blocks of a frame, N.
+/// Returns the largest force of the listed loads of a frame, N; weights are not included.
 pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     let loads = scene
         .loads

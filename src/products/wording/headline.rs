@@ -88,7 +88,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
                 "It stands until a horizontal force of {} of its weight pushes it to the {side}",
                 three_down(share)
             ),
-            None => "It stands under any horizontal push".to_owned(),
+            None => "It stands under a horizontal force of any share of its weight".to_owned(),
         },
         Parameter::Friction => match margin.interval.low().and_then(confirmed) {
             Some(least) if least > 0.0 => {

@@ -378,7 +378,7 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
         }
         (None, Some(high)) => format!("up to {}", value(high)),
         (Some(low), None) => format!("at {} and more", value(low)),
-        // Ends with the same text are one value at the printed precision.
+        // If both ends have the same text, they are the same value at the printed precision.
         (Some(low), Some(high)) if value(low) == value(high) => format!("only at {}", value(low)),
         (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
     }

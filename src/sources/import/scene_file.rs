@@ -1,4 +1,4 @@
-//! Writes the scene file of an import.
+//! Builds the [`SceneFile`] of an import.
 
 use std::collections::BTreeSet;
 

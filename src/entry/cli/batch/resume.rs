@@ -1,4 +1,4 @@
-//! [`ResumeFile`]: a file next to the output that records the options and the scenes of its lines.
+//! [`ResumeFile`]: a file next to the output with the options of the run and hashes of each line and its scene.
 //!
 //! The output contains only one line of JSON for each scene, so the record has a file of its own:
 //! `answers.ndjson.resume` for `answers.ndjson`. It begins with the options, one `name: value` per line, and an empty

@@ -1,4 +1,4 @@
-//! Tests whether a component stands only by a self-stress that its loads do not cause from rest.
+//! Tests whether a component stands only by a self-stress that its loads do not build up from rest.
 
 use super::{Component, Findings};
 use crate::analysis::{Options, Wedged};

@@ -71,7 +71,7 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
 ///
-/// On each way from the ground only the first failing contact moves; the blocks beyond it move as one body. `None` if
+/// On each path from the ground, only the first failing contact moves; the blocks beyond it move as one body. `None` if
 /// the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;

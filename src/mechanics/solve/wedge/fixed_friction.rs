@@ -76,7 +76,8 @@ impl Springs<'_> {
     ///
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///
-    /// where u are the displacements and p ≥ max(0, −g) is the compression of each point. For each face, e is the
+    /// where u are the displacements, `ground` is the stiffness of the springs to the ground, g is the opening of
+    /// each point, and p ≥ max(0, −g) is its compression. For each face, e is the
     /// stretch of the spring along it, ρ its stiffness, s the slip, and q ≥ |s − e| the sliding.
     fn least_energy(&self, friction_limits: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());

@@ -74,7 +74,7 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     Ok(())
 }
 
-/// Returns the corners of the front as a stair: y keeps its value until the next point begins.
+/// Returns the corners of the front as a step line: y stays constant up to the x of the next point, then jumps.
 fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut stair: Vec<(f64, f64)> = Vec::new();
     for (x, y) in front {

@@ -132,7 +132,7 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
 }
 
 fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "arrows and colours have a scale of their own";
+    let scale = "the scales of arrows and colours are those of this figure only";
     let name = line(side.file.name);
     Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),

@@ -43,7 +43,7 @@ pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     drawing
 }
 
-/// Adds marks above the first scene of a drawing. `marks` draws them with the camera of the scene.
+/// Draws marks on top of the first scene of a drawing. `marks` creates them from the camera of the scene.
 pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group) {
     for item in &mut drawing.items {
         if let Item::Group(group) = item

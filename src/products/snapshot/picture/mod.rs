@@ -214,7 +214,7 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// Returns the largest rounding of a channel of this colour.
+    /// Returns by how much, at most, a channel of this colour was rounded.
     fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }

@@ -129,7 +129,7 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Sorts colours into at most `max` boxes by repeatedly halving the widest box.
+/// Sorts colours into at most `max` boxes : the widest box is repeatedly cut in the middle of its widest channel.
 fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];

@@ -67,7 +67,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve))
             if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
         {
-            // If the normal points down, the x axis of such an entity points to the left.
+            // The x axis of all entities but LINE and ELLIPSE points to the left if their normal points down.
             Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
