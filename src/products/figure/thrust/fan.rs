@@ -279,7 +279,7 @@ impl Fan {
             let wide = text::width(&number, Face::Sans, NUMBER_SIZE);
             let along: Vector = outer - inner;
             let (x, y) = camera.turn(along);
-            let length = x.hypot(y).max(f64::MIN_POSITIVE);
+            let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
             let (x, y) = (x / length, y / length);
             let centre = camera.place(outer).moved((4.0 + 0.6 * wide) * x, 8.5 * y);
             ink.rect(PageRect {
