@@ -326,7 +326,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
             .expect("N");
         let amount = amount * if words.contains("kN") { 1000.0 } else { 1.0 };
         let [pole, tip] = line(ray);
-        let length = (tip.0 - pole.0).hypot(tip.1 - pole.1);
+        let length = libm::hypot(tip.0 - pole.0, tip.1 - pole.1);
         let scale = *scale.get_or_insert(amount / length);
         assert!(
             (amount / length - scale).abs() < 0.01 * scale,
@@ -344,7 +344,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     for (end, ray) in [(first, rays[0]), (last, rays[rays.len() - 1])] {
         let tip = line(ray)[1];
         assert!(
-            (tip.0 - end.0).hypot(tip.1 - end.1) < 0.1,
+            libm::hypot(tip.0 - end.0, tip.1 - end.1) < 0.1,
             "{tip:?} {end:?}"
         );
     }

@@ -10,8 +10,8 @@ const MAX_FAILURES_IN_SENTENCE: usize = 4;
 /// The line below a figure has less space, and names at most this many.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
-/// Returns the word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Text for people uses [`plain`]
-/// and [`counted`].
+/// Returns the word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Text for people uses `plain`
+/// and `counted`.
 pub fn word(verdict: Verdict) -> &'static str {
     verdict.word()
 }

@@ -261,7 +261,8 @@ fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
         let turned = |degrees: f64| this.turned(degrees);
         let pushed = |share: f64| this.pushed(share);
         let loaded = |factor: f64| this.loaded(factor);
-        let changes: [(&str, &[f64], f64, &dyn Fn(f64) -> Value); 5] = [
+        type Change<'c> = (&'static str, &'c [f64], f64, &'c dyn Fn(f64) -> Value);
+        let changes: [Change<'_>; 5] = [
             ("friction", &grown, 0.0, &friction),
             ("kernel", &shares, 0.0, &kernel),
             ("tilt", &turns, 360.0, &turned),
