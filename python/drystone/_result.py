@@ -183,7 +183,7 @@ class Frame(_Answer):
 
     @property
     def margins(self) -> Any:
-        """How far it is from the edge of standing; ``None`` where margins were not asked for."""
+        """How far each value is from the limit of stability; ``None`` if no margins were requested."""
         return self._record().get("margins")
 
     def __getattr__(self, name: str) -> Any:

@@ -453,9 +453,9 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
 #[test]
 fn what_it_would_take_lies_on_the_right_side_of_the_end() {
     for (told, sentence) in scenes().iter().zip([
-        "It would stand under 1.34 times its loads.",
-        "It would fall under less than 0.301 times its loads.",
-        "It would stand under 0.327 of its loads.",
+        "It would stand at 1.34 times its loads.",
+        "It would fall below 0.301 times its loads.",
+        "It would stand at 0.327 of its loads.",
         "No multiple of its loads makes it fall.",
         "It falls whatever the factor on its loads.",
     ]) {

@@ -152,24 +152,21 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     Some(match (margin.parameter, verdict, inside) {
         (Parameter::LoadFactor, Verdict::Stable, true) => match (low, high) {
             (Some(low), Some(high)) if low > 0.0 => format!(
-                "It would fall under {} times its loads, and under less than {} times.",
+                "It would fall at {} times its loads, and below {} times its loads.",
                 three_up(high),
                 three_down(low)
             ),
-            (_, Some(high)) => format!("It would fall under {} times its loads.", three_up(high)),
+            (_, Some(high)) => format!("It would fall at {} times its loads.", three_up(high)),
             (Some(low), None) if low > 0.0 => {
-                format!(
-                    "It would fall under less than {} times its loads.",
-                    three_down(low)
-                )
+                format!("It would fall below {} times its loads.", three_down(low))
             }
             _ => "No multiple of its loads makes it fall.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
             (Some(low), _) if low > 1.0 => {
-                format!("It would stand under {} times its loads.", three_up(low))
+                format!("It would stand at {} times its loads.", three_up(low))
             }
-            (_, Some(high)) => format!("It would stand under {} of its loads.", three_down(high)),
+            (_, Some(high)) => format!("It would stand at {} of its loads.", three_down(high)),
             _ => "It falls whatever the factor on its loads.".to_owned(),
         },
         (Parameter::Friction, Verdict::Stable, true) => match low {
