@@ -67,7 +67,7 @@ impl IncrementalCholesky {
         true
     }
 
-    /// Removes a row and column of the matrix.
+    /// Removes the row and the column of one variable from the factored matrix.
     ///
     /// Each row below then has one entry to the right of the diagonal. Givens rotations of neighbouring columns make
     /// the factor triangular again.

@@ -174,14 +174,13 @@ impl DxfWriter {
     }
 }
 
-/// Returns the text in ASCII. Other characters become `\U+XXXX`, which CAD programs show as characters. Control
-/// characters become spaces, because a line break would end the group.
+/// Returns the text as one line of ASCII, because a line break would end the group. Other characters become `\U+XXXX`,
+/// which CAD programs show as characters.
 fn ascii(text: &str) -> String {
     let mut line = String::new();
-    for c in text.chars() {
+    for c in crate::text::line(text).chars() {
         match c {
             ' '..='~' => line.push(c),
-            c if c.is_control() => line.push(' '),
             c => {
                 let mut units = [0; 2];
                 for unit in c.encode_utf16(&mut units) {

@@ -261,7 +261,7 @@ impl StatedMargin<'_> {
     /// no end.
     ///
     /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the
-    /// present value. Tilts are relative to 90°. Horizontal forces are already relative to the weight.
+    /// present value. The distance of a tilt is divided by 90°. A horizontal force is a fraction of the weight already.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
             return 0.0;

@@ -198,8 +198,8 @@ impl Component<'_> {
         }
     }
 
-    /// Combines the motions of the falling parts with all other bodies at rest, and proves the result in the whole
-    /// component. Returns [`Outcome::Open`] if the proof is too weak.
+    /// Combines the motions of the falling parts into one motion, in which all other bodies are at rest, and proves it for
+    /// the whole component. Returns [`Outcome::Open`] if the proof is too weak.
     fn combine_falling_parts(
         &self,
         program: &Program,

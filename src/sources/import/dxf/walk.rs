@@ -8,6 +8,7 @@ use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
 use super::hatch;
 use super::record::Record;
 use crate::geometry::{Bounds, Point};
+use crate::import::LENGTH_TOL;
 use crate::import::affine::Affine;
 use crate::import::draft::{Draft, FillRule, Form, Part, Role, Values};
 use crate::import::limit::{MAX_BODIES, too_many};
@@ -17,9 +18,6 @@ use crate::import::subpath::Subpath;
 
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
-/// Ends of lines are joined if their distance, relative to the size of the drawing, is at most this. The default for
-/// chords and gaps is the same.
-const END_TOL: f64 = 1e-3;
 /// Two outlines coincide if their boxes differ by at most this share of their size.
 const SAME_TOL: f64 = 1e-6;
 /// Entities without outlines, which a drawing of a structure usually contains.
@@ -263,7 +261,8 @@ impl<'d> Walk<'d> {
             .chain(self.draft.parts.iter().map(part_box))
             .flatten()
             .reduce(Bounds::union);
-        let tolerance = END_TOL * size.map_or(0.0, Bounds::diagonal);
+        // Ends of lines meet within the same share of the drawing's size as edges.
+        let tolerance = LENGTH_TOL * size.map_or(0.0, Bounds::diagonal);
         for ((layer, _), (place, list)) in std::mem::take(&mut self.open) {
             self.chain(&layer, &place, list, tolerance);
         }
