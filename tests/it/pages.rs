@@ -10,7 +10,7 @@ use std::path::Path;
 
 use drystone::analysis::{Analysis, Options};
 use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
-use drystone::result::{Layout, Timing, refusal, schema, to_json_of};
+use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
 
@@ -266,6 +266,8 @@ fn fits(kind: Type, value: &Value) -> bool {
         Type::Bound | Type::Margin => number(value) || value == "unbounded",
         Type::Pair => pair(value),
         Type::Pairs => two(value) && list(value, &pair),
+        Type::Points => list(value, &pair),
+        Type::Rings => list(value, &|ring| list(ring, &pair)),
         Type::Names => two(value) && list(value, &Value::is_string),
         Type::NameList => list(value, &Value::is_string),
         Type::Motions => list(value, &motion),
@@ -356,6 +358,12 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
             "loads": [{ "block": "held", "force": [1, 0] }], "robots": [{ "id": "r", "holds": "held" }] }"#
             .to_owned(),
     );
+    // A block with a hole.
+    texts.push(
+        r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [5, -1], [5, 0], [-1, 0]] }],
+            "blocks": [{ "polygon": [[0, 0], [4, 0], [4, 4], [0, 4]], "holes": [[[1, 1], [2, 1], [2, 2]]] }] }"#
+            .to_owned(),
+    );
     for folder in ["assets/thesis", "tests/scenes"] {
         let mut files: Vec<_> = std::fs::read_dir(root.join(folder))
             .expect("readable")
@@ -375,7 +383,12 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);
-        let json = to_json_of("a.json", &analysis, Timing::Included, Layout::OneLine);
+        let json = to_json_with_blocks(
+            Some("a.json"),
+            &analysis,
+            Timing::Included,
+            Layout::OneLine,
+        );
         walk(
             &serde_json::from_str(&json).expect("JSON"),
             "",

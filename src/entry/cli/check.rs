@@ -15,7 +15,7 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::table::{self, Detail};
 use crate::cli::terminal::Terminal;
-use crate::result::{Layout, Timing, refusal, to_json_of};
+use crate::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::scene::Note;
 use crate::wording::verdict::counted;
 
@@ -29,6 +29,9 @@ pub(crate) struct Check {
     /// problems in its place
     #[arg(long)]
     json: bool,
+    /// Add the placed blocks of each frame to the JSON: name, centre, area, weight and corners
+    #[arg(long, requires = "json")]
+    blocks: bool,
     /// Leave out times, so that the same scene gives the same bytes
     #[arg(long)]
     no_timing: bool,
@@ -166,7 +169,10 @@ impl Check {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
         if self.json {
             let file = source.path.to_string_lossy();
-            let json = to_json_of(&file, &analysis, timing, layout);
+            let json = match self.blocks {
+                true => to_json_with_blocks(Some(&file), &analysis, timing, layout),
+                false => to_json_of(&file, &analysis, timing, layout),
+            };
             return (ending, verdicts, json, Page::default());
         }
         let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);

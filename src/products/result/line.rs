@@ -195,7 +195,11 @@ pub fn line_of(
             true => Timing::Included,
             false => Timing::LeftOut,
         };
-        let whole = serde_json::to_value(Result::new(analysis, timing)).unwrap_or_default();
+        let mut whole = Result::new(analysis, timing);
+        if fields.ask(&["frames", "blocks"]) {
+            whole = whole.with_blocks(&analysis.scene);
+        }
+        let whole = serde_json::to_value(whole).unwrap_or_default();
         for name in NAMES.iter() {
             let chosen = below(&fields.chosen, name.word);
             match name.word {

@@ -10,6 +10,7 @@
 
 #[cfg(feature = "report")]
 mod accuracy;
+mod block;
 mod excluded;
 mod force;
 #[cfg(feature = "import")]
@@ -31,6 +32,7 @@ use serde::{Serialize, Serializer};
 
 #[cfg(feature = "report")]
 pub use accuracy::accuracy_json;
+use block::Block;
 use force::{Interface, Missing, Motion, Robot};
 #[cfg(feature = "import")]
 pub use import::import_json;
@@ -100,6 +102,19 @@ pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layou
     written(&result, layout)
 }
 
+/// Like [`to_json`], with the placed blocks of each frame as `frames[].blocks`, and with the path of the scene file if
+/// there is one.
+pub fn to_json_with_blocks(
+    file: Option<&str>,
+    analysis: &Analysis,
+    timing: Timing,
+    layout: Layout,
+) -> String {
+    let mut result = Result::new(analysis, timing).with_blocks(&analysis.scene);
+    result.file = file;
+    written(&result, layout)
+}
+
 fn written(result: &Result, layout: Layout) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
@@ -158,6 +173,9 @@ struct Frame<'a> {
     total_force_bound: Option<Number>,
     total_sticking: Number,
     weight: Number,
+    /// Only on request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocks: Option<Vec<Block<'a>>>,
     interfaces: Vec<Interface<'a>>,
     robots: Vec<Robot<'a>>,
     failures: Vec<Missing<'a>>,
@@ -222,6 +240,15 @@ impl<'a> Result<'a> {
                 .collect(),
         }
     }
+
+    /// Adds the placed blocks of each frame.
+    fn with_blocks(mut self, scene: &'a Scene) -> Result<'a> {
+        for (step, frame) in scene.frames.iter().zip(&mut self.frames) {
+            let blocks = step.placed.iter().map(|id| Block::new(scene, *id));
+            frame.blocks = Some(blocks.collect());
+        }
+        self
+    }
 }
 
 impl Tolerance {
@@ -264,6 +291,7 @@ impl<'a> Frame<'a> {
             total_force_bound: frame.force_bound.map(Number),
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
+            blocks: None,
             interfaces: frame
                 .contacts
                 .iter()

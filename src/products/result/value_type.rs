@@ -31,6 +31,10 @@ pub enum Type {
     Pair,
     /// Two points, `[[x, y], [x, y]]`.
     Pairs,
+    /// Any number of points, `[[x, y], …]`.
+    Points,
+    /// A list of lists of points.
+    Rings,
     /// Two names.
     Names,
     /// A list of names.
@@ -67,6 +71,8 @@ impl Type {
             Type::MotionPairs => "two lists of motions",
             Type::Pair => "[x, y]",
             Type::Pairs => "[[x, y], [x, y]]",
+            Type::Points => "list of [x, y]",
+            Type::Rings => "list of lists of [x, y]",
             Type::Names => "two names",
             Type::NameList => "list of texts",
             Type::Motions => "list of motions",
@@ -104,6 +110,10 @@ impl Type {
             }
             Type::Pair => pair,
             Type::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
+            Type::Points => json!({ "type": "array", "items": pair }),
+            Type::Rings => {
+                json!({ "type": "array", "items": { "type": "array", "items": pair } })
+            }
             Type::Names => {
                 json!({ "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2 })
             }

@@ -52,7 +52,7 @@ pub struct Finding {
     pub file: PathBuf,
     /// Why it does not match.
     pub state: State,
-    /// The changes in words, most important first.
+    /// The changes in words: first those of the scene itself, then their effects, most important first.
     pub words: Vec<String>,
     /// The new content of the reference; empty if there is none.
     pub fresh: Vec<u8>,

@@ -1,6 +1,10 @@
 //! What is told of forces: totals, weights, resultants, shares of friction and of limits.
 
-use serde_json::json;
+use drystone::result::{
+    Fields, Layout, Origin, PictureOutcome, Timing, line_of, to_json, to_json_with_blocks,
+};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
 
 use super::{cross, dot, less, list, number, pair, structures, told};
 use crate::structure::{block, on_floor, rectangle};
@@ -69,6 +73,46 @@ fn the_weight_is_that_of_the_placed_blocks() {
         (weight - (12.5 + 200.0 * 9.81)).abs() < 1e-9 * weight,
         "{weight}"
     );
+}
+
+#[test]
+fn the_blocks_of_a_frame_are_those_placed_with_their_weights_and_outlines() {
+    let frame = json!({ "id": "frame", "polygon": rectangle(0.0, 0.0, 4.0, 4.0), "weight": 9,
+        "holes": [[[1, 1], [3, 1], [3, 3], [1, 3]]] });
+    let mut file = on_floor(
+        0.7,
+        vec![frame, block("top", rectangle(1.0, 4.0, 2.0, 1.0), 5.0)],
+    );
+    file["steps"] = json!([{ "place": ["frame"] }, { "place": ["top"] }]);
+    let scene = Scene::from_json(&file.to_string()).expect("sound");
+    let analysis = Analysis::new(&scene);
+    let written = to_json_with_blocks(None, &analysis, Timing::LeftOut, Layout::OneLine);
+    let result: Value = serde_json::from_str(&written).expect("JSON");
+    let blocks = |frame: usize| list(&result["frames"][frame]["blocks"]).clone();
+    assert_eq!(blocks(0).len(), 1);
+    assert_eq!(
+        blocks(1),
+        [
+            json!({ "id": "frame", "centre": [2.0, 2.0], "area": 12.0, "weight": 9.0,
+                "vertices": [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]],
+                "holes": [[[1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]]] }),
+            json!({ "id": "top", "centre": [2.0, 4.5], "area": 2.0, "weight": 5.0,
+                "vertices": [[1.0, 4.0], [3.0, 4.0], [3.0, 5.0], [1.0, 5.0]] }),
+        ]
+    );
+    let fields = Fields::read("frames.blocks.area").expect("a field");
+    let line = line_of(
+        &Origin::default(),
+        &analysis,
+        &PictureOutcome::NotAsked,
+        &fields,
+    );
+    assert_eq!(
+        line,
+        "{\"frames\":[{\"blocks\":[{\"area\":12.0}]},{\"blocks\":[{\"area\":12.0},{\"area\":2.0}]}]}\n"
+    );
+    let plain = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
+    assert!(!plain.contains("\"blocks\""), "only on request");
 }
 
 #[test]

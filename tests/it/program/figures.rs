@@ -289,7 +289,12 @@ fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
         assert!(number("height") <= 1.42 * number("width"), "page {pages}");
     }
     assert_eq!(frames, 30);
-    assert!((2..10).contains(&pages), "{pages}");
+    assert_eq!(pages, 2, "two files are named, more as from–to");
+    let files = "steps-1.svg and steps-2.svg: 30 frames";
+    assert!(ran.err.contains(files), "{}", ran.err);
+    let ran = bench.run("render stands.json --zoom elephant -o no.svg");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("; its blocks are "), "{}", ran.err);
     let ran = bench.run("render stands.json --margin load-factor -o no.svg");
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("--kind margin"), "{}", ran.err);

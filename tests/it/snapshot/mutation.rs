@@ -261,7 +261,8 @@ fn a_lost_block_is_named_and_what_it_carried_falls() {
     let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     file["blocks"].as_array_mut().expect("blocks").remove(1);
     let [facts, ..] = said(&Take::scene(&text), &Take::scene(&file.to_string()));
-    assert_eq!(facts[0], "frame 1: stable → unstable");
+    assert_eq!(facts[0], "block right is gone: weight 60 N", "the cause");
+    assert_eq!(facts[1], "frame 1: stable → unstable", "its effect");
     assert!(
         facts.contains(&"block lintel no longer stands".into()),
         "{facts:#?}"

@@ -2,7 +2,10 @@
 
 use super::Render;
 use crate::scene::{BlockId, Scene};
-use crate::text::nearest;
+use crate::text::{self, nearest};
+
+/// A message lists at most this many blocks.
+const MAX_LISTED_BLOCKS: usize = 12;
 
 impl Render {
     /// Returns the last frame in which the block of the free-body diagram is placed, and the block.
@@ -11,14 +14,10 @@ impl Render {
         let Some(name) = &self.block else {
             return match (scene.blocks.as_slice(), placed(BlockId(0))) {
                 ([_], Some(frame)) => Ok((frame, BlockId(0))),
-                _ => {
-                    let ids: Vec<&str> = scene.blocks.iter().map(|b| b.id.as_str()).collect();
-                    let more = if ids.len() > 12 { ", …" } else { "" };
-                    Err(format!(
-                        "a free-body diagram is of one block; choose with --block one of {}{more}",
-                        ids[..ids.len().min(12)].join(", ")
-                    ))
-                }
+                _ => Err(format!(
+                    "a free-body diagram is of one block; choose with --block one of {}",
+                    first_names(scene)
+                )),
             };
         };
         let block = self.found(scene, name)?;
@@ -34,8 +33,25 @@ impl Render {
         number.map(BlockId).ok_or_else(|| {
             let known = scene.blocks.iter().map(|b| b.id.as_str());
             let near = nearest(name, known)
-                .map_or_else(String::new, |near| format!("; did you mean {near}?"));
+                .map_or_else(|| listed(scene), |near| format!("; did you mean {near}?"));
             format!("it has no block {name}{near}")
         })
     }
+}
+
+/// Names the blocks of a scene, at most [`MAX_LISTED_BLOCKS`] of them: `; its blocks are a, b, …`.
+fn listed(scene: &Scene) -> String {
+    match scene.blocks.is_empty() {
+        true => "; it has no blocks".into(),
+        false => format!("; its blocks are {}", first_names(scene)),
+    }
+}
+
+fn first_names(scene: &Scene) -> String {
+    let ids = scene.blocks.iter().map(|b| text::line(&b.id));
+    let mut names: Vec<String> = ids.take(MAX_LISTED_BLOCKS).collect();
+    if scene.blocks.len() > MAX_LISTED_BLOCKS {
+        names.push("…".into());
+    }
+    names.join(", ")
 }

@@ -65,16 +65,26 @@ impl Render {
         let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
         let mut summaries = Vec::new();
         for (path, rendered) in paths.iter().zip(rendered) {
-            summaries.push(rendered.summary);
+            summaries.push((self.written(path, rendered.bytes.len()), rendered.summary));
             for (number, bytes) in rendered.bytes.into_iter().enumerate() {
                 files.push((self.target(path, number), bytes));
             }
         }
         destination::write(&files, Existing::Replace)?;
-        for (path, summary) in paths.iter().zip(summaries) {
-            terminal.note(&format!("{}: {summary}", path.display()));
+        for (written, summary) in summaries {
+            terminal.note(&format!("{written}: {summary}"));
         }
         Ok(())
+    }
+
+    /// Names the files of a figure: `a.pdf`, or the first and the last of its parts: `a-1.pdf to a-3.pdf`.
+    fn written(&self, path: &Path, parts: usize) -> String {
+        let first = self.target(path, 0).display().to_string();
+        match parts {
+            0 | 1 => first,
+            2 => format!("{first} and {}", self.target(path, 1).display()),
+            _ => format!("{first} to {}", self.target(path, parts - 1).display()),
+        }
     }
 
     /// Returns the file for one part of a figure, counted from 0; the path itself if a figure is one file.

@@ -10,8 +10,9 @@ use super::{Fact, Facts, Section, Value};
 pub struct Change {
     /// A description on one line.
     pub words: String,
-    /// The weight for sorting: verdicts, falling blocks, objects that appear or vanish, failures, then numbers. The
-    /// weight of a number is its change in units of its last digit.
+    /// The weight for sorting: what changed in the scene itself, which causes the rest; then verdicts, falling blocks,
+    /// objects that appear or vanish, failures, and numbers. The weight of a number is its change in units of its last
+    /// digit.
     weight: f64,
 }
 
@@ -20,6 +21,8 @@ const FALLING: &str = "falling";
 /// More blocks than this that begin or stop to fall share one line.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
+/// Added to the weight of a change of the scene: a block, gravity, the kernel, the title.
+const CAUSE_WEIGHT: f64 = 5e9;
 /// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these classes.
 const VERDICT_WEIGHT: f64 = 4e9;
 /// Weight of a block that begins or stops to fall.
@@ -97,6 +100,7 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
     } else {
         String::new()
     };
+    let before = changes.len();
     head(old, new, is_frame, changes);
     let (was, is) = (by_name(&old.facts), by_name(&new.facts));
     let mut names = ordered_keys(&was, &is, new);
@@ -115,6 +119,11 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
             (None, None) => None,
         };
         changes.extend(change);
+    }
+    if !is_frame {
+        for cause in &mut changes[before..] {
+            cause.weight += CAUSE_WEIGHT;
+        }
     }
 }
 

@@ -99,7 +99,8 @@ impl Facts {
         read::facts(text)
     }
 
-    /// Describes how `found` differs from these facts, most important first; empty if they agree.
+    /// Describes how `found` differs from these facts: first what changed in the scene itself, then its effects, most
+    /// important first. Empty if they agree.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }
