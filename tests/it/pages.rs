@@ -383,12 +383,8 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);
-        let json = to_json_with_blocks(
-            Some("a.json"),
-            &analysis,
-            Timing::Included,
-            Layout::OneLine,
-        );
+        let json =
+            to_json_with_blocks(Some("a.json"), &analysis, Timing::Included, Layout::OneLine);
         walk(
             &serde_json::from_str(&json).expect("JSON"),
             "",
