@@ -39,8 +39,6 @@ const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
 const MIN_WIDTH_SHARE: f64 = 0.22;
 /// Number of widths if lines of many blocks are joined into few paths.
 const WIDTH_STEPS: f64 = 8.0;
-/// Opacity of a line without equilibrium.
-const FAINT_OPACITY: f64 = 0.35;
 
 /// Width of the lines of least and of greatest thrust, pixels, and their dashes.
 const THIN: f64 = 1.3;
@@ -138,23 +136,34 @@ impl PanelContent for ThrustLine {
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let frames = scene.frames.iter().zip(&context.analysis.frames);
-        let (mut through, mut schematic) = (false, false);
+        let (mut stands, mut schematic, mut falls) = (false, false, false);
         for (frame, found) in frames {
             let segments = segments(scene, frame, found);
-            through |= segments.iter().any(|s| s.through);
-            schematic |= segments.iter().any(|s| !s.through);
+            match found.verdict {
+                Verdict::Stable => {
+                    stands |= !segments.is_empty();
+                    schematic |= segments.iter().any(|s| !s.through);
+                }
+                _ => falls |= !segments.is_empty(),
+            }
         }
         let mut entries = Vec::new();
         if context.options.scale == ArrowScale::Strip {
             entries.extend(legend::shared_scale(context, unit));
         }
-        if through || schematic {
-            let largest = quantity(largest(context), "N");
+        let largest = quantity(largest(context), "N");
+        if stands {
             let line = match central(context) {
                 Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
                 None => format!("line of thrust, this thick for {largest}"),
             };
             entries.push(Entry::Line(colour(theme), widest(unit), line));
+        }
+        if falls {
+            let line = format!("what is carried where it falls, this thick for {largest}");
+            entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
+        }
+        if stands || falls {
             let dot = "where a joint's resultant acts".to_owned();
             entries.push(Entry::Sign(dot_sign, 8.0, dot));
             entries.extend(limit_entries(context));
@@ -180,7 +189,7 @@ impl PanelContent for ThrustLine {
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }
-            Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
+            Verdict::Unstable => "what is carried is no line of equilibrium".into(),
             Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
         }
     }
@@ -273,6 +282,11 @@ fn colour(theme: &Theme) -> Colour {
 /// Returns the colour of schematic lines.
 fn schematic_colour(theme: &Theme) -> Colour {
     theme.page.mixed(theme.motion, 0.45)
+}
+
+/// Returns the colour of what a frame that does not stand carries: weaker than a line of equilibrium, visible in print.
+fn carried_colour(theme: &Theme) -> Colour {
+    theme.block.mixed(theme.faint, 0.7)
 }
 
 fn widest(unit: f64) -> f64 {
@@ -434,7 +448,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[Thrust
     group
 }
 
-/// Returns a line of this width in pixels, faint if the frame does not stand. `through` is false for schematic lines.
+/// Returns a line of this width in pixels, grey if the frame does not stand. `through` is false for schematic lines.
 fn stroked(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -443,16 +457,12 @@ fn stroked(
     through: bool,
 ) -> Path {
     let theme = &pen.context.options.theme;
-    let colour = if through {
-        colour(theme)
-    } else {
-        schematic_colour(theme)
+    let colour = match found.verdict {
+        Verdict::Stable if through => colour(theme),
+        Verdict::Stable => schematic_colour(theme),
+        _ => carried_colour(theme),
     };
-    let opacity = match found.verdict {
-        Verdict::Stable => 1.0,
-        _ => FAINT_OPACITY,
-    };
-    Path::stroked(outline, Stroke::new(colour, width)).with_opacity(opacity)
+    Path::stroked(outline, Stroke::new(colour, width))
 }
 
 /// Draws the segments of very many blocks as few paths: one for all segments of about the same width.

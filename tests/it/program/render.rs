@@ -260,7 +260,7 @@ fn every_kind_of_figure_says_what_it_shows() {
         ),
         (
             "thrust",
-            "it is no line of equilibrium",
+            "is no line of equilibrium",
             "line of thrust, this thick for",
         ),
         (
