@@ -11,6 +11,7 @@ mod agreement;
 mod assembly;
 mod book;
 mod bound;
+mod capacity;
 mod built;
 mod circle;
 mod claims;

@@ -118,7 +118,7 @@ impl Analysis {
     }
 
     /// Returns one elementary mechanism for each part that falls by `motions` under the loads of `scene`.
-    fn mechanisms_of(
+    pub(super) fn mechanisms_of(
         &self,
         scene: &Scene,
         found: &FrameAnalysis,

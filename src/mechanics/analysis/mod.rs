@@ -6,6 +6,7 @@
 //! combines them.
 
 mod analyse;
+mod capacity;
 mod decide;
 mod cost;
 mod force;
@@ -35,6 +36,11 @@ pub use crate::proof::{Motion, Proof, ProofThreshold};
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, Note, Scene};
 pub use crate::solve::Slide;
+pub(crate) use capacity::capacity_of;
+pub use capacity::{
+    Capacity, CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases,
+    ForceAt, VertexForce,
+};
 pub use cost::{SolveReport, Stages};
 pub use decide::Method;
 pub use force::{Contact, Failure, RobotForce};

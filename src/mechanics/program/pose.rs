@@ -38,8 +38,8 @@ impl QuadraticProgram {
 /// The kinematic dual of "minimise the cost of forces that balance `loads`": max loadsᵀy  s.t.  columnᵀy ≤ cost.
 ///
 /// There are three unknowns y per body and one row per column. A column with a limit gets one more unknown w ≥ 0, with
-/// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component with cost 0 and without limit
-/// become one equality, because a pair of opposite inequalities has no interior.
+/// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component without limit, whose costs are
+/// opposite or 0, become one equality, because a pair of opposite inequalities has no interior.
 ///
 /// Returns the problem and the row of each column: the multiplier of that row is the amount of the force. The
 /// multiplier of an equality is the amount of the first direction minus that of the second. The second direction has no
@@ -61,14 +61,14 @@ pub fn kinematic_dual(
     let is_free_pair = |k: usize| {
         is_first_of_grip_pair(columns, k)
             && columns[k].limit.is_infinite()
-            && cost(&columns[k]) == 0.0
+            && cost(&columns[k]) == -cost(&columns[k + 1])
     };
-    // First the equalities: one for each pair of opposite columns without cost and limit.
+    // First the equalities: one for each pair of opposite columns without limit whose costs are opposite.
     let mut k = 0;
     while k < columns.len() {
         if is_free_pair(k) {
             row_of[k] = dual.bound.len();
-            dual.push_column_row(&columns[k], 0.0);
+            dual.push_column_row(&columns[k], cost(&columns[k]));
             k += 1;
         }
         k += 1;

@@ -15,12 +15,14 @@ use std::collections::BTreeMap;
 pub use error::SessionError;
 
 use crate::analysis::{
-    Analysis, MarginKinds, Margins, Options, Source, Verdict, WarmStart, hinges_on_gaps,
+    Analysis, Capacity, CapacityError, CapacityRequest, MarginKinds, Margins, Options, Source,
+    Verdict, WarmStart, capacity_of, hinges_on_gaps,
 };
 use crate::geometry::{Cell, Point};
 use crate::interface::{Interfaces, LatticeEdges};
 use crate::scene::format::{BlockEntry, SceneFile};
 use crate::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
+use crate::solve::DeadlineGuard;
 
 /// A structure under construction.
 ///
@@ -260,6 +262,19 @@ impl Session {
         let options = self.options.margins(true).margin_kinds(kinds);
         let frames = Analysis::with(&self.scene, &options).frames;
         frames.into_iter().next()?.margins
+    }
+
+    /// Computes all forces that a placed block can carry, in addition to what acts already; see [`Analysis::capacity`].
+    ///
+    /// # Errors
+    /// If the request is not valid, or if no proof was found.
+    pub fn capacity(&self, request: &CapacityRequest) -> Result<Capacity, CapacityError> {
+        let _until = DeadlineGuard::new(self.options.deadline);
+        let interfaces = match self.scene.exact {
+            true => self.found.clone(),
+            false => Interfaces::new(&self.scene),
+        };
+        capacity_of(&self.scene, &interfaces, 0, request)
     }
 
     /// Computes the verdict after a step.

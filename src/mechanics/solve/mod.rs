@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
-//! | `balance`, `least_residual`, `least_adhesion`, `limit`, `tangent` | the programs of limit analysis |
+//! | `balance`, `least_residual`, `least_adhesion`, `limit`, `support`, `tangent` | the programs of limit analysis |
 //! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
 //! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
@@ -41,6 +41,7 @@ mod residual_norm;
 mod settings;
 mod slanted;
 mod solver;
+mod support;
 mod least_adhesion_levels;
 mod tangent;
 mod wedge;
@@ -63,6 +64,7 @@ pub use settings::{
     Choice, Conditioning, CrossoverTolerance, MAX_ITERATIONS, SolverSettings, TOLERANCE,
 };
 pub use solver::{solve, solve_within};
+pub use support::{Support, support};
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 

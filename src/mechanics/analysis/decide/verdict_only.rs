@@ -60,7 +60,7 @@ pub(in crate::mechanics::analysis) fn verdict_from_cache(
 }
 
 /// Margins need the verdict only.
-const VERDICT_ONLY: Options = Options {
+pub(super) const VERDICT_ONLY: Options = Options {
     verdict_only: true,
     ..Options::PLAIN
 };

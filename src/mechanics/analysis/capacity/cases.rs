@@ -1,0 +1,227 @@
+//! The forces that are carried in every case of some ranges: the intersection over a few extreme cases.
+//!
+//! For a fixed force, the values of a parameter at which the frame stands form an interval if the loads are linear in the
+//! parameter. A force that is carried at both ends of a range is then carried within it:
+//!
+//! - *Horizontal load*: the loads are linear in it, so its two ends are enough.
+//! - *Friction*: more friction only adds admissible forces, so the lowest value is enough.
+//! - *Tilt*: the loads turn, so they are not linear in the angle, and the ends alone are not enough: between them
+//!   gravity leaves the chord on the outer side of its arc. The tangents of the arc enclose it. Their corners have the
+//!   same direction as gravity at the middle of each piece of the arc, and a strength of 1/cos(half the piece). The ends and
+//!   these corners are therefore enough. They ask for slightly more than the arc does: at most 4·10⁻⁵ of the weights with
+//!   pieces of 1°. The result is on the safe side.
+//! - *Several of them*: the loads are linear in gravity at a fixed horizontal fraction, and linear in the fraction at fixed
+//!   gravity. All combinations of the extreme values of both enclose every case.
+//!
+//! Tilts over more than 90° are refused. Quantities in which the loads or the contacts are not linear, such as
+//! the positions of corners, cannot be given.
+
+use super::refine;
+use super::region::{clipped, close, corners, cut_off, square};
+use super::{Capacity, CapacityEdge, CapacityError, CapacityVertex, Cases};
+use crate::assembly::Assembly;
+use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
+
+/// The longest piece of an arc of tilts, degrees.
+const LONGEST_PIECE: f64 = 1.0;
+
+/// The widest range of tilts, degrees.
+const WIDEST_TILT: f64 = 90.0;
+
+/// Rays are cut off at this multiple of the size of the sets.
+const FAR: f64 = 1e5;
+
+/// Computes the capacity in each extreme case with `one`, and intersects them.
+pub(super) fn intersected(
+    assembly: &Assembly,
+    cases: &Cases,
+    one: impl Fn(&Assembly) -> Result<Capacity, CapacityError>,
+) -> Result<Capacity, CapacityError> {
+    let changed = extremes(assembly, cases)?;
+    let mut all = Vec::with_capacity(changed.len());
+    for (number, assembly) in changed.iter().enumerate() {
+        let mut capacity = one(assembly)?;
+        for edge in &mut capacity.edges {
+            edge.case = number;
+        }
+        let is_empty = capacity.vertices.is_empty();
+        all.push(capacity);
+        // Nothing is carried in this case, so nothing is carried in every case.
+        if is_empty {
+            break;
+        }
+    }
+    let count = changed.len();
+    match all.pop() {
+        Some(only) if all.is_empty() => Ok(Capacity {
+            cases: count,
+            ..only
+        }),
+        Some(last) if last.vertices.is_empty() => Ok(Capacity {
+            cases: count,
+            ..last
+        }),
+        Some(last) => {
+            all.push(last);
+            Ok(intersection(&all))
+        }
+        None => Err(CapacityError::Undecided),
+    }
+}
+
+/// Returns the assembly in each extreme case.
+fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
+    let range = |name: &str, range: Option<[f64; 2]>| match range {
+        Some([from, to]) if !(from <= to && from.is_finite() && to.is_finite()) => {
+            Err(CapacityError::Range(format!(
+                "the range {name}={from}..{to} is not valid; write the smaller number first"
+            )))
+        }
+        other => Ok(other),
+    };
+    let tilt = range("tilt", cases.tilt)?.unwrap_or([0.0; 2]);
+    let across = range("horizontal", cases.horizontal_load)?.unwrap_or([0.0; 2]);
+    let friction = range("friction", cases.friction)?;
+    if tilt[1] - tilt[0] > WIDEST_TILT {
+        return Err(CapacityError::Range(format!(
+            "the range tilt={}..{} is wider than {WIDEST_TILT}°: the forces that are carried at its extreme tilts need \
+             not be carried between them; split it into smaller ranges",
+            tilt[0], tilt[1]
+        )));
+    }
+    let mut base = assembly.clone();
+    if let Some([least, _]) = friction {
+        if least < 0.0 {
+            return Err(CapacityError::Range(
+                "the range of friction begins below 0".into(),
+            ));
+        }
+        base = base.with_friction(least);
+    }
+    let mut shares = across.to_vec();
+    shares.dedup();
+    let mut all = Vec::new();
+    for (degrees, strength) in gravities(tilt) {
+        for share in &shares {
+            let (sin, cos) = sin_cos_degrees(degrees);
+            let down = base.pull;
+            let turned = (down * cos + quarter_turn(down) * sin) * strength;
+            let pull = turned + quarter_turn(turned) * *share;
+            let is_given = degrees == 0.0 && *share == 0.0 && strength == 1.0;
+            all.push(match is_given {
+                true => base.clone(),
+                false => base.clone().with_gravity(pull),
+            });
+        }
+    }
+    Ok(all)
+}
+
+/// Returns the corners of a polygon around an arc of gravity: angles in degrees, and strengths.
+fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
+    if from == to {
+        return vec![(from, 1.0)];
+    }
+    let pieces = ((to - from) / LONGEST_PIECE).ceil().max(1.0);
+    let piece = (to - from) / pieces;
+    let strength = 1.0 / sin_cos_degrees(0.5 * piece).1;
+    let mut all = vec![(from, 1.0), (to, 1.0)];
+    all.extend((0..pieces as usize).map(|k| (from + (k as f64 + 0.5) * piece, strength)));
+    all
+}
+
+/// Returns the forces that belong to every capacity of a list.
+fn intersection(all: &[Capacity]) -> Capacity {
+    let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
+    let centre = forces().next().unwrap_or_else(Vector::zeros);
+    let size = forces().map(|f| (f - centre).norm()).fold(0.0, f64::max);
+    let size = size.max(1e-9 * centre.norm()).max(f64::MIN_POSITIVE);
+    let far = FAR * size;
+    let mut ring = square(centre, 0.5 * far);
+    for capacity in all.iter().filter(|c| c.rays.len() < 3) {
+        let own: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
+        let inner = cut_off(&own, &capacity.rays, far);
+        for (normal, limit) in half_planes(&inner, refine::ROUNDING * size) {
+            ring = clipped(&ring, normal, limit);
+        }
+    }
+    let is_far = |force: &&Vector| (*force - centre).amax() > 0.2 * far;
+    let near: Vec<Vector> = ring.iter().filter(|f| !is_far(f)).copied().collect();
+    let outside: Vec<Vector> = ring.iter().filter(is_far).copied().collect();
+    let lines: Vec<CapacityEdge> = all.iter().flat_map(|c| c.edges.clone()).collect();
+    let mut rays: Vec<Vector> = Vec::new();
+    if outside.len() == 4 && near.is_empty() {
+        rays = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
+            .map(|(x, y)| Vector::new(x, y))
+            .to_vec();
+    } else if let Some(middle) = near.first() {
+        let mut directions: Vec<Vector> =
+            outside.iter().map(|f| (f - middle).normalize()).collect();
+        rays.append(&mut widest(&mut directions));
+    }
+    let tolerance = 1e-7 * size;
+    let vertices = corners(&near, &rays, tolerance)
+        .into_iter()
+        .map(|k| CapacityVertex {
+            force: near[k],
+            torque: 0.0,
+            contacts: Vec::new(),
+            proof: None,
+        });
+    let mut capacity = Capacity {
+        vertices: vertices.collect(),
+        rays,
+        edges: Vec::new(),
+        cases: all.len(),
+        ..all[0].clone()
+    };
+    if capacity.vertices.is_empty() {
+        // Two cases exclude each other.
+        capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
+        return capacity;
+    }
+    close(&mut capacity, &lines, size);
+    capacity
+}
+
+/// Keeps the first and the last of some directions within a half-plane, anticlockwise.
+fn widest(directions: &mut Vec<Vector>) -> Vec<Vector> {
+    let mean: Vector = directions.iter().sum();
+    let turn = |d: &Vector| libm::atan2(mean.x * d.y - mean.y * d.x, mean.dot(d));
+    directions.sort_by(|a, b| turn(a).total_cmp(&turn(b)));
+    match (directions.first(), directions.last()) {
+        (Some(first), Some(last)) if (first - last).norm() > 1e-4 => vec![*first, *last],
+        (Some(first), _) => vec![*first],
+        _ => Vec::new(),
+    }
+}
+
+/// The half-planes whose intersection is a convex polygon, a segment or a point. `slack` is added to each limit.
+fn half_planes(ring: &[Vector], slack: f64) -> Vec<(Vector, f64)> {
+    let side = |from: Vector, outward: Vector| {
+        let normal = outward.normalize();
+        (normal, normal.dot(&from) + slack)
+    };
+    match ring {
+        [] => Vec::new(),
+        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
+            .map(|(x, y)| side(*point, Vector::new(x, y)))
+            .to_vec(),
+        [a, b] => {
+            let along = b - a;
+            let across = quarter_turn(along);
+            vec![
+                side(*a, across),
+                side(*a, -across),
+                side(*a, -along),
+                side(*b, along),
+            ]
+        }
+        _ => (0..ring.len())
+            .map(|k| {
+                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
+                side(from, -quarter_turn(to - from))
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,158 @@
+//! Finds the directions in which the set of forces has no end, and then the set itself.
+//!
+//! A set without end contains, with every force, that force plus any force of its *recession cone*. This cone is the
+//! same set without loads. The set has a farthest force exactly in the directions at an angle of at least 90° to the
+//! whole cone.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::probe::{Farthest, Probe};
+use super::refine::{Sample, refined, sample, size};
+use crate::geometry::Vector;
+
+/// The samples of a set, and the directions in which it has no end.
+pub(super) struct Found {
+    pub samples: Vec<Sample>,
+    pub rays: Vec<Vector>,
+}
+
+/// The largest angle between neighbouring first directions.
+const MAX_STEP: f64 = 1.1;
+
+/// Two angles that differ by less are equal.
+const SAME_ANGLE: f64 = 1e-7;
+
+/// Forces that bound an edge without end are sought up to this multiple of the size of the set.
+const REACH: f64 = 10.0;
+
+/// Computes the set of a probe; `None` if no force is carried, or if none could be proved.
+pub(super) fn found(probe: &Probe) -> Option<Found> {
+    let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
+    let mut start = Vec::new();
+    for angle in axes {
+        match probe.farthest(unit(angle), None) {
+            Farthest::At { carried, line } => {
+                let carried = carried?;
+                start.push(Sample { carried, line });
+            }
+            Farthest::Unbounded => break,
+            Farthest::None => return None,
+        }
+    }
+    if start.len() == axes.len() {
+        let samples = refined(probe, start, true, None);
+        let rays = Vec::new();
+        return Some(Found { samples, rays });
+    }
+    unbounded(probe)
+}
+
+/// Computes a set without end.
+fn unbounded(probe: &Probe) -> Option<Found> {
+    let cone = Cone::of(probe)?;
+    let around = probe.heaviest();
+    if cone == Cone::Everything {
+        let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
+        let samples = sample(probe, unit(0.0), Some(around)).into_iter().collect();
+        return Some(Found { samples, rays });
+    }
+    let mut samples = Vec::new();
+    for (from, to) in cone.normals() {
+        // First the directions inside the arc. They give the size of the set.
+        let count = ((to - from) / MAX_STEP).ceil().max(1.0);
+        let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
+        let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
+        let norms = inside.iter().map(|s| s.carried.force.norm());
+        let largest = norms.fold(size(&inside).max(around), f64::max);
+        // Then its ends, where the edges have no end themselves.
+        let reach = Some(REACH * largest);
+        let first = sample(probe, unit(from), reach)?;
+        if to - from > SAME_ANGLE {
+            inside.insert(0, first);
+            inside.push(sample(probe, unit(to), reach)?);
+            samples.extend(refined(probe, inside, false, reach));
+        } else {
+            samples.push(first);
+        }
+    }
+    let rays = cone.rays();
+    Some(Found { samples, rays })
+}
+
+/// The directions in which a set has no end, as angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Cone {
+    /// From one angle anticlockwise to another, at most π later.
+    Between(f64, f64),
+    /// A direction and its opposite.
+    Line(f64),
+    /// All directions.
+    Everything,
+}
+
+impl Cone {
+    /// Computes the cone from the forces of the probe without loads, within a square; `None` if there is none.
+    fn of(probe: &Probe) -> Option<Cone> {
+        let homogeneous = probe.without_loads();
+        let reach = Some(1.0);
+        let start = (0..8).map(|k| 0.1 + f64::from(k) * TAU / 8.0);
+        let start = start.filter_map(|a| sample(&homogeneous, unit(a), reach));
+        let samples = refined(&homogeneous, start.collect(), true, reach);
+        let far = samples.iter().map(|s| s.carried.force);
+        let far = far.filter(|force| force.amax() > 0.5);
+        let mut angles: Vec<f64> = far.map(|f| libm::atan2(f.y, f.x)).collect();
+        angles.sort_by(f64::total_cmp);
+        // The largest angle between neighbours lies outside the cone, unless the cone is everything.
+        let next = |k: usize| match angles.get(k + 1) {
+            Some(next) => *next,
+            None => angles[0] + TAU,
+        };
+        let widest = (0..angles.len()).max_by(|a, b| {
+            let gap = |k: usize| next(k) - angles[k];
+            gap(*a).total_cmp(&gap(*b))
+        })?;
+        let (last, first) = (angles[widest], next(widest) - TAU);
+        let width = last - first;
+        // Two opposite gaps of π: a line.
+        let is_between = |a: &f64| {
+            let from = (a - first).rem_euclid(TAU);
+            from > SAME_ANGLE && from < width - SAME_ANGLE
+        };
+        if width > PI + SAME_ANGLE {
+            Some(Cone::Everything)
+        } else if width > PI - SAME_ANGLE && !angles.iter().any(is_between) {
+            Some(Cone::Line(first))
+        } else if width > PI - SAME_ANGLE {
+            Some(Cone::Between(first, first + PI))
+        } else {
+            Some(Cone::Between(first, last))
+        }
+    }
+
+    /// Returns the arcs of directions in which the set has a farthest force.
+    fn normals(self) -> Vec<(f64, f64)> {
+        match self {
+            Cone::Everything => Vec::new(),
+            Cone::Line(a) => [a + FRAC_PI_2, a + 3.0 * FRAC_PI_2]
+                .map(|n| (n, n))
+                .to_vec(),
+            Cone::Between(from, to) => vec![(to + FRAC_PI_2, from + 3.0 * FRAC_PI_2)],
+        }
+    }
+
+    fn rays(self) -> Vec<Vector> {
+        match self {
+            Cone::Everything => Vec::new(),
+            Cone::Line(a) => vec![unit(a), unit(a + PI)],
+            Cone::Between(from, to) if to - from <= SAME_ANGLE => vec![unit(0.5 * (from + to))],
+            Cone::Between(from, to) => vec![unit(from), unit(to)],
+        }
+    }
+}
+
+fn unit(angle: f64) -> Vector {
+    let (sin, cos) = libm::sincos(angle);
+    // Along the axes exactly.
+    let plain = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
+    Vector::new(plain(cos), plain(sin))
+}

@@ -1,0 +1,295 @@
+//! [`Capacity`]: all forces that may act on a block in addition to what acts already, such that the frame stands.
+//!
+//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set: a polygon, which may be unbounded or
+//! empty. It is the set of forces that a robot without limits could exert at this point ([`probe`]): one linear program
+//! gives the farthest force of the set in a direction, together with contact forces that prove it and a motion that no
+//! farther force survives. The directions are refined until the polygon of the proved forces and the polygon that
+//! the motions leave agree ([`refine`]). If a direction has no farthest force, the directions in which the set is
+//! unbounded come first ([`cone`]). Forces that are carried in every one of several cases are the intersection of
+//! their sets ([`cases`]).
+
+mod cases;
+mod cone;
+mod probe;
+mod refine;
+mod region;
+mod request;
+
+use super::Analysis;
+use super::Verdict;
+use super::decide::{Place, ProofCache, decide_verdict};
+use crate::assembly::Assembly;
+use crate::effect::{self, FrameContext};
+use crate::geometry::{Point, Vector};
+use crate::interface::Interfaces;
+use crate::proof::{Motion, Proof};
+use crate::scene::{BlockId, Scene};
+use crate::solve::is_late;
+use probe::Probe;
+pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
+
+/// All forces that may act on a block at a point, in addition to what acts already, such that the frame stands.
+///
+/// The set is the convex hull of `vertices`, extended without end along `rays`. Forces are in newtons, x to the right
+/// and y up.
+///
+/// # Example
+/// ```
+/// use drystone::analysis::{CapacityRequest, CapacityShape};
+/// use drystone::{Analysis, Scene};
+/// // A block of 6 N and 4 m × 2 m on a floor with friction 0.5, pushed at its centroid.
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
+///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+///     "blocks": [{ "id": "a", "polygon": [[1, 0], [5, 0], [5, 2], [1, 2]], "weight": 6 }] }"#)?;
+/// let request = CapacityRequest::of_block(scene.block_named("a").expect("it exists"));
+/// let capacity = Analysis::new(&scene).capacity(0, &request)?;
+/// // It slides if |Fx| > 0.5 (6 − Fy): a cone that opens downwards below its tip at (0, 6).
+/// assert_eq!(capacity.shape(), CapacityShape::Unbounded);
+/// assert!((capacity.vertices[0].force.y - 6.0).abs() < 1e-6);
+/// assert!(capacity.contains([2.9, 0.0]) && !capacity.contains([3.1, 0.0]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Capacity {
+    /// The block on which the force acts.
+    pub block: BlockId,
+    /// The point at which it acts, metres; or the two points of a free contact, whose resultant it is.
+    pub at: Vec<Point>,
+    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
+    pub vertices: Vec<CapacityVertex>,
+    /// The unit directions in which the set has no end, anticlockwise: at most two, or four if every force is carried.
+    pub rays: Vec<Vector>,
+    /// The edges, anticlockwise.
+    pub edges: Vec<CapacityEdge>,
+    /// The largest distance, N, of a force that the motions do not exclude from the forces that are proved.
+    pub gap: f64,
+    /// How the frame falls whatever the force is; not empty if the set is empty because a motion shows it.
+    pub mechanism: Vec<Motion>,
+    /// The number of cases in each of which these forces are carried; 1 without ranges.
+    pub cases: usize,
+}
+
+/// A corner of a [`Capacity`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CapacityVertex {
+    /// The force on the block, N.
+    pub force: Vector,
+    /// The torque of a free contact, N·m, about its first point; 0 if the force acts at one point.
+    pub torque: f64,
+    /// The contact forces that carry it. Empty if several cases were intersected: then each case has its own.
+    pub contacts: Vec<VertexForce>,
+    /// The proof by these forces; `None` if several cases were intersected.
+    pub proof: Option<Proof>,
+}
+
+/// The forces at one interface that carry the force of a vertex, N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VertexForce {
+    /// The index of the interface among the contacts of the frame.
+    pub interface: usize,
+    /// Normal forces at its two application points, pressure positive.
+    pub normal: [f64; 2],
+    /// Friction on its first body, positive along (−n_y, n_x).
+    pub friction: f64,
+}
+
+/// An edge of a [`Capacity`]: every force F of the set has normal · F ≤ limit.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CapacityEdge {
+    /// The vertices at which it begins and ends, anticlockwise; `None` if it has no end there.
+    pub ends: [Option<usize>; 2],
+    /// The outward unit normal. The point of the block begins to move in this direction.
+    pub normal: Vector,
+    /// The largest force along the normal, N.
+    pub limit: f64,
+    /// How the blocks begin to move just beyond.
+    pub mechanism: Vec<Motion>,
+    /// The proof that the frame falls by this motion just beyond.
+    pub proof: Proof,
+    /// The case that it belongs to, from 0.
+    pub case: usize,
+}
+
+/// The kind of set that a [`Capacity`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CapacityShape {
+    /// No force is carried.
+    Empty,
+    /// One force only.
+    Point,
+    /// The forces between two.
+    Segment,
+    /// A bounded polygon.
+    Polygon,
+    /// Forces of any size in some directions.
+    Unbounded,
+    /// Every force.
+    Everything,
+}
+
+impl CapacityShape {
+    /// Returns the word in JSON results.
+    pub fn word(self) -> &'static str {
+        match self {
+            CapacityShape::Empty => "empty",
+            CapacityShape::Point => "point",
+            CapacityShape::Segment => "segment",
+            CapacityShape::Polygon => "polygon",
+            CapacityShape::Unbounded => "unbounded",
+            CapacityShape::Everything => "everything",
+        }
+    }
+}
+
+impl Capacity {
+    /// Returns the kind of set.
+    pub fn shape(&self) -> CapacityShape {
+        match (self.vertices.len(), self.rays.len()) {
+            (_, 3..) => CapacityShape::Everything,
+            (_, 1..) => CapacityShape::Unbounded,
+            (0, _) => CapacityShape::Empty,
+            (1, _) => CapacityShape::Point,
+            (2, _) => CapacityShape::Segment,
+            _ => CapacityShape::Polygon,
+        }
+    }
+
+    /// Returns the largest component of a carried force along a direction, N, times the length of the direction. `None`
+    /// if it has no end, or if the set is empty.
+    pub fn most(&self, direction: impl Into<Vector>) -> Option<f64> {
+        let direction = direction.into();
+        let unbounded = |ray: &Vector| ray.dot(&direction) > 1e-9 * direction.norm();
+        if self.rays.iter().any(unbounded) {
+            return None;
+        }
+        let along = self.vertices.iter().map(|v| v.force.dot(&direction));
+        along.reduce(f64::max)
+    }
+
+    /// Whether a force, N, is carried: within the edges, and the set is not empty.
+    pub fn contains(&self, force: impl Into<Vector>) -> bool {
+        let force = force.into();
+        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
+        region::contains(&corners, &self.rays, force)
+    }
+
+    fn empty(block: BlockId, at: Vec<Point>, mechanism: Vec<Motion>) -> Capacity {
+        Capacity {
+            block,
+            at,
+            vertices: Vec::new(),
+            rays: Vec::new(),
+            edges: Vec::new(),
+            gap: 0.0,
+            mechanism,
+            cases: 1,
+        }
+    }
+}
+
+impl Analysis {
+    /// Computes all forces that a block can carry in a frame, numbered from 0, in addition to what acts already.
+    ///
+    /// Units: newtons and metres. Signs: x to the right, y up.
+    ///
+    /// # Errors
+    /// If there is no such frame, if the block is not placed in it, if the request is not valid, or if no proof was found.
+    pub fn capacity(
+        &self,
+        frame: usize,
+        request: &CapacityRequest,
+    ) -> Result<Capacity, CapacityError> {
+        capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
+    }
+
+    /// Computes the elementary mechanism of an edge, for drawing; see [`Analysis::elementary`].
+    ///
+    /// The fastest point has speed 1.
+    pub fn edge_mechanism(&self, frame: usize, capacity: &Capacity, edge: usize) -> Vec<Motion> {
+        let (Some(found), Some(edge)) = (self.frames.get(frame), capacity.edges.get(edge)) else {
+            return Vec::new();
+        };
+        if edge.case > 0 || capacity.cases > 1 || capacity.at.len() > 1 {
+            return edge.mechanism.clone();
+        }
+        // Just beyond the middle of the edge the loads have power along the mechanism.
+        let ends = edge.ends.iter().flatten();
+        let ends: Vec<Vector> = ends.map(|end| capacity.vertices[*end].force).collect();
+        let middle = ends.iter().sum::<Vector>() / ends.len().max(1) as f64;
+        let size = edge.limit.abs().max(middle.norm()).max(1e-3 * found.weight);
+        let scene = self.scene.with_force(
+            capacity.block,
+            capacity.at[0],
+            middle + edge.normal * (1e-3 * size),
+        );
+        self.mechanisms_of(&scene, found, &edge.mechanism)
+    }
+}
+
+/// Computes the capacity of a block in a frame of a scene.
+pub(crate) fn capacity_of(
+    scene: &Scene,
+    interfaces: &Interfaces,
+    frame: usize,
+    request: &CapacityRequest,
+) -> Result<Capacity, CapacityError> {
+    let found = scene.frames.get(frame).ok_or(CapacityError::NoFrame)?;
+    let points = request.points(scene)?;
+    if !found.placed.contains(&request.block) {
+        return Err(CapacityError::NotPlaced);
+    }
+    let context = FrameContext {
+        scene,
+        frame: found,
+        interfaces: &interfaces.in_frame(scene, found),
+    };
+    let (assembly, _) = effect::assemble(&context);
+    cases::intersected(&assembly, &request.cases, |changed| {
+        capacity_of_assembly(changed, request.block, &points)
+    })
+}
+
+/// Computes the capacity of a block in one assembly.
+fn capacity_of_assembly(
+    assembly: &Assembly,
+    block: BlockId,
+    points: &[Point],
+) -> Result<Capacity, CapacityError> {
+    let (mut own, mut falls) = (None, None);
+    for component in assembly.components() {
+        if let Some(body) = component.bodies.iter().position(|b| b.block == block) {
+            own = Some((component, body));
+            continue;
+        }
+        // All other components must stand.
+        match decide_verdict(&component, Place::Anywhere, &mut ProofCache::default()) {
+            (Verdict::Stable, _) => {}
+            (Verdict::Unstable, motion) => falls = Some(motion),
+            (Verdict::Undecided, _) => return Err(undecided()),
+        }
+    }
+    let (component, body) = own.ok_or(CapacityError::NotPlaced)?;
+    if let Some(mechanism) = falls {
+        return Ok(Capacity::empty(block, points.to_vec(), mechanism));
+    }
+    let probe = Probe::new(&component, body, points);
+    match cone::found(&probe) {
+        Some(found) => Ok(region::capacity(found, &probe, block, points)),
+        // No force of the probe balances the loads, or no result was found. A verdict decides.
+        None => match decide_verdict(&probe.held, Place::Anywhere, &mut ProofCache::default()) {
+            (Verdict::Unstable, motion) => Ok(Capacity::empty(block, points.to_vec(), motion)),
+            _ => Err(undecided()),
+        },
+    }
+}
+
+fn undecided() -> CapacityError {
+    match is_late() {
+        true => CapacityError::Late,
+        false => CapacityError::Undecided,
+    }
+}

@@ -1,0 +1,220 @@
+//! [`Probe`]: a component with one more robot without limits, whose force is the one that is asked for.
+
+use crate::analysis::decide::{proved_forces, proved_motion};
+use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
+use crate::geometry::{Point, Vector};
+use crate::program::{Program, Scale};
+use crate::proof::{Forces, Motion, Proof};
+use crate::scene::{Limits, RobotId};
+use crate::solve::{Amounts, Support, support};
+
+/// How far beyond the limit a motion is proved, relative to the size of the force. The power along a motion is linear in
+/// the force, so the proof holds up to the line on which the power vanishes.
+const BEYOND: f64 = 4e-3;
+
+/// A motion in which the point is slower than this does not limit the force. The fastest point has speed 1.
+const MIN_SPEED: f64 = 1e-9;
+
+/// A component and the point at which the force acts.
+pub(super) struct Probe {
+    given: Assembly,
+    /// The component with an unlimited grip at the point. It is the last grip.
+    pub held: Assembly,
+    program: Program,
+    body: usize,
+    at: Point,
+    has_torque: bool,
+}
+
+/// A force that is carried, with its proof.
+#[derive(Clone, Debug)]
+pub(super) struct Carried {
+    pub force: Vector,
+    pub torque: f64,
+    pub forces: Forces,
+    pub proof: Proof,
+}
+
+/// A half-plane that contains all carried forces F: normal · F ≤ limit.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub normal: Vector,
+    pub limit: f64,
+    pub motion: Vec<Motion>,
+    pub proof: Proof,
+}
+
+/// The farthest carried force in a direction.
+#[derive(Clone, Debug)]
+pub(super) enum Farthest {
+    /// It is finite.
+    At {
+        /// The force; `None` if it has no proof.
+        carried: Option<Carried>,
+        /// The motion that excludes farther forces; `None` if it has no proof.
+        line: Option<Line>,
+    },
+    /// There is none: forces of any size are carried.
+    Unbounded,
+    /// No force is carried, or the program has no result.
+    None,
+}
+
+impl Probe {
+    /// Creates the probe of a force at one point of a body, or of the resultant of a free contact at two points. Two
+    /// free forces at two points are a free force and a free torque at one of them.
+    pub fn new(given: &Assembly, body: usize, points: &[Point]) -> Probe {
+        let has_torque = points.len() > 1;
+        let at = points[0];
+        let torque = if has_torque { f64::INFINITY } else { 0.0 };
+        let held = with_grip(given, body, at, [f64::INFINITY, f64::INFINITY, torque]);
+        let program = Program::new(&held, Scale::from_assembly(given));
+        Probe {
+            given: given.clone(),
+            held,
+            program,
+            body,
+            at,
+            has_torque,
+        }
+    }
+
+    /// Returns the same probe without loads, with robots only as far as they have no limits. Its forces are those that
+    /// may be added without end.
+    pub fn without_loads(&self) -> Probe {
+        let mut given = self.given.clone();
+        for body in &mut given.bodies {
+            (body.weight, body.listed, body.load) = (0.0, LoadVector::NONE, LoadVector::NONE);
+        }
+        let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
+        for grip in &mut given.grips {
+            grip.limits = Limits {
+                fx: or_none(grip.limits.fx),
+                fy: or_none(grip.limits.fy),
+                torque: or_none(grip.limits.torque),
+            };
+        }
+        let points = [self.at; 2];
+        let count = if self.has_torque { 2 } else { 1 };
+        Probe::new(&given, self.body, &points[..count])
+    }
+
+    /// Returns the heaviest load of the component, N; 1 without loads.
+    pub fn heaviest(&self) -> f64 {
+        match self.given.heaviest_load() {
+            0.0 => 1.0,
+            heaviest => heaviest,
+        }
+    }
+
+    /// The index of each contact of the component among the contacts of its frame.
+    pub fn interface(&self, contact: usize) -> usize {
+        self.given.contacts[contact].interface
+    }
+
+    /// Returns the farthest carried force in a direction, a unit vector. `reach` limits both components of the force, N.
+    pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
+        let grip = self.given.grips.len();
+        let found = match reach {
+            None => support(&self.program, grip, direction),
+            Some(most) => {
+                let mut program = self.program.clone();
+                let most = most / program.scale.force;
+                program.grips[grip].limits[0] = most;
+                program.grips[grip].limits[1] = most;
+                support(&program, grip, direction)
+            }
+        };
+        match found {
+            Support::At { forces, motion } => {
+                let carried = self.carried(&forces);
+                let near = forces.grip[grip];
+                let near = Vector::new(near[0], near[1]) * self.program.scale.force;
+                Farthest::At {
+                    carried,
+                    line: self.line(near, direction, &motion),
+                }
+            }
+            Support::Unbounded => Farthest::Unbounded,
+            Support::Never | Support::Unsolved => Farthest::None,
+        }
+    }
+
+    fn carried(&self, amounts: &Amounts) -> Option<Carried> {
+        let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
+        let own = forces.grips.pop()?;
+        Some(Carried {
+            force: own.force,
+            torque: own.torque,
+            forces,
+            proof,
+        })
+    }
+
+    /// Returns the half-plane that a motion `y` of the program leaves. The motion is proved for a force beyond `near`.
+    fn line(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<Line> {
+        let size = near.norm().max(self.heaviest());
+        let beyond = self.with_force(near + direction * (BEYOND * size));
+        let program = Program::new(&beyond, self.program.scale);
+        let (motion, proof) = proved_motion(&beyond, &program, y)?;
+        let own = &motion[self.body];
+        let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
+        let speed = velocity.norm();
+        (speed > MIN_SPEED).then(|| Line {
+            normal: velocity / speed,
+            limit: -self.power(&motion) / speed,
+            motion,
+            proof,
+        })
+    }
+
+    /// Returns the component with one more load. A free contact also exerts a torque, so that the body may not rotate.
+    fn with_force(&self, force: Vector) -> Assembly {
+        let mut assembly = match self.has_torque {
+            true => with_grip(&self.given, self.body, self.at, [0.0, 0.0, f64::INFINITY]),
+            false => self.given.clone(),
+        };
+        let factor = assembly.load_factor;
+        let body = &mut assembly.bodies[self.body];
+        let more = load_about(body.centroid, self.at, force, 0.0);
+        body.listed = body.listed.plus(more.times(1.0 / factor));
+        body.load = body.load.plus(more);
+        assembly
+    }
+
+    /// Returns the power of the loads along a motion, less the power that limited robots can absorb, in watts.
+    fn power(&self, motion: &[Motion]) -> f64 {
+        let mut power = 0.0;
+        for (body, m) in self.given.bodies.iter().zip(motion) {
+            power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
+        }
+        for grip in &self.given.grips {
+            let (body, m) = (&self.given.bodies[grip.body], &motion[grip.body]);
+            let speed = m.about(body.centroid, grip.at);
+            for (speed, limit) in [
+                (speed.x, grip.limits.fx),
+                (speed.y, grip.limits.fy),
+                (m.spin, grip.limits.torque),
+            ] {
+                if limit.is_finite() {
+                    power -= speed.abs() * limit;
+                }
+            }
+        }
+        power
+    }
+}
+
+/// Returns an assembly with one more grip, at the end of the list.
+fn with_grip(given: &Assembly, body: usize, at: Point, limits: [f64; 3]) -> Assembly {
+    let mut held = given.clone();
+    let [fx, fy, torque] = limits;
+    held.grips.push(AssemblyGrip {
+        hold: usize::MAX,
+        robot: RobotId(usize::MAX),
+        body,
+        at,
+        limits: Limits { fx, fy, torque },
+    });
+    held
+}

@@ -1,0 +1,132 @@
+//! Refines the directions in which the farthest forces are computed until every edge between two of them is known.
+//!
+//! Between two neighbouring farthest forces lies either an edge or another vertex. The normal of their chord decides: if
+//! no force is farther in this direction, the chord is an edge, otherwise the farthest force is a new vertex. Reference:
+//! Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
+
+use super::probe::{Carried, Farthest, Line, Probe};
+use crate::geometry::{Vector, cross};
+
+/// The farthest force in a direction, and the motion that excludes farther ones.
+#[derive(Clone, Debug)]
+pub(super) struct Sample {
+    pub carried: Carried,
+    pub line: Option<Line>,
+}
+
+/// The refinement stops at this fraction of the size of the set.
+const TOLERANCE: f64 = 2e-7;
+
+/// The tolerance is at least this fraction of the heaviest load: the solver's accuracy.
+const LEAST_TOLERANCE: f64 = 2e-9;
+
+/// Forces that differ by this fraction of the size of a set differ by rounding.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// The largest number of nested refinements.
+const MAX_DEPTH: usize = 40;
+
+/// The largest number of programs.
+const MAX_SAMPLES: usize = 2000;
+
+/// Returns the tolerance for a set of this size, both in newtons.
+pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
+    (TOLERANCE * size).max(LEAST_TOLERANCE * probe.heaviest())
+}
+
+/// Returns the size of a set of forces: the larger side of its bounding box.
+pub(super) fn size(samples: &[Sample]) -> f64 {
+    let extent = |axis: usize| {
+        let values = samples.iter().map(|s| s.carried.force[axis]);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+        (high - low).max(0.0)
+    };
+    extent(0).max(extent(1))
+}
+
+/// Returns the sample of a direction; `None` without a proved force.
+pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
+    match probe.farthest(direction, reach) {
+        Farthest::At {
+            carried: Some(carried),
+            line,
+        } => Some(Sample { carried, line }),
+        _ => None,
+    }
+}
+
+/// Refines between neighbouring samples, whose directions run anticlockwise. `is_closed` is true if the last and the
+/// first are neighbours, too. Returns all samples in order.
+pub(super) fn refined(
+    probe: &Probe,
+    start: Vec<Sample>,
+    is_closed: bool,
+    reach: Option<f64>,
+) -> Vec<Sample> {
+    let mut search = Search {
+        probe,
+        reach,
+        tolerance: tolerance(probe, size(&start)),
+        count: 0,
+        found: Vec::new(),
+    };
+    let pairs = match is_closed {
+        true => start.len(),
+        false => start.len().saturating_sub(1),
+    };
+    for (k, first) in start.iter().enumerate() {
+        search.found.push(first.clone());
+        if k < pairs {
+            search.between(first, &start[(k + 1) % start.len()], MAX_DEPTH);
+        }
+    }
+    search.found
+}
+
+struct Search<'a> {
+    probe: &'a Probe,
+    reach: Option<f64>,
+    tolerance: f64,
+    count: usize,
+    found: Vec<Sample>,
+}
+
+impl Search<'_> {
+    /// Adds all samples between two.
+    fn between(&mut self, from: &Sample, to: &Sample, depth: usize) {
+        let [a, b] = [from, to].map(|sample| sample.carried.force);
+        let chord = b - a;
+        let length = chord.norm();
+        if length <= self.tolerance || depth == 0 || self.count >= MAX_SAMPLES {
+            return;
+        }
+        // The edge may be known already.
+        let touches = |line: &Option<Line>, force: Vector| {
+            let line = line.as_ref();
+            line.is_some_and(|line| line.limit - line.normal.dot(&force) <= self.tolerance)
+        };
+        if touches(&from.line, b) || touches(&to.line, a) {
+            return;
+        }
+        // The forces run anticlockwise, so the outside is to the right of the chord.
+        let normal = Vector::new(chord.y, -chord.x) / length;
+        self.count += 1;
+        let Some(next) = sample(self.probe, normal, self.reach) else {
+            return;
+        };
+        let force = next.carried.force;
+        let farther = cross(chord, force - a) / -length;
+        if farther <= self.tolerance {
+            // An edge. Its own line is known now.
+            if next.line.is_some() {
+                self.found.push(next);
+            }
+            return;
+        }
+        self.between(from, &next, depth - 1);
+        self.found.push(next.clone());
+        self.between(&next, to, depth - 1);
+    }
+}

@@ -1,0 +1,305 @@
+//! Convex sets of forces: corners, rays and half-planes.
+
+use super::probe::{Line, Probe};
+use super::refine::{self, Sample};
+use super::{Capacity, CapacityEdge, CapacityVertex, VertexForce, cone};
+use crate::geometry::{Point, Vector, cross};
+use crate::scene::BlockId;
+
+/// A ray is cut off at this multiple of the size of the set.
+const FAR: f64 = 1e4;
+
+/// Builds the capacity from the samples of its set.
+pub(super) fn capacity(
+    found: cone::Found,
+    probe: &Probe,
+    block: BlockId,
+    at: &[Point],
+) -> Capacity {
+    let cone::Found { samples, rays } = found;
+    let size = refine::size(&samples);
+    let tolerance = refine::tolerance(probe, size);
+    let forces: Vec<Vector> = samples.iter().map(|s| s.carried.force).collect();
+    let corners = corners(&forces, &rays, tolerance);
+    let vertices: Vec<CapacityVertex> = corners
+        .iter()
+        .map(|k| vertex(&samples[*k], probe))
+        .collect();
+    let lines: Vec<(&Line, usize)> = samples
+        .iter()
+        .filter_map(|s| Some((s.line.as_ref()?, 0)))
+        .collect();
+    let mut capacity = Capacity {
+        block,
+        at: at.to_vec(),
+        vertices,
+        rays,
+        edges: Vec::new(),
+        gap: 0.0,
+        mechanism: Vec::new(),
+        cases: 1,
+    };
+    if capacity.rays.len() > 2 {
+        return capacity;
+    }
+    let lines: Vec<CapacityEdge> = lines.into_iter().map(edge_of).collect();
+    close(&mut capacity, &lines, size.max(1e-3 * probe.heaviest()));
+    capacity
+}
+
+/// Chooses the edges of a capacity among the half-planes that contain it, and computes the gap.
+pub(super) fn close(capacity: &mut Capacity, lines: &[CapacityEdge], size: f64) {
+    let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
+    let mut edges = Vec::new();
+    for (ends, from, to) in sides(&corners, &capacity.rays, size) {
+        let off = |line: &CapacityEdge| {
+            let off = |force: Vector| (line.limit - line.normal.dot(&force)).abs();
+            off(from).max(off(to))
+        };
+        let chord = to - from;
+        let outward = Vector::new(chord.y, -chord.x);
+        let faces = lines
+            .iter()
+            .filter(|line| ends[0] == ends[1] || line.normal.dot(&outward) > 0.0);
+        if let Some(line) = faces.min_by(|a, b| off(a).total_cmp(&off(b))) {
+            edges.push(CapacityEdge {
+                ends,
+                ..line.clone()
+            });
+        }
+    }
+    capacity.gap = gap(&corners, &capacity.rays, lines, size);
+    capacity.edges = edges;
+}
+
+fn vertex(sample: &Sample, probe: &Probe) -> CapacityVertex {
+    let contacts = sample.carried.forces.contacts.iter().enumerate();
+    CapacityVertex {
+        force: sample.carried.force,
+        torque: sample.carried.torque,
+        contacts: contacts
+            .map(|(k, forces)| VertexForce {
+                interface: probe.interface(k),
+                normal: forces.normal,
+                friction: forces.friction,
+            })
+            .collect(),
+        proof: Some(sample.carried.proof),
+    }
+}
+
+fn edge_of((line, case): (&Line, usize)) -> CapacityEdge {
+    CapacityEdge {
+        ends: [None; 2],
+        normal: line.normal,
+        limit: line.limit,
+        mechanism: line.motion.clone(),
+        proof: line.proof,
+        case,
+    }
+}
+
+/// The sides of a set in order: the vertices at its ends, and two forces on it.
+fn sides(
+    corners: &[Vector],
+    rays: &[Vector],
+    size: f64,
+) -> Vec<([Option<usize>; 2], Vector, Vector)> {
+    let count = corners.len();
+    let mut sides = Vec::new();
+    if count == 0 {
+        return sides;
+    }
+    let side = |k: usize, next: usize| ([Some(k), Some(next)], corners[k], corners[next]);
+    match rays {
+        [] => sides.extend((0..count).map(|k| side(k, (k + 1) % count))),
+        [only] => {
+            // The edges without end are parallel.
+            sides.push(([None, Some(0)], corners[0] + only * size, corners[0]));
+            sides.extend((1..count).map(|k| side(k - 1, k)));
+            let last = corners[count - 1];
+            sides.push(([Some(count - 1), None], last, last + only * size));
+        }
+        [first, second, ..] => {
+            let last = corners[count - 1];
+            if cross(*first, *second).abs() < 1e-9 && count == 2 {
+                // A strip: two edges without ends.
+                sides.push(([None; 2], corners[0] + second * size, corners[0]));
+                sides.push(([None; 2], last + first * size, last));
+                return sides;
+            }
+            sides.push(([None, Some(0)], corners[0] + second * size, corners[0]));
+            sides.extend((1..count).map(|k| side(k - 1, k)));
+            sides.push(([Some(count - 1), None], last, last + first * size));
+        }
+    }
+    sides
+}
+
+/// Returns which of the forces are corners of their convex hull, anticlockwise. Corners nearer than `tolerance` to the
+/// hull of the others are left out. With rays, the order begins after the last ray.
+pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec<usize> {
+    if forces.is_empty() {
+        return Vec::new();
+    }
+    let extent = forces.iter().map(|f| (f - forces[0]).norm());
+    let far = FAR * extent.fold(1e6 * tolerance, f64::max);
+    let mut points: Vec<(Vector, Option<usize>)> = forces
+        .iter()
+        .enumerate()
+        .map(|(k, f)| (*f, Some(k)))
+        .collect();
+    for ray in rays {
+        points.extend(forces.iter().map(|f| (f + ray * far, None)));
+    }
+    let mut ring = hull(points);
+    simplify(&mut ring, tolerance);
+    // Begin with the corner after the far ones.
+    let is_far = |k: usize| ring[k % ring.len()].1.is_none();
+    let first = (0..ring.len()).find(|k| is_far(*k) && !is_far(k + 1));
+    let count = ring.len();
+    let start = first.map_or(0, |k| k + 1);
+    (0..count)
+        .filter_map(|k| ring[(start + k) % count].1)
+        .collect()
+}
+
+/// The convex hull of tagged points, anticlockwise (Andrew 1979).
+fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)> {
+    points.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup_by(|(a, _), (b, _)| a == b);
+    if points.len() < 3 {
+        return points;
+    }
+    let mut ring: Vec<(Vector, Option<usize>)> = Vec::new();
+    for pass in 0..2 {
+        let base = ring.len();
+        for point in &points {
+            while ring.len() >= base + 2 {
+                let [a, b] = [ring[ring.len() - 2].0, ring[ring.len() - 1].0];
+                if cross(b - a, point.0 - b) > 0.0 {
+                    break;
+                }
+                ring.pop();
+            }
+            ring.push(*point);
+        }
+        ring.pop();
+        if pass == 0 {
+            points.reverse();
+        }
+    }
+    ring
+}
+
+/// Removes near corners that the others replace to the tolerance, the nearest first.
+fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
+    while ring.len() > 1 {
+        let count = ring.len();
+        let height = |k: &usize| {
+            let [before, at, after] = [count - 1, 0, 1].map(|step| ring[(k + step) % count].0);
+            match count {
+                2 => (at - after).norm(),
+                _ => to_segment(at, before, after),
+            }
+        };
+        let lowest = (0..count)
+            .filter(|k| ring[*k].1.is_some())
+            .min_by(|a, b| height(a).total_cmp(&height(b)));
+        match lowest.filter(|k| height(k) <= 0.25 * tolerance) {
+            Some(k) => ring.remove(k),
+            None => break,
+        };
+    }
+}
+
+/// The distance of a point from a segment.
+fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
+    let along = b - a;
+    let square = along.norm_squared();
+    let share = match square {
+        0.0 => 0.0,
+        _ => ((point - a).dot(&along) / square).clamp(0.0, 1.0),
+    };
+    (point - a - along * share).norm()
+}
+
+/// The part of a convex polygon in which normal · F ≤ limit.
+pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
+    let height = |force: &Vector| normal.dot(force) - limit;
+    let mut kept = Vec::with_capacity(ring.len() + 1);
+    for (k, from) in ring.iter().enumerate() {
+        let to = &ring[(k + 1) % ring.len()];
+        let (here, there) = (height(from), height(to));
+        if here <= 0.0 {
+            kept.push(*from);
+        }
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            kept.push(from + (to - from) * (here / (here - there)));
+        }
+    }
+    kept
+}
+
+/// A square around a force.
+pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
+    let corner = |x: f64, y: f64| centre + Vector::new(x, y) * half;
+    vec![
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ]
+}
+
+/// The largest distance of a force that no line excludes from the proved forces. Forces without end are compared within a
+/// few sizes of the set.
+fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -> f64 {
+    let Some(first) = corners.first() else {
+        return 0.0;
+    };
+    let mut outer = square(*first, 4.0 * size);
+    for line in lines {
+        outer = clipped(&outer, line.normal, line.limit);
+    }
+    let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
+    for ray in rays {
+        points.extend(corners.iter().map(|f| (f + ray * (100.0 * size), None)));
+    }
+    let inner: Vec<Vector> = hull(points).into_iter().map(|p| p.0).collect();
+    outer
+        .iter()
+        .map(|force| distance(&inner, *force))
+        .fold(0.0, f64::max)
+}
+
+/// The distance of a force from a convex polygon; 0 inside.
+pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
+    let count = ring.len();
+    let edges = || (0..count).map(|k| (ring[k], ring[(k + 1) % count]));
+    if count > 2 && edges().all(|(a, b)| cross(b - a, force - a) >= 0.0) {
+        return 0.0;
+    }
+    let near = edges().map(|(a, b)| to_segment(force, a, b));
+    near.fold(f64::INFINITY, f64::min)
+}
+
+/// Returns the set as a polygon in which the rays are cut off far away.
+pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
+    let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
+    for ray in rays {
+        points.extend(corners.iter().map(|f| (f + ray * far, None)));
+    }
+    hull(points).into_iter().map(|p| p.0).collect()
+}
+
+/// Whether a force belongs to the convex hull of the corners, extended along the rays.
+pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bool {
+    if corners.is_empty() {
+        return false;
+    }
+    let extent = corners.iter().map(|f| (f - force).norm());
+    let extent = extent.fold(0.0, f64::max);
+    let ring = cut_off(corners, rays, FAR * extent.max(f64::MIN_POSITIVE));
+    distance(&ring, force) <= 1e-9 * extent
+}

@@ -1,0 +1,40 @@
+//! Proofs of the results of one program at the limit of stability.
+
+use super::Component;
+use super::verdict_only::VERDICT_ONLY;
+use crate::assembly::Assembly;
+use crate::program::Program;
+use crate::proof::{Forces, Motion, Proof};
+use crate::solve::{Amounts, Effort};
+
+/// Returns forces in newtons that balance a component, with their proof. `None` if they do not balance it.
+///
+/// `program` is that of the component, in any scale.
+pub(in crate::mechanics::analysis) fn proved_forces(
+    assembly: &Assembly,
+    program: &Program,
+    amounts: &Amounts,
+) -> Option<(Forces, Proof)> {
+    let component = in_scale_of(assembly, program);
+    let found = component.prove_forces(amounts);
+    component
+        .believes(&found.proof)
+        .then_some((found.forces, found.proof))
+}
+
+/// Returns the motion nearest to the velocities `y` of a program that no contact opposes, one entry for each body, with
+/// the proof that the component falls by it. `None` if the proof is too weak.
+pub(in crate::mechanics::analysis) fn proved_motion(
+    assembly: &Assembly,
+    program: &Program,
+    y: &[f64],
+) -> Option<(Vec<Motion>, Proof)> {
+    in_scale_of(assembly, program).prove_motion(program, y, &mut Effort::default())
+}
+
+fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {
+    Component {
+        scale: program.scale,
+        ..Component::new(assembly, VERDICT_ONLY)
+    }
+}

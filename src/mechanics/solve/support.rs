@@ -1,0 +1,77 @@
+//! The largest force of an unlimited grip in a direction, by one linear program.
+//!
+//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip. Its dual is kinematic: max loadsᵀy s.t. columnᵀy ≤ 0,
+//! and the grip point moves along −y with the velocity d. The multipliers of these last rows are F. The velocities are the
+//! mechanism by which the structure gives way to a larger force.
+
+use super::dual::amounts_of_rows;
+use super::limit::{columns_in, rebalanced};
+use super::slanted::Slanted;
+use super::{Amounts, Conditioning, Face, Status, TOLERANCE, largest, solve};
+use crate::geometry::Vector;
+use crate::program::{Column, Force, Program, kinematic_dual};
+
+/// The largest force of a grip in a direction.
+#[derive(Clone, Debug)]
+pub enum Support {
+    /// It is finite.
+    At {
+        /// Forces that balance the loads, with the largest force of the grip.
+        forces: Amounts,
+        /// The mechanism: three velocities for each block.
+        motion: Vec<f64>,
+    },
+    /// The force may grow without end.
+    Unbounded,
+    /// No force of the grip allows a balance.
+    Never,
+    /// The solver ended without a result.
+    Unsolved,
+}
+
+/// The tolerances and conditionings that are tried in turn. Plain conditioning is faster; a proof checks each result.
+const ATTEMPTS: [(f64, Conditioning); 4] = [
+    (TOLERANCE, Conditioning::Plain),
+    (TOLERANCE, Conditioning::Full),
+    (10.0 * TOLERANCE, Conditioning::Full),
+    (100.0 * TOLERANCE, Conditioning::Full),
+];
+
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. The other forces have no cost.
+pub fn support(program: &Program, grip: usize, direction: Vector) -> Support {
+    let load = match largest(&program.loads) {
+        0.0 => 1.0,
+        load => load,
+    };
+    let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
+    let columns = Slanted::new(&columns_in(program, load)).columns;
+    let cost = |column: &Column| match column.force {
+        Force::Grip {
+            grip: own,
+            component,
+            sign,
+        } if own == grip && component < 2 => -sign * direction[component],
+        _ => 0.0,
+    };
+    let (problem, row_of) = kinematic_dual(&loads, &columns, cost);
+    for (tolerance, conditioning) in ATTEMPTS {
+        let answer = solve(&problem, tolerance, conditioning);
+        match answer.status {
+            Status::Solved => {
+                let amounts = amounts_of_rows(&answer, &row_of);
+                let mut amounts = rebalanced(&loads, &columns, amounts);
+                amounts.iter_mut().for_each(|amount| *amount *= load);
+                let face = Face::whole(&loads, columns).with(amounts);
+                return Support::At {
+                    forces: face.gathered(program).0,
+                    motion: answer.x[..loads.len()].iter().map(|v| -v).collect(),
+                };
+            }
+            // No motion with this velocity of the grip point exists: nothing limits the force.
+            Status::Infeasible => return Support::Unbounded,
+            Status::Unbounded => return Support::Never,
+            Status::Unsolved => {}
+        }
+    }
+    Support::Unsolved
+}
