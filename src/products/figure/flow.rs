@@ -308,7 +308,7 @@ impl<'a> Picture<'a> {
             return group;
         }
         let radius = dot(self.pen.unit());
-        let limits = limit::reached(self.scene, self.found);
+        let marked = limit::marked(self.pen.context, self.pen.number);
         for (contact, bearing) in self
             .found
             .contacts
@@ -322,10 +322,10 @@ impl<'a> Picture<'a> {
             ink.disc(at, radius + 1.0);
             let title = words::joint(self.scene, contact);
             let dot = Group::with_class("resultant").titled(title);
-            let at_limit = limits.iter().any(|c| core::ptr::eq(*c, contact));
-            let path = match at_limit {
-                true => limit::sign(at, radius, self.theme),
-                false => dot_at(at, radius, self.theme),
+            let mark = marked.iter().find(|m| core::ptr::eq(m.contact, contact));
+            let path = match mark {
+                Some(mark) => mark.sign(at, radius, self.theme),
+                None => dot_at(at, radius, self.theme),
             };
             group.items.push(dot.with(path).into());
         }

@@ -5,7 +5,7 @@ use super::context::FigureContext;
 use super::description;
 use super::words::{FULL, percent};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Item, Outline, PagePoint, Path, Theme};
+use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
 use crate::scene::Scene;
 
@@ -67,20 +67,62 @@ const SAME_SHARE: f64 = 1e-6;
 /// A joint with a smaller share than this is not named, because it would be shown as 0 % or be noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
+/// Returns the joints to mark: those at their limit, or else the one nearest to its limit.
+pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
+    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let all = nearness(scene, found);
+    if all.iter().any(Nearness::reached) {
+        let reached = all.into_iter().filter(Nearness::reached);
+        return reached.map(|n| Marked::new(n.contact, true)).collect();
+    }
+    let nearest = nearest(&all).filter(|_| names_nearest(context));
+    let nearest = nearest.map(|n| Marked::new(n.contact, false));
+    nearest.into_iter().collect()
+}
+
+/// A joint that figures mark with a diamond.
+pub(crate) struct Marked<'a> {
+    pub contact: &'a Contact,
+    /// `true` at the limit (full diamond); `false` for the joint nearest to its limit (open diamond).
+    pub reached: bool,
+}
+
+impl<'a> Marked<'a> {
+    fn new(contact: &'a Contact, reached: bool) -> Self {
+        Self { contact, reached }
+    }
+
+    /// Returns the diamond. `radius` is in pixels.
+    pub(crate) fn sign(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
+        match self.reached {
+            true => sign(at, radius, theme),
+            false => open_sign(at, radius, theme),
+        }
+    }
+}
+
+/// Returns the joint nearest to its limit; `None` if every joint is far from its limit.
+fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
+    // If several shares are equal except for rounding, take the first, so that noise does not change the name.
+    let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
+    let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
+    nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
+}
+
+/// Whether a figure names the joint nearest to its limit: not if it is printed or zoomed, and not if it has several
+/// panels, which have no space for the sentence.
+fn names_nearest(context: &FigureContext<'_>) -> bool {
+    let options = context.options;
+    context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
+}
+
 /// Describes the joints at their limit, or else the joint nearest to its limit. Empty if no joint is near its limit,
 /// for printed or zoomed figures, and for several frames, whose panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let options = context.options;
-    if context.analysis.frames.len() > 1 || options.printed() || options.zoom.is_some() {
-        return String::new();
-    }
     let all = nearness(scene, found);
     let at_limit = all.iter().filter(|n| n.reached()).count();
-    // If several shares are equal except for rounding, take the first, so that noise does not change the name.
-    let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
-    let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
-    let Some(nearest) = nearest.filter(|n| n.share() >= MIN_NAMED_SHARE) else {
+    let Some(nearest) = nearest(&all).filter(|_| names_nearest(context)) else {
         return String::new();
     };
     let pair = description::pair(scene, nearest.contact.interface.bodies);
@@ -93,18 +135,26 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
         ),
     };
     match at_limit {
-        0 => format!("nearest to its limit: the joint between {pair}, {how}"),
+        0 => format!("nearest to its limit (open diamond): the joint between {pair}, {how}"),
         1 => format!("at its limit in the forces shown: the joint between {pair}, {how}"),
         n => format!("{n} joints are at their limit in the forces shown"),
     }
 }
 
 /// Returns the sign of a joint at its limit: a diamond. `radius` is in pixels.
-pub(crate) fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    let r = 1.5 * radius;
+fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    Path::filled(diamond(at, 1.5 * radius), theme.ink).cased(theme.page, 0.35 * radius)
+}
+
+/// Returns the sign of the joint nearest to its limit: an open diamond.
+fn open_sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    let outline = diamond(at, 1.5 * radius);
+    Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
+}
+
+fn diamond(at: PagePoint, r: f64) -> Outline {
     let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
-    let outline = Outline::ring(corners.map(|(x, y)| at.moved(x, y)));
-    Path::filled(outline, theme.ink).cased(theme.page, 0.35 * radius)
+    Outline::ring(corners.map(|(x, y)| at.moved(x, y)))
 }
 
 /// Draws the sign for the legend.

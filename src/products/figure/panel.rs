@@ -53,17 +53,19 @@ pub(crate) fn picture(
     group
 }
 
-/// Draws the signs of joints at their limit.
+/// Draws the signs of joints at their limit, or of the joint nearest to it.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
-    for contact in limit::reached(scene, &pen.context.analysis.frames[pen.number]) {
+    for marked in limit::marked(pen.context, pen.number) {
+        let contact = marked.contact;
         let at = pen.camera.place(contact.resultant.at);
         let radius = (0.06 * pen.unit()).clamp(1.6, 3.2);
         ink.disc(at, 1.5 * radius);
         let pair = description::pair(scene, contact.interface.bodies);
-        let title = format!("The joint between {pair} is at its limit");
-        let sign = limit::sign(at, radius, theme);
+        let is = if marked.reached { "at" } else { "nearest to" };
+        let title = format!("The joint between {pair} is {is} its limit");
+        let sign = marked.sign(at, radius, theme);
         let sign = Group::with_class("limit").titled(title).with(sign);
         group.items.push(sign.into());
     }
