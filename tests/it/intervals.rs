@@ -404,7 +404,13 @@ fn random_scene(number: u64) -> Value {
                 // A corner's place is exact, a centroid is rounded.
                 let mut load = json!({ "block": id, "at": corner(&file, id) });
                 let quarter = |chance: &mut Random| chance.whole(-24, 24) as f64 / 4.0;
-                load["force"] = json!([quarter(&mut chance), quarter(&mut chance)]);
+                let force = [quarter(&mut chance), quarter(&mut chance)];
+                // A load of zero is none.
+                load["force"] = json!(if force == [0.0; 2] {
+                    [0.0, -1.0]
+                } else {
+                    force
+                });
                 if chance.percent(25) {
                     load["torque"] = json!(quarter(&mut chance));
                 }
@@ -583,6 +589,16 @@ fn slow_cuts_of_the_tilt_are_hurried() {
 #[test]
 fn a_tilt_beyond_half_a_turn_is_as_exact_as_a_small_one() {
     for number in [10581, 10850] {
+        let found = problems(number);
+        assert!(found.is_empty(), "{found:?}");
+    }
+}
+
+/// The roots of Newton's method lie beyond these ends, from whichever side: the method ended without a root, and the verdicts that
+/// replaced it are true to 10⁻⁷ of the forces only. Three frictions were up to 2·10⁻⁶ too low, two kernels 7·10⁻⁷ too high.
+#[test]
+fn friction_and_kernel_are_as_exact_as_the_program_where_roots_lie_beyond_the_end() {
+    for number in [10711, 11445, 11776, 10944, 12008] {
         let found = problems(number);
         assert!(found.is_empty(), "{found:?}");
     }

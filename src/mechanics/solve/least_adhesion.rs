@@ -12,7 +12,6 @@
 //!    the mirrored figure;
 //! 4. least Σ force² on the remaining columns, which is unique.
 
-use super::level::refined_optimum;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
@@ -134,15 +133,8 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     }
     let mut motion = Some(first.y.iter().map(|v| -v).collect());
     // If sizes differ by many powers of ten, refine the optimum of stage 1 level by level.
-    let least = whole.adhesion_sum(&first.amounts);
-    let precise = least_adhesion_levels::smallest_accurate_force(&whole.loads, least).and_then(
-        |force_size| {
-            let (loads, columns) = (&whole.loads, &whole.columns);
-            let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
-            let found = refined_optimum(loads, columns, cost, &first, force_size, &mut effort)?;
-            Some((found, force_size))
-        },
-    );
+    let many = size == Size::Many;
+    let precise = least_adhesion_levels::precise_optimum(&whole, &first, many, &mut effort);
     let mut face = match &precise {
         Some((first, force_size)) => {
             motion = Some(first.y.iter().map(|v| -v).collect());

@@ -11,11 +11,19 @@ use crate::program::Column;
 /// A least sum of adhesion below this fraction of the largest load needs a refined optimum.
 const SMALL_ADHESION: f64 = 1e-3;
 
-/// A least sum of adhesion below this fraction of the largest load counts as 0: it is within the solver's tolerance.
-const ZERO_ADHESION: f64 = 1e-10;
+/// A least sum of adhesion below this fraction of the largest load counts as 0: it is the rounding of the loads.
+///
+/// A push on a heavy stone without friction may be missing although it is far below the solver's tolerance.
+const ZERO_ADHESION: f64 = 1e-15;
+
+/// [`ZERO_ADHESION`] for many blocks, where a refinement takes long: the solver's tolerance.
+const ZERO_ADHESION_MANY: f64 = 1e-10;
 
 /// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may have.
 const SAME_SUM: f64 = 1e-8;
+
+/// A refined sum of adhesion below this multiple of the smallest accurate force is refined again.
+const FAR_SMALLER: f64 = 1e-2;
 
 /// The largest number of rounds of stage 3.
 const MAX_ROUNDS: usize = 4;
@@ -23,13 +31,44 @@ const MAX_ROUNDS: usize = 4;
 /// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
 /// `None` if it is so close to the largest load that the unrefined optimum is accurate enough. `least` is the least sum
-/// of adhesion.
-pub(super) fn smallest_accurate_force(loads: &[f64], least: f64) -> Option<f64> {
+/// of adhesion, and `many` says whether the program has many blocks.
+fn smallest_accurate_force(loads: &[f64], least: f64, many: bool) -> Option<f64> {
     let most = largest(loads);
     let light = lightest(loads);
-    let slight = ZERO_ADHESION * most < least && least < SMALL_ADHESION * most;
+    let zero = if many {
+        ZERO_ADHESION_MANY
+    } else {
+        ZERO_ADHESION
+    };
+    let slight = zero * most < least && least < SMALL_ADHESION * most;
     let force_size = if slight { light.min(least) } else { light };
     (force_size < WIDE_LOAD_RATIO * most && force_size > 0.0).then_some(force_size)
+}
+
+/// Returns the optimum of stage 1, refined level by level, and the size of the smallest forces that are accurate in it.
+///
+/// `None` if sizes do not differ by many powers of ten, or if the refinement fails. `first` is the optimum of stage 1; `many` says
+/// whether the program has many blocks. Before the refinement a small sum of adhesion is noise. If it turns out to be far smaller,
+/// the optimum is refined again.
+pub(super) fn precise_optimum(
+    whole: &Face,
+    first: &Dual,
+    many: bool,
+    effort: &mut Effort,
+) -> Option<(Dual, f64)> {
+    let (loads, columns) = (&whole.loads, &whole.columns);
+    let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
+    let mut refined = |start: &Dual| {
+        let least = whole.adhesion_sum(&start.amounts);
+        let force_size = smallest_accurate_force(loads, least, many)?;
+        let found = refined_optimum(loads, columns, cost, start, force_size, effort)?;
+        Some((found, force_size))
+    };
+    let (found, force_size) = refined(first)?;
+    match whole.adhesion_sum(&found.amounts) < FAR_SMALLER * force_size {
+        true => refined(&found).or(Some((found, force_size))),
+        false => Some((found, force_size)),
+    }
 }
 
 /// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with adhesion.

@@ -1,6 +1,6 @@
 //! [`Threshold`]: searches the value of a parameter that separates standing from falling.
 //!
-//! Newton's method finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
+//! Newton's method ([`super::newton`]) finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
 //! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
 //! verdicts on both sides is not reported.
 
@@ -10,7 +10,6 @@ use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::decide::Place;
 use crate::proof::Motion;
-use crate::solve::Tangent;
 
 /// The side of the threshold on which the component stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,14 +65,18 @@ impl Threshold {
     }
 
     /// The smallest relative distance from the threshold at which verdicts are computed, on both sides.
-    const NEAR: f64 = 1e-6;
+    pub(super) const NEAR: f64 = 1e-6;
     /// Newton's root is accepted if a stable and an unstable value on both sides of it are at most this far apart,
     /// relative.
-    const SURE: f64 = 512e-6;
+    pub(super) const SURE: f64 = 512e-6;
     /// Distances from the threshold grow by this factor up to [`Threshold::FAR`], until a proof is strong enough.
     const WIDER: f64 = 16.0;
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const FAR: f64 = 256e-6;
+
+    /// Below this fraction of its typical value, distances on the falling side are relative to this fraction: a verdict may be stable
+    /// beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
+    const SMALL: f64 = 0.1;
 
     /// Searches the threshold between 0 and `most`, with Newton's method or else by bisection. Returns the interval
     /// of values at which the component stands.
@@ -163,7 +166,8 @@ impl Threshold {
     ) -> End {
         let is_none = |value: f64| value < Self::NEAR * self.natural;
         let width = |bracket: &Bracket| {
-            (bracket.inside - bracket.outside).abs() / bracket.inside.max(bracket.outside)
+            let size = bracket.inside.max(bracket.outside);
+            (bracket.inside - bracket.outside).abs() / size.max(Self::SMALL * self.natural)
         };
         let is_around = |bracket: &Bracket, root: &f64| {
             (root - bracket.inside) * (root - bracket.outside) <= 0.0
@@ -218,100 +222,16 @@ impl Threshold {
         trial.judge_at(&setting(last), Place::AtEdge).0 == Verdict::Stable
     }
 
-    /// Finds the threshold with Newton's method on the least residual, from the side on which the component falls.
-    /// `None` if the method does not converge.
-    ///
-    /// Adds the forces and the motion that confirm the threshold to the trial's cache.
-    fn stepped(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        [mut inside, mut outside]: [f64; 2],
-    ) -> Option<f64> {
-        let within = |value: f64, a: f64, b: f64| (value - a) * (value - b) < 0.0;
-        let mut tangent = trial.tangent(&setting(outside))?;
-        // The values at which the component falls, and the last value at which it stands.
-        let (mut falling, mut standing) = (Vec::new(), None);
-        for _ in 0..STEPS {
-            if tangent.left <= LEFT {
-                return None;
-            }
-            let size = inside.max(outside);
-            let root = trial.root(&tangent, setting, [outside, inside]);
-            let is_within = within(root, inside, outside);
-            falling.push((outside, tangent.clone()));
-            // Converged: the two sides, or the tangent's root and the falling side, are close.
-            let is_bracketed = (inside - outside).abs() <= CLOSE * size;
-            if is_bracketed || (is_within && (root - outside).abs() <= CLOSE * size) {
-                let edge = if is_within { root } else { inside };
-                self.learn_sides(trial, setting, edge, falling, standing);
-                return Some(edge);
-            }
-            // Take Newton's step to the root of the tangent, or the midpoint if the root lies outside the bracket.
-            let next = if is_within {
-                root
-            } else {
-                0.5 * (inside + outside)
-            };
-            let found = trial.tangent(&setting(next))?;
-            if found.left > LEFT {
-                (outside, tangent) = (next, found);
-                continue;
-            }
-            inside = next;
-            standing = Some((next, found));
-            // The component stands at the end of the step. Test whether it falls just beyond this value.
-            let beside = next + 0.4 * CLOSE * next.max(outside) * (outside - next).signum();
-            if is_within && within(beside, inside, outside) {
-                let found = trial.tangent(&setting(beside))?;
-                if found.left > LEFT {
-                    (outside, tangent) = (beside, found);
-                } else {
-                    inside = beside;
-                }
-            }
-        }
-        None
-    }
-
-    /// Adds a motion just beyond the threshold and forces just inside it to the trial's cache. They come from
-    /// Newton's steps or from new tangents.
-    fn learn_sides(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        edge: f64,
-        falling: Vec<(f64, Tangent)>,
-        standing: Option<(f64, Tangent)>,
-    ) {
-        let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
-        // Close enough to confirm the threshold, and far enough for a strong proof.
-        let near = falling
-            .into_iter()
-            .rev()
-            .find(|(value, _)| (2.0 * Self::NEAR..0.45 * Self::SURE).contains(&away(*value)));
-        let falls = near.or_else(|| {
-            let value = self.steps(edge, Side::Beyond).nth(1)?;
-            Some((value, trial.tangent(&setting(value))?))
-        });
-        let standing = standing.filter(|(value, _)| away(*value) <= Self::NEAR);
-        let stands = standing.or_else(|| {
-            let value = self.steps(edge, Side::Inside).next()?;
-            Some((value, trial.tangent(&setting(value))?))
-        });
-        for (found, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
-            if let Some((value, tangent)) = found {
-                trial.learn_tangent(&tangent, &setting(value), verdict);
-            }
-        }
-    }
-
     /// Returns values at growing distances from `at`, on one side.
-    fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
+    pub(super) fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
         let size = if at > 0.0 { at } else { self.natural };
         let sign = match (self.way, side) {
             (Way::Most, Side::Beyond) | (Way::Least, Side::Inside) => size,
             _ => -size,
+        };
+        let far = match side {
+            Side::Inside => Self::FAR,
+            Side::Beyond => Self::FAR * (Self::SMALL * self.natural / size).max(1.0),
         };
         let most = match self.way {
             Way::Most => self.most,
@@ -319,7 +239,7 @@ impl Threshold {
         };
         let mut ended = false;
         std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
-            .take_while(|step| *step <= Self::FAR)
+            .take_while(move |step| *step <= far)
             .map(move |step| (at + sign * step).clamp(0.0, most))
             // If there is no farther value, try the last one once.
             .take_while(move |value| {
@@ -328,16 +248,6 @@ impl Threshold {
             })
     }
 }
-
-/// The largest number of Newton steps for one threshold, midpoint steps included.
-const STEPS: usize = 24;
-
-/// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
-const CLOSE: f64 = 1e-6;
-
-/// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
-/// load.
-const LEFT: f64 = 1e-8;
 
 /// Two values between which the threshold lies.
 struct Bracket {
@@ -364,7 +274,7 @@ impl Bracket {
 
 /// The side of a threshold on which a value is tested.
 #[derive(Clone, Copy)]
-enum Side {
+pub(super) enum Side {
     Inside,
     Beyond,
 }

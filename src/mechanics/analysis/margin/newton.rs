@@ -1,0 +1,159 @@
+//! Newton's method for a [`Threshold`]: the root of the least residual, from the side on which the component falls.
+
+use super::edge::{Side, Threshold};
+use super::trial::{Setting, Trial};
+use crate::analysis::Verdict;
+use crate::solve::Tangent;
+
+/// The largest number of Newton steps for one threshold, midpoint steps included.
+const STEPS: usize = 24;
+
+/// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
+const CLOSE: f64 = 1e-6;
+
+/// It has also converged if the roots of two tangents, one of them much closer to the threshold, differ by this at most, relative to
+/// their size.
+const AGREES: f64 = 1e-7;
+
+/// The error of a least residual, relative to the largest load: a few times the solver's tolerance.
+const NOISE: f64 = 2e-9;
+
+/// Where the root of a tangent lies beyond the threshold, the next tangent is this much closer to the threshold. The error of its
+/// root falls with the square of that.
+const CLOSER: f64 = 1.0 / 16.0;
+
+/// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
+/// load.
+const LEFT: f64 = 1e-8;
+
+/// The bracket of Newton's method.
+struct Steps {
+    /// Here the component stands.
+    inside: f64,
+    /// Here it falls.
+    outside: f64,
+    /// The tangent at `outside`.
+    tangent: Tangent,
+    /// The last value at which the component stands.
+    standing: Option<(f64, Tangent)>,
+}
+
+impl Steps {
+    /// Narrows the bracket at a value. Returns whether the component falls there; `None` if the program is not solved.
+    fn take(
+        &mut self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        value: f64,
+    ) -> Option<bool> {
+        let found = trial.tangent(&setting(value))?;
+        let falls = found.left > LEFT;
+        if falls {
+            (self.outside, self.tangent) = (value, found);
+        } else {
+            (self.inside, self.standing) = (value, Some((value, found)));
+        }
+        Some(falls)
+    }
+
+    fn contains(&self, value: f64) -> bool {
+        (value - self.inside) * (value - self.outside) < 0.0
+    }
+}
+
+impl Threshold {
+    /// Finds the threshold with Newton's method on the least residual, from the side on which the component falls.
+    /// `None` if the method does not converge.
+    ///
+    /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds the forces
+    /// and the motion that confirm the threshold to the trial's cache.
+    pub(super) fn stepped(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        [inside, outside]: [f64; 2],
+    ) -> Option<f64> {
+        let mut at = Steps {
+            inside,
+            outside,
+            tangent: trial.tangent(&setting(outside))?,
+            standing: None,
+        };
+        let mut falling = Vec::new();
+        // The last root at which it stands with the value of its tangent, and the next step into the bracket from its inner end.
+        let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
+        for _ in 0..STEPS {
+            if at.tangent.left <= LEFT {
+                return None;
+            }
+            let (inside, outside) = (at.inside, at.outside);
+            let size = inside.max(outside);
+            let root = trial.root(&at.tangent, setting, [outside, inside]);
+            // The change of the parameter that changes the least residual by 1.
+            let run = (root - outside).abs() / at.tangent.left;
+            let is_within = at.contains(root);
+            let is_near = is_within || (root - inside).abs() <= 4.0 * LEFT * run;
+            let agrees = |[other, tangent_at]: [f64; 2]| {
+                tangent_at != outside && (root - other).abs() <= (AGREES * size).max(NOISE * run)
+            };
+            falling.push((outside, at.tangent.clone()));
+            // Converged: the two sides, the tangent's root and the falling side, or the roots of two tangents are close.
+            let is_bracketed = (inside - outside).abs() <= CLOSE * size;
+            let is_root = (root - outside).abs() <= CLOSE * size || reached.is_some_and(agrees);
+            if is_bracketed || (is_near && is_root) {
+                let edge = if is_near { root } else { inside };
+                self.learn_sides(trial, setting, edge, falling, at.standing);
+                return Some(edge);
+            }
+            // Take Newton's step to the root of the tangent. If the root lies outside the bracket, step into the bracket.
+            if !is_within {
+                let falls = at.take(trial, setting, inside + share * (outside - inside))?;
+                share = if falls && reached.is_some() {
+                    CLOSER
+                } else {
+                    0.5
+                };
+            } else if !at.take(trial, setting, root)? {
+                (reached, share) = (Some([root, outside]), CLOSER);
+                // The component stands at the end of the step. Test whether it falls just beyond this value.
+                let beside = root + 0.4 * CLOSE * size * (outside - root).signum();
+                if at.contains(beside) {
+                    at.take(trial, setting, beside)?;
+                }
+            }
+        }
+        None
+    }
+
+    /// Adds a motion just beyond the threshold and forces just inside it to the trial's cache. They come from
+    /// Newton's steps or from new tangents.
+    fn learn_sides(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        edge: f64,
+        falling: Vec<(f64, Tangent)>,
+        standing: Option<(f64, Tangent)>,
+    ) {
+        let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
+        // Close enough to confirm the threshold, and far enough for a strong proof.
+        let near = falling
+            .into_iter()
+            .rev()
+            .find(|(value, _)| (2.0 * Self::NEAR..0.45 * Self::SURE).contains(&away(*value)));
+        let falls = near.or_else(|| {
+            let value = self.steps(edge, Side::Beyond).nth(1)?;
+            Some((value, trial.tangent(&setting(value))?))
+        });
+        let standing = standing.filter(|(value, _)| away(*value) <= Self::NEAR);
+        let stands = standing.or_else(|| {
+            let value = self.steps(edge, Side::Inside).next()?;
+            Some((value, trial.tangent(&setting(value))?))
+        });
+        for (found, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
+            if let Some((value, tangent)) = found {
+                trial.learn_tangent(&tangent, &setting(value), verdict);
+            }
+        }
+    }
+}
