@@ -13,6 +13,7 @@ use super::arrow::Marks;
 use super::content::PanelContent;
 use super::context::FigureContext;
 use super::displacement::{Course, Displacement};
+use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
 use super::mechanism;
@@ -103,7 +104,8 @@ impl PanelContent for CollapseMargin {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let mut parts = Vec::new();
         let toward = context.options.toward;
-        if let Some((displaced, edge)) = gone(context.analysis, frame, context.unit, toward) {
+        if let Some((ghost, edge)) = ghost(context.analysis, frame, toward) {
+            let displaced = Course::new(&ghost, frame, context.unit).at(1.0);
             let mut outline = Outline::default();
             for (block, displacement) in scene.blocks.iter().zip(&displaced) {
                 let Some(displacement) = displacement else {
@@ -116,6 +118,7 @@ impl PanelContent for CollapseMargin {
             }
             let ghosts = Group::with_class("ghosts").titled("How it would begin to fall");
             parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
+            parts.extend(mechanism::joint_marks(&pen, &ghost, &mut ink));
             if let Some(gravity) = gravity(context.analysis, frame, edge, toward) {
                 let [from, now, there] =
                     [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));
@@ -146,10 +149,13 @@ impl PanelContent for CollapseMargin {
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
         let mut entries = Vec::new();
         let toward = context.options.toward;
-        let mut frames = 0..context.analysis.frames.len();
-        if frames.any(|f| beyond(context.analysis, f, toward).is_some()) {
+        let frames = 0..context.analysis.frames.len();
+        let ghosts = frames.filter_map(|f| Some((f, ghost(context.analysis, f, toward)?.0)));
+        let joints: Vec<Vec<Joint>> = ghosts.map(|(f, ghost)| joints(&ghost, f)).collect();
+        if !joints.is_empty() {
             let ghost = "how it would begin to fall".to_owned();
             entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
+            entries.extend(mechanism::joint_entries(&joints.concat()));
             match toward {
                 Toward::Tilt => {
                     let gravity = "gravity turned as far as it may".to_owned();

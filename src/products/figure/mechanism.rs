@@ -120,22 +120,7 @@ impl PanelContent for Mechanism {
                 ink.line(from, to, pen.line);
             }
         }
-        let mut slips = Group::with_class("slips");
-        let mut hinges = Group::with_class("hinges");
-        if context.analysis.frames[frame].verdict == Verdict::Unstable {
-            for joint in joints(context.analysis, frame) {
-                let contact = &context.analysis.frames[frame].contacts[joint.contact];
-                if joint.slip != 0.0 {
-                    slips.items.push(slip(&pen, contact, &joint, &mut ink));
-                }
-                if let Some(at) = joint.hinge {
-                    hinges.items.push(hinge(&pen, contact, at, &mut ink));
-                }
-            }
-        }
-        if pen.many() {
-            (slips, hinges) = (joined(slips), joined(hinges));
-        }
+        let [slips, hinges] = joint_marks(&pen, context.analysis, &mut ink);
         let loads = pen.arrows(false);
         composed(&pen, view, blocks, vec![slips, hinges, loads], ink)
     }
@@ -155,21 +140,50 @@ impl PanelContent for Mechanism {
             let goes = "how it begins to move, enlarged".to_owned();
             entries.push(Entry::Sign(moved_sign, SIGN_WIDTH, goes));
         }
-        if joints.iter().any(|j| j.hinge.is_some()) {
-            entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
-        }
-        if joints.iter().any(|j| j.slip != 0.0) {
-            let slides = if joints.iter().any(|j| j.lift != 0.0) {
-                "slides, and lifts by its friction coefficient"
-            } else {
-                "slides along its joint"
-            };
-            entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
-        }
+        entries.extend(joint_entries(&joints));
         entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }
+}
+
+/// Draws sliding joints and hinges of the mechanism in `analysis`, in this order, where `pen` draws the blocks.
+pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> [Group; 2] {
+    let mut slips = Group::with_class("slips");
+    let mut hinges = Group::with_class("hinges");
+    let found = &analysis.frames[pen.number];
+    if found.verdict == Verdict::Unstable {
+        for joint in joints(analysis, pen.number) {
+            let contact = &found.contacts[joint.contact];
+            if joint.slip != 0.0 {
+                slips.items.push(slip(pen, contact, &joint, ink));
+            }
+            if let Some(at) = joint.hinge {
+                hinges.items.push(hinge(pen, contact, at, ink));
+            }
+        }
+    }
+    match pen.many() {
+        true => [joined(slips), joined(hinges)],
+        false => [slips, hinges],
+    }
+}
+
+/// Returns the legend of the marks of these joints.
+pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    if joints.iter().any(|j| j.hinge.is_some()) {
+        entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
+    }
+    if joints.iter().any(|j| j.slip != 0.0) {
+        let slides = if joints.iter().any(|j| j.lift != 0.0) {
+            "slides, and lifts by its friction coefficient"
+        } else {
+            "slides along its joint"
+        };
+        entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
+    }
+    entries
 }
 
 /// Joins all marks of a kind into few paths, for frames with very many blocks: the n-th paths of all marks become one
