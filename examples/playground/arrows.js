@@ -1,0 +1,121 @@
+// Arrows on the stage: forces between blocks, missing forces, loads; and the grips of robots.
+
+import { add, length, scale, subtract } from "./geometry.js";
+import { legible, newtons, set, svg } from "./dom.js";
+import { isPoint, list } from "./scene.js";
+
+/** @typedef {import("./geometry.js").Point} Point */
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("./stage.js").Picture} Picture */
+
+/** The longest arrow, as a share of the smaller side of the stage. */
+const LONGEST = 0.17;
+/** An arrow is at least this many pixels long, so that it can be seen and taken hold of. */
+const SHORTEST = 20;
+
+/**
+ * Path data of an arrow from tail to tip, in pixels.
+ * @param {Point} tail @param {Point} tip @param {number} width of the shaft
+ */
+export function arrowPath(tail, tip, width) {
+  const along = subtract(tip, tail);
+  const size = length(along) || 1;
+  /** @type {Point} */
+  const u = scale(along, 1 / size);
+  /** @type {Point} */
+  const n = [-u[1], u[0]];
+  const head = Math.min(size * 0.6, 3 + width * 2.6);
+  const at = (/** @type {number} */ forward, /** @type {number} */ side) => add(add(tail, scale(u, forward)), scale(n, side)).map((c) => c.toFixed(1)).join(" ");
+  const [w, wing] = [width / 2, head * 0.55];
+  return `M${at(0, w)}L${at(size - head, w)}L${at(size - head, wing)}L${at(size, 0)}L${at(size - head, -wing)}L${at(size - head, -w)}L${at(0, -w)}Z`;
+}
+
+/** Pixels to draw a force with, y down. @param {Point} force @param {number} factor pixels for a newton @returns {Point} */
+function inPixels(force, factor) {
+  const size = length(force) * factor;
+  const stretch = size > 0 && size < SHORTEST ? SHORTEST / size : 1;
+  return [force[0] * factor * stretch, -force[1] * factor * stretch];
+}
+
+/** @param {Stage} stage */
+const longest = (stage) => LONGEST * Math.min(stage.view.width, stage.view.height);
+
+/** The forces between blocks: each acts on the first body of its interface. @param {Stage} stage @param {Picture} picture */
+export function drawForces(stage, { result, forces, stale }) {
+  const layer = stage.layers.forces;
+  if (!forces || !result || stale) return layer.replaceChildren();
+  const shown = result.interfaces.filter((/** @type {any} */ i) => length(i.resultant.force) > 0);
+  const most = Math.max(...shown.map((/** @type {any} */ i) => length(i.resultant.force)), 1e-300);
+  const factor = longest(stage) / most;
+  layer.replaceChildren(...shown.filter((/** @type {any} */ i) => length(i.resultant.force) > most * 0.01).map((/** @type {any} */ face) => {
+    const at = stage.view.toPixels(face.resultant.at);
+    const half = scale(inPixels(face.resultant.force, factor), 0.5);
+    return svg("path", { class: "force", d: arrowPath(subtract(at, half), add(at, half), 2.5) });
+  }));
+}
+
+/** What is missing where the structure falls. @param {Stage} stage @param {Picture} picture */
+export function drawMissing(stage, { result, stale }) {
+  const layer = stage.layers.missing;
+  const failures = stale ? [] : list(result?.failures).filter((f) => isPoint(f.at));
+  const most = Math.max(...failures.map((f) => (f.force ? length(f.force) : 0)), 1e-300);
+  const factor = longest(stage) / most;
+  layer.replaceChildren(...failures.flatMap((failure) => {
+    const at = stage.view.toPixels(failure.at);
+    const dot = svg("circle", { class: "missing", cx: at[0], cy: at[1], r: 4.5 });
+    if (!failure.force) return [dot];
+    const tip = add(at, inPixels(failure.force, factor));
+    const label = svg("text", { class: "amount missing", x: tip[0], y: tip[1], dy: tip[1] < at[1] ? -6 : 16 }, newtons(failure.amount));
+    return [svg("path", { class: "missing", d: arrowPath(at, tip, 5) }), dot, ...(failures.length <= 6 ? [label] : [])];
+  }));
+}
+
+/** Where a load acts. @param {any} load @param {import("./scene.js").Resolved} resolved @returns {Point | null} */
+export function loadPoint(load, resolved) {
+  return isPoint(load?.at) ? load.at : resolved.byId.get(load?.block)?.centre ?? null;
+}
+
+/** Loads: the tail can be dragged to where it acts, the tip to its size. @param {Stage} stage @param {Picture} picture */
+export function drawLoads(stage, { scene, resolved, frame }) {
+  const { placed } = resolved.frames[frame];
+  const loads = list(scene?.loads).map((load, index) => ({ load, index, at: loadPoint(load, resolved) }));
+  const shown = loads.filter(({ load, at }) => at && placed.has(load.block) && isPoint(load.force)).slice(0, 200);
+  if (!stage.root.classList.contains("dragging")) {
+    const most = Math.max(...shown.map(({ load }) => length(load.force)), 0);
+    if (most > 0) stage.loadScale = longest(stage) / most / stage.view.zoom;
+  }
+  reuse(stage.layers.loads, shown, ({ load, index, at }, group) => {
+    const tail = stage.view.toPixels(/** @type {Point} */ (at));
+    const tip = add(tail, inPixels(load.force, stage.loadScale * stage.view.zoom));
+    const [arrow, grip, end, label] = group.children;
+    const amount = newtons(length(load.force));
+    set(arrow, { class: "load", d: arrowPath(tail, tip, 5) });
+    set(grip, { class: "handle load", cx: tail[0], cy: tail[1], r: 5.5, "data-handle": `load:${index}`, role: "button", tabindex: 0, "aria-label": `Load ${index + 1} on block ${legible(load.block)}: where it acts` });
+    set(end, { class: "handle force-tip", cx: tip[0], cy: tip[1], r: 8, "data-handle": `force:${index}`, role: "button", tabindex: 0, "aria-label": `Load ${index + 1} on block ${legible(load.block)}: ${amount}, its size and direction` });
+    set(label, { class: "amount load", x: tip[0], y: tip[1], dy: tip[1] < tail[1] - 4 ? -12 : 22 });
+    if (label.textContent !== amount) label.textContent = amount;
+  }, () => svg("g", {}, svg("path"), svg("circle"), svg("circle"), svg("text", { "aria-hidden": "true" })));
+}
+
+/** Robots that hold a block. @param {Stage} stage @param {Picture} picture */
+export function drawRobots(stage, { resolved, frame }) {
+  const shown = resolved.frames[frame].holds.filter((hold) => resolved.byId.has(hold.block));
+  reuse(stage.layers.robots, shown, (hold, group) => {
+    const [x, y] = stage.view.toPixels(hold.at ?? /** @type {any} */ (resolved.byId.get(hold.block)).centre);
+    const name = legible(hold.robot);
+    set(group, { class: "robot handle", transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`, "data-handle": `grip:${hold.robot}`, role: "button", tabindex: 0, "aria-label": `Grip of robot ${name} on block ${legible(hold.block)}` });
+    const text = /** @type {Element} */ (group.children[1]);
+    const short = name.length > 4 ? [...name][0] : name;
+    if (text.textContent !== short) text.textContent = short;
+  }, () => svg("g", {}, svg("circle", { r: 13 }), svg("text", { dy: "0.35em", "aria-hidden": "true" })));
+}
+
+/**
+ * One element for each item, kept from drawing to drawing so that a focused one stays focused.
+ * @template T
+ * @param {Element} layer @param {T[]} items @param {(item: T, element: Element) => void} update @param {() => Element} create
+ */
+function reuse(layer, items, update, create) {
+  while (layer.childElementCount > items.length) layer.lastElementChild?.remove();
+  items.forEach((item, i) => update(item, layer.children[i] ?? layer.appendChild(create())));
+}

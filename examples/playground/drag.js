@@ -1,0 +1,99 @@
+// Dragging in an SVG with mouse, touch or pen. Knows nothing of scenes: whoever uses it says what can be picked up,
+// and what a move means. At most one move for each picture of the screen.
+
+/** @typedef {import("./geometry.js").Point} Point */
+/**
+ * @template Handle
+ * @typedef {object} DragOptions
+ * @property {(target: Element, event: PointerEvent) => Handle | null} pick what is under the pointer; null for nothing
+ * @property {(x: number, y: number) => Point} toWorld client coordinates to those of the drawing
+ * @property {(handle: Handle, at: Point) => void} [start] once the pointer has moved by a few pixels
+ * @property {(handle: Handle, by: Point, at: Point, event: PointerEvent) => void} move `by` since the start
+ * @property {(handle: Handle, kept: boolean) => void} end not kept where Escape or the browser ended it
+ * @property {(handle: Handle | null, at: Point) => void} [click] pressed and released without a move
+ */
+
+/** A pointer that moves less than this many pixels clicks. */
+const CLICK = 4;
+
+/**
+ * @template Handle
+ * @param {SVGSVGElement} svg
+ * @param {DragOptions<Handle>} options
+ * @returns {() => void} stops it
+ */
+export function makeDraggable(svg, options) {
+  /** @type {{ handle: Handle | null, id: number, x: number, y: number, from: Point, moving: boolean } | null} */
+  let drag = null;
+  /** @type {PointerEvent | null} */
+  let latest = null;
+  let scheduled = 0;
+
+  const step = () => {
+    scheduled = 0;
+    if (!drag?.moving || !latest || drag.handle === null) return;
+    const at = options.toWorld(latest.clientX, latest.clientY);
+    options.move(drag.handle, [at[0] - drag.from[0], at[1] - drag.from[1]], at, latest);
+    latest = null;
+  };
+
+  /** @param {PointerEvent} event */
+  const down = (event) => {
+    if (drag || event.button !== 0 || !event.isPrimary) return;
+    const target = /** @type {Element} */ (event.target);
+    drag = {
+      handle: options.pick(target, event),
+      id: event.pointerId,
+      x: event.clientX,
+      y: event.clientY,
+      from: options.toWorld(event.clientX, event.clientY),
+      moving: false,
+    };
+    if (drag.handle !== null) svg.setPointerCapture(event.pointerId);
+  };
+
+  /** @param {PointerEvent} event */
+  const move = (event) => {
+    if (!drag || event.pointerId !== drag.id || drag.handle === null) return;
+    if (!drag.moving) {
+      if (Math.hypot(event.clientX - drag.x, event.clientY - drag.y) < CLICK) return;
+      drag.moving = true;
+      options.start?.(drag.handle, drag.from);
+    }
+    latest = event;
+    scheduled ||= requestAnimationFrame(step);
+  };
+
+  /** @param {boolean} kept */
+  const finish = (kept) => {
+    if (!drag) return;
+    cancelAnimationFrame(scheduled);
+    if (kept) step();
+    scheduled = 0;
+    const { handle, moving, from } = drag;
+    drag = null;
+    latest = null;
+    if (moving && handle !== null) options.end(handle, kept);
+    else if (kept) options.click?.(handle, from);
+  };
+
+  /** @param {PointerEvent} event */
+  const up = (event) => event.pointerId === drag?.id && finish(true);
+  /** @param {PointerEvent} event */
+  const cancel = (event) => event.pointerId === drag?.id && finish(false);
+  /** @param {KeyboardEvent} event */
+  const key = (event) => {
+    if (event.key !== "Escape" || !drag) return;
+    event.stopPropagation();
+    finish(false);
+  };
+
+  const stop = new AbortController();
+  const { signal } = stop;
+  svg.addEventListener("pointerdown", down, { signal });
+  svg.addEventListener("pointermove", move, { signal });
+  svg.addEventListener("pointerup", up, { signal });
+  svg.addEventListener("pointercancel", cancel, { signal });
+  window.addEventListener("keydown", key, { signal, capture: true });
+  return () => stop.abort();
+}

@@ -1,0 +1,181 @@
+// Where a dragged block comes to lie: on the edges of its neighbours if they are near, else on the grid; and outside
+// of the other blocks, because stones do not pass through each other.
+
+import { add, bounds, cross, dot, isConvex, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
+
+/** @typedef {import("./geometry.js").Point} Point */
+/** @typedef {import("./geometry.js").Box} Box */
+/** @typedef {{ outline: Point[], box: Box }} Outline */
+/** @typedef {{ normal: Point, distance: number, weight: number }} Pull a wish to move by a distance along a direction */
+
+/** Edges within this angle count as parallel (its sine). */
+const PARALLEL = 0.03;
+/** The most steps on the way of a block. */
+const STEPS = 60;
+
+/**
+ * The move that snaps a block.
+ * @param {Outline} body as it was before the drag
+ * @param {Point} wish the move of the pointer
+ * @param {Outline[]} others
+ * @param {{ reach: number, grid: number, decimals: number, last?: Point }} options `reach` in metres; `grid` 0 for
+ *   none; `last` the move before this one
+ * @returns {Point}
+ */
+export function snapMove(body, wish, others, { reach, grid, decimals, last = [0, 0] }) {
+  const slack = 10 ** -decimals;
+  const free = way(body, wish, others, slack, last);
+  const box = moved(body.box, free);
+  const close = others.filter((other) => near(other.box, box, 2 * reach));
+  let move = free;
+  const first = nearestPull(edgePulls(shift(body.outline, move), close, reach));
+  if (first) {
+    move = add(move, scale(first.normal, first.distance));
+    const along = pullsAlong(shift(body.outline, move), close, first.normal, reach);
+    const second = nearestPull(along);
+    /** @type {Point} */
+    const tangent = [-first.normal[1], first.normal[0]];
+    if (second) move = add(move, scale(tangent, second.distance / dot(second.normal, tangent)));
+    else if (grid > 0) move = add(move, scale(tangent, gridShift(dot(add([body.box.left, body.box.bottom], move), tangent), grid)));
+  } else if (grid > 0) {
+    // The lowest left corner of the block goes to the grid.
+    const corner = [body.box.left, body.box.bottom];
+    move = /** @type {Point} */ (free.map((w, i) => Math.round((corner[i] + w) / grid) * grid - corner[i]));
+  }
+  return outOfOthers(body, move, others, slack, free);
+}
+
+/** @param {Point[]} outline @param {Point} by */
+const shift = (outline, by) => outline.map((p) => add(p, by));
+/** @param {Box} box @param {Point} by @returns {Box} */
+const moved = (box, [x, y]) => ({ left: box.left + x, right: box.right + x, bottom: box.bottom + y, top: box.top + y });
+
+/** @param {Pull[]} pulls @returns {Pull | null} */
+function nearestPull(pulls) {
+  return pulls.reduce((best, pull) => (!best || pull.weight < best.weight ? pull : best), /** @type {Pull | null} */ (null));
+}
+
+/** Pulls that lay an edge of the outline onto a parallel edge of another one. @param {Point[]} outline @param {Outline[]} others @param {number} reach @returns {Pull[]} */
+function edgePulls(outline, others, reach) {
+  /** @type {Pull[]} */
+  const pulls = [];
+  const sense = Math.sign(signedArea(outline));
+  for (const [a, b] of edges(outline)) {
+    const along = unit(subtract(b, a));
+    if (!along) continue;
+    /** @type {Point} */
+    const normal = [-along[1], along[0]];
+    for (const other of others) {
+      const otherSense = Math.sign(signedArea(other.outline));
+      for (const [c, d] of edges(other.outline)) {
+        const direction = unit(subtract(d, c));
+        if (!direction || Math.abs(cross(along, direction)) > PARALLEL) continue;
+        const distance = (dot(subtract(c, a), normal) + dot(subtract(d, b), normal)) / 2;
+        if (Math.abs(distance) > reach || !overlap(a, b, c, d, along)) continue;
+        // Faces that look at each other come before faces that are only in line.
+        const facing = dot(along, direction) * sense * otherSense < 0;
+        pulls.push({ normal, distance, weight: Math.abs(distance) * (facing ? 1 : 3) });
+      }
+    }
+  }
+  return pulls;
+}
+
+/** Pulls along a face that now touches: corner to corner, or onto a second face. @param {Point[]} outline @param {Outline[]} others @param {Point} normal @param {number} reach @returns {Pull[]} */
+function pullsAlong(outline, others, normal, reach) {
+  /** @type {Point} */
+  const tangent = [-normal[1], normal[0]];
+  const pulls = edgePulls(outline, others, reach).filter((pull) => Math.abs(dot(pull.normal, tangent)) > 0.3);
+  for (const p of outline) {
+    for (const other of others) {
+      for (const q of other.outline) {
+        const gap = subtract(q, p);
+        if (Math.abs(dot(gap, normal)) > reach / 4) continue;
+        const distance = dot(gap, tangent);
+        if (Math.abs(distance) <= reach) pulls.push({ normal: tangent, distance, weight: Math.abs(distance) });
+      }
+    }
+  }
+  return pulls;
+}
+
+/** Whether two parallel edges lie next to each other. @param {Point} a @param {Point} b @param {Point} c @param {Point} d @param {Point} along */
+function overlap(a, b, c, d, along) {
+  const [p, q] = [dot(c, along), dot(d, along)];
+  return Math.max(dot(a, along), Math.min(p, q)) < Math.min(dot(b, along), Math.max(p, q));
+}
+
+/** How far a coordinate is from the grid. @param {number} at @param {number} grid */
+const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
+
+/**
+ * Where the block gets to on its way from the last move to the wished one: in steps smaller than itself, so that it
+ * does not jump through others but slides along them.
+ * @param {Outline} body @param {Point} wish @param {Outline[]} others @param {number} slack @param {Point} last
+ * @returns {Point}
+ */
+function way(body, wish, others, slack, last) {
+  if (!isConvex(body.outline)) return wish;
+  const size = 0.3 * Math.min(body.box.right - body.box.left, body.box.top - body.box.bottom);
+  const step = Math.max(size, length(subtract(wish, last)) / STEPS);
+  let at = last;
+  for (let i = 0; i < STEPS; i++) {
+    const rest = subtract(wish, at);
+    const far = length(rest);
+    if (far === 0) break;
+    const next = outOfOthers(body, far > step ? add(at, scale(rest, step / far)) : wish, others, slack, at);
+    const moves = length(subtract(next, at));
+    at = next;
+    if (moves < 1e-3 * step) break;
+  }
+  return at;
+}
+
+/** The move, changed so that the block leaves the others where both are convex. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
+function outOfOthers(body, move, others, slack, last) {
+  if (!isConvex(body.outline)) return move;
+  let result = move;
+  const before = shift(body.outline, last);
+  // A block between two others may be pushed from one into the other: a few rounds, then it stays where it was.
+  for (let round = 0; round < 6; round++) {
+    const outline = shift(body.outline, result);
+    const box = bounds(outline);
+    const push = others
+      .filter((other) => near(other.box, box) && isConvex(other.outline))
+      .map((other) => pushOut(outline, other.outline, slack, before))
+      .reduce((most, one) => (one && (!most || length(one) > length(most)) ? one : most), null);
+    if (!push) return result;
+    result = add(result, push);
+  }
+  return last;
+}
+
+/**
+ * A point on the grid, or on a corner of an outline within reach.
+ * @param {Point} point @param {Point[]} corners @param {{ reach: number, grid: number }} options
+ * @returns {Point}
+ */
+export function snapPoint(point, corners, { reach, grid }) {
+  let best = null;
+  let least = reach;
+  for (const corner of corners) {
+    const distance = length(subtract(corner, point));
+    if (distance < least) [best, least] = [corner, distance];
+  }
+  if (best) return best;
+  return grid > 0 ? [Math.round(point[0] / grid) * grid, Math.round(point[1] / grid) * grid] : point;
+}
+
+/** A round grid width, 1, 2 or 5 times a power of ten, of about this many metres. @param {number} metres */
+export function roundStep(metres) {
+  const power = 10 ** Math.floor(Math.log10(metres));
+  return [1, 2, 5, 10].map((n) => n * power).find((step) => step >= metres * 0.7) ?? power;
+}
+
+/** @param {Point[]} outline @returns {[Point, Point][]} */
+const edges = (outline) => outline.map((p, i) => [p, outline[(i + 1) % outline.length]]);
+/** @param {Point} p @returns {Point | null} */
+function unit(p) {
+  const size = length(p);
+  return size > 1e-12 ? scale(p, 1 / size) : null;
+}

@@ -1,0 +1,215 @@
+// The document: the text of the scene, what it parses to, the current step, the selection, and undo.
+// The text is what counts. A change on the stage changes the parsed scene and writes the text anew; a change in the
+// text replaces the scene. Whoever shows something of it listens to the events.
+
+import { formatScene } from "./format.js";
+import { list, resolve } from "./scene.js";
+
+/** How many changes can be undone. */
+const DEPTH = 200;
+/** Changes with the same label within this many milliseconds are one: holding an arrow key is undone at once. */
+const TOGETHER = 900;
+
+/** @typedef {{ text: string, frame: number, factor: number, loads: any[] }} Entry */
+
+export class Store extends EventTarget {
+  constructor() {
+    super();
+    this.text = "";
+    /** @type {any} */
+    this.scene = {};
+    this.resolved = resolve({});
+    this.frame = 0;
+    /** @type {string | null} key of the selected body */
+    this.selected = null;
+    /** Whether the text parses; what is on the stage is the last scene that did. */
+    this.parses = true;
+    /** The loads at factor 1, and the factor: 0 must not lose them. */
+    this.factor = 1;
+    /** @type {any[]} */
+    this.loads = [];
+    /** @type {Entry[]} */
+    this.past = [];
+    /** @type {Entry[]} */
+    this.future = [];
+    this.last = { label: "", at: 0 };
+    /** Whether a drag is going on: the text then follows at its end. */
+    this.dragging = false;
+  }
+
+  /** @param {"scene" | "selection" | "history"} type @param {any} [detail] */
+  emit(type, detail) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+
+  /** Shows another scene; the one before can be had back with undo. @param {string} text */
+  open(text) {
+    if (this.text) this.remember("");
+    this.frame = 0;
+    this.selected = null;
+    this.setText(text);
+    this.frame = Math.max(0, this.resolved.frames.length - 1);
+    this.emit("scene", { fit: true, from: "open" });
+    this.emit("selection");
+  }
+
+  /** @param {string} text */
+  setText(text) {
+    this.text = text;
+    try {
+      const scene = JSON.parse(text);
+      this.parses = scene !== null && typeof scene === "object" && !Array.isArray(scene);
+      if (this.parses) this.take(scene);
+    } catch {
+      // Somebody is typing: the stage keeps the last scene, and the solver says what is wrong, with its line.
+      this.parses = false;
+    }
+    this.resetLoads();
+  }
+
+  /** The text as somebody typed it. @param {string} text */
+  type(text) {
+    if (text === this.text) return;
+    this.remember("type");
+    this.setText(text);
+    this.emit("scene", { from: "text" });
+  }
+
+  /** @param {any} scene */
+  take(scene) {
+    this.scene = scene;
+    this.resolved = resolve(scene);
+    this.frame = Math.min(this.frame, this.resolved.frames.length - 1);
+    if (this.selected && !this.body(this.selected)) this.selected = null;
+  }
+
+  resetLoads() {
+    this.factor = 1;
+    this.loads = structuredClone(list(this.scene?.loads));
+  }
+
+  /** @param {string | null} key */
+  body(key) {
+    return this.resolved.bodies.find((body) => body.key === key) ?? null;
+  }
+
+  /** The step that is shown. */
+  get current() {
+    return this.resolved.frames[this.frame];
+  }
+
+  /**
+   * Changes the scene. While the text does not parse there is nothing that could be changed safely.
+   * @param {string} label changes with the same label in quick succession are undone together
+   * @param {(scene: any) => void} change
+   */
+  edit(label, change) {
+    if (!this.parses) return;
+    this.remember(label);
+    this.apply(structuredClone(this.scene), change);
+  }
+
+  /** @param {any} scene @param {(scene: any) => void} change */
+  apply(scene, change) {
+    const loads = JSON.stringify(scene.loads);
+    change(scene);
+    this.take(scene);
+    if (JSON.stringify(scene.loads) !== loads) this.resetLoads();
+    if (!this.dragging) this.text = formatScene(scene);
+    this.emit("scene", { from: this.dragging ? "drag" : "edit" });
+  }
+
+  /** Begins a drag, of which each move starts from the same scene. @returns {any} that scene */
+  beginDrag() {
+    this.remember("");
+    this.dragging = true;
+    return this.scene;
+  }
+
+  /** One move of a drag. @param {any} base what `beginDrag` returned @param {(scene: any) => void} change */
+  drag(base, change) {
+    this.apply(structuredClone(base), change);
+  }
+
+  /** @param {boolean} keep whether the drag counts */
+  endDrag(keep) {
+    this.dragging = false;
+    const before = /** @type {Entry} */ (this.past.at(-1));
+    if (!keep) return this.restore(/** @type {Entry} */ (this.past.pop()));
+    this.text = formatScene(this.scene);
+    if (this.text === before.text) this.past.pop();
+    this.emit("scene", { from: "edit" });
+    this.emit("history");
+  }
+
+  /** The factor on the loads. @param {number} factor */
+  setFactor(factor) {
+    if (!this.parses) return;
+    this.remember("factor");
+    const [loads, scene] = [this.loads, structuredClone(this.scene)];
+    scene.loads = loads.map((load) => ({
+      ...load,
+      ...(load.force ? { force: load.force.map((/** @type {number} */ f) => Number((f * factor).toPrecision(6))) } : {}),
+      ...(load.torque ? { torque: Number((load.torque * factor).toPrecision(6)) } : {}),
+    }));
+    this.take(scene);
+    this.text = formatScene(scene);
+    [this.factor, this.loads] = [factor, loads];
+    this.emit("scene", { from: "edit" });
+  }
+
+  /** @param {string} label "" never joins the change before */
+  remember(label) {
+    const now = performance.now();
+    const same = label !== "" && label === this.last.label && now - this.last.at < TOGETHER;
+    this.last = { label, at: now };
+    if (same) return;
+    this.past.push(this.entry());
+    if (this.past.length > DEPTH) this.past.shift();
+    this.future = [];
+    this.emit("history");
+  }
+
+  /** @returns {Entry} */
+  entry() {
+    return { text: this.text, frame: this.frame, factor: this.factor, loads: this.loads };
+  }
+
+  undo() {
+    const entry = this.past.pop();
+    if (!entry || this.dragging) return;
+    this.future.push(this.entry());
+    this.restore(entry);
+  }
+
+  redo() {
+    const entry = this.future.pop();
+    if (!entry || this.dragging) return;
+    this.past.push(this.entry());
+    this.restore(entry);
+  }
+
+  /** @param {Entry} entry */
+  restore(entry) {
+    this.frame = entry.frame;
+    this.setText(entry.text);
+    [this.factor, this.loads] = [entry.factor, entry.loads];
+    this.last.label = "";
+    this.emit("scene", { from: "undo" });
+    this.emit("selection");
+    this.emit("history");
+  }
+
+  /** @param {string | null} key */
+  select(key) {
+    if (key === this.selected) return;
+    this.selected = key;
+    this.emit("selection");
+  }
+
+  /** @param {number} frame */
+  showFrame(frame) {
+    this.frame = Math.max(0, Math.min(this.resolved.frames.length - 1, frame));
+    this.emit("scene", { from: "frame" });
+  }
+}

@@ -1,0 +1,94 @@
+// Serves the playground on a free port of this machine, and opens it in Chromium. Every page is watched: errors,
+// refused scripts and requests to other hosts fail the test that opened it.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import http from "node:http";
+import path from "node:path";
+import { root } from "./root.mjs";
+import { formatScene } from "../../format.js";
+
+export { root };
+const { chromium } = createRequire(path.join(process.env.PLAYGROUND_TOOLS ?? "", "package.json"))("playwright-core");
+
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml", ".wasm": "application/wasm" };
+const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+
+/** @type {import("node:http").Server} */
+let server;
+let browser;
+let address = "";
+
+export async function start() {
+  server = http.createServer(async (request, response) => {
+    const { pathname } = new URL(request.url ?? "/", "http://localhost");
+    const file = path.join(root, path.normalize(pathname === "/" ? "/index.html" : decodeURIComponent(pathname)));
+    try {
+      const body = await readFile(file);
+      response.writeHead(200, { "content-type": TYPES[path.extname(file)] ?? "text/plain" }).end(body);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(undefined)));
+  address = `http://127.0.0.1:${/** @type {any} */ (server.address()).port}/`;
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+}
+
+export async function stop() {
+  await browser?.close();
+  server?.close();
+}
+
+/**
+ * A fresh browser with the page.
+ * @param {{ hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
+ */
+export async function open({ hash = "", example, scene, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const page = await context.newPage();
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(`error: ${error.stack ?? error}`));
+  page.on("console", (message) => message.type() === "error" && faults.push(`console: ${message.text()}`));
+  page.on("dialog", (dialog) => { faults.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  page.on("request", (request) => {
+    if (!/^(http:\/\/127\.0\.0\.1:|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url()}`);
+  });
+  page.on("requestfailed", (request) => { if (!request.url().startsWith("blob:")) faults.push(`failed: ${request.url()}`); });
+  await page.goto(address + hash);
+  await page.waitForFunction(() => document.querySelector("#version")?.textContent !== "…" && document.querySelector("#verdict")?.getAttribute("data-state") !== "waiting", null, { timeout: 30_000 });
+  if (example) await page.selectOption("#examples", example);
+  if (scene !== undefined) await page.fill("#source", typeof scene === "string" ? scene : formatScene(scene));
+  if (example || scene !== undefined) await page.waitForTimeout(700);
+  const close = async () => {
+    await context.close();
+    assert.deepEqual(faults, []);
+  };
+  return { page, close, faults };
+}
+
+/** Waits for a verdict. @param {any} page @param {"stands" | "falls" | "wrong" | "undecided"} state */
+export async function verdict(page, state) {
+  await page.waitForFunction((/** @type {string} */ s) => document.querySelector("#verdict")?.getAttribute("data-state") === s, state, { timeout: 5000 });
+}
+
+/** The middle of a block on the screen. @param {any} page @param {string} key such as blocks/3 */
+export async function middle(page, key) {
+  const box = await page.locator(`[data-handle="body:${key}"] path`).boundingBox();
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** Drags with the mouse in steps. @param {any} page @param {{ x: number, y: number }} from @param {{ x: number, y: number }} by @param {number} [steps] */
+export async function drag(page, from, by, steps = 12) {
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + by.x, from.y + by.y, { steps });
+  await page.mouse.up();
+}
+
+/** The scene as it is in the text. @param {any} page */
+export const sceneOf = async (page) => JSON.parse(await page.inputValue("#source"));
+
+/** Where screenshots go, for people to look at. @param {string} name */
+export const shot = (name) => path.join(process.env.PLAYGROUND_SHOTS ?? "/tmp", `${name}.png`);

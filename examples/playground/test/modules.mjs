@@ -1,0 +1,93 @@
+// The modules that need no browser.
+
+import assert from "node:assert/strict";
+import { readFile, readdir } from "node:fs/promises";
+import path from "node:path";
+import { test } from "node:test";
+import { root } from "./lib/root.mjs";
+import * as edit from "../edit.js";
+import { formatScene } from "../format.js";
+import { pushOut } from "../geometry.js";
+import { nearestNode, toMetres } from "../lattice.js";
+import { packed, unpacked } from "../link.js";
+import { resolve } from "../scene.js";
+import { snapMove } from "../snap.js";
+
+const read = async (/** @type {string} */ file) => JSON.parse(await readFile(path.join(root, file), "utf8"));
+
+test("the examples that are the source's figures are those of the library", async () => {
+  for (const name of (await readdir(path.join(root, "scenes"))).filter((n) => n.startsWith("figure-"))) {
+    assert.equal(await readFile(path.join(root, "scenes", name), "utf8"), await readFile(path.join(root, "../../assets/thesis", name), "utf8"), name);
+  }
+});
+
+test("a scene that is written and read again is the same", async () => {
+  for (const name of await readdir(path.join(root, "scenes"))) {
+    const scene = await read(`scenes/${name}`);
+    assert.deepEqual(JSON.parse(formatScene(scene)), scene, name);
+  }
+});
+
+test("hexagons of the lattice have their outline", async () => {
+  const { byId } = resolve(await read("scenes/figure-4.json"));
+  const hexagon = byId.get("1");
+  assert.equal(hexagon?.outline.length, 6);
+  for (const p of hexagon?.outline ?? []) assert.ok(Math.abs(Math.hypot(p[0] - hexagon.centre[0], p[1] - hexagon.centre[1]) - 1) < 1e-12);
+});
+
+test("steps place, hold, release and plan", async () => {
+  const { frames } = resolve(await read("scenes/figure-4.json"));
+  assert.equal(frames.length, 6);
+  assert.deepEqual(frames[1].holds.map((hold) => hold.robot), ["r1"]);
+  assert.deepEqual([...frames[1].planned], ["5"]);
+  assert.ok(frames[2].placed.has("5") && !frames[3].placed.has("5"));
+});
+
+test("what is no scene resolves to nothing", () => {
+  for (const scene of [null, 5, "x", [], { blocks: 3 }, { blocks: [null, 1, {}], steps: [null, 2] }, { grid: { kind: "square" }, blocks: [{ cells: [["a"]] }] }]) {
+    assert.equal(resolve(scene).bodies.length, 0);
+  }
+});
+
+test("the nearest lattice point is found", () => {
+  const grid = /** @type {const} */ ({ kind: "triangular", side: 0.5 });
+  for (let i = 0; i < 200; i++) {
+    const p = /** @type {[number, number]} */ ([Math.sin(i * 7) * 3, Math.cos(i * 5) * 3]);
+    const [x, y] = toMetres(grid, nearestNode(grid, p));
+    assert.ok(Math.hypot(x - p[0], y - p[1]) <= 0.5 / Math.sqrt(3) + 1e-9);
+  }
+});
+
+test("a block snaps onto the face below it, whichever way its corners run", () => {
+  const square = (/** @type {number} */ x, /** @type {number} */ y) => {
+    const outline = /** @type {[number, number][]} */ ([[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]]);
+    return { outline, box: { left: x, right: x + 1, bottom: y, top: y + 1 } };
+  };
+  const below = square(0, 0);
+  for (const turned of [false, true]) {
+    const body = square(0.02, 5);
+    if (turned) body.outline.reverse();
+    const move = snapMove(body, [0, -3.95], [below], { reach: 0.1, grid: 0, decimals: 3 });
+    assert.ok(Math.abs(move[1] + 4) < 1e-12, `${move}`);
+    assert.ok(Math.abs(move[0] + 0.02) < 1e-12, `${move}`);
+  }
+  // Far inside the other one it is pushed out.
+  const move = snapMove(square(3, 0), [-2.3, 0], [below], { reach: 0.05, grid: 0, decimals: 3 });
+  assert.equal(pushOut(square(3 + move[0], 0).outline, below.outline, 1e-6), null);
+});
+
+test("removing a block removes everything that names it", async () => {
+  const scene = await read("scenes/doorway.json");
+  const body = resolve(scene).byId.get("right half");
+  edit.removeBody(scene, /** @type {any} */ (body));
+  assert.ok(!JSON.stringify(scene.steps).includes('"right half"'));
+  assert.deepEqual(scene.steps.at(-1).release, []);
+});
+
+test("a link carries any text", async () => {
+  for (const text of ["{}", "x".repeat(100_000), "ü \u{1F9F1} \u202E", JSON.stringify(await read("scenes/figure-4.json"))]) {
+    assert.equal(await unpacked(`#${await packed(text)}`), text);
+  }
+  assert.equal(await unpacked("#other"), null);
+  await assert.rejects(async () => unpacked(`#${await packed("0".repeat(5_000_000))}`));
+});

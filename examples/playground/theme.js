@@ -1,0 +1,42 @@
+// Light or dark: as the system says, until somebody chooses.
+
+const KEY = "drystone-theme";
+
+export class Theme {
+  /** @param {HTMLButtonElement} button @param {() => void} changed */
+  constructor(button, changed) {
+    this.button = button;
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    /** @type {string | null} */
+    this.chosen = null;
+    try {
+      this.chosen = localStorage.getItem(KEY);
+    } catch {
+      // Without storage the choice lasts as long as the page.
+    }
+    button.addEventListener("click", () => {
+      this.chosen = this.dark ? "light" : "dark";
+      try {
+        localStorage.setItem(KEY, this.chosen);
+      } catch {
+        // See above.
+      }
+      this.show();
+      changed();
+    });
+    this.system.addEventListener("change", () => {
+      this.show();
+      changed();
+    });
+    this.show();
+  }
+
+  get dark() {
+    return this.chosen ? this.chosen === "dark" : this.system.matches;
+  }
+
+  show() {
+    document.documentElement.dataset.theme = this.dark ? "dark" : "light";
+    this.button.textContent = this.dark ? "Light" : "Dark";
+  }
+}

@@ -1,0 +1,37 @@
+// Runs the library next to the page, so that the page never waits for an answer.
+// One message in, one message out: { id, task, ... } → { id, value } or { id, problems } or { id, error }.
+
+import init, * as drystone from "./pkg/drystone.js";
+
+const ready = init();
+
+/** @type {Record<string, (message: any) => any>} */
+const tasks = {
+  about: () => ({ version: drystone.version(), kinds: JSON.parse(drystone.kinds()) }),
+  check: ({ scene, options }) => shortened(JSON.parse(drystone.check(scene, JSON.stringify(options)))),
+  figure: ({ scene, options }) => drystone.figure(scene, JSON.stringify(options)),
+  problems: ({ scene }) => JSON.parse(drystone.problems(scene)),
+  import: ({ text, format }) => JSON.parse(drystone.importDrawing(text, format)),
+};
+
+/** Without what the page does not show: less to copy between threads while a block is dragged. @param {any} result */
+function shortened(result) {
+  for (const frame of result.frames ?? []) {
+    delete frame.effects;
+    delete frame.proof;
+    delete frame.solve;
+    if (frame.margins) delete frame.margins.mechanisms;
+  }
+  return result;
+}
+
+self.onmessage = async ({ data }) => {
+  try {
+    await ready;
+    self.postMessage({ id: data.id, value: tasks[data.task](data) });
+  } catch (error) {
+    // An invalid scene is an answer too: its problems, each with its line.
+    if (Array.isArray(error?.problems)) self.postMessage({ id: data.id, problems: error.problems });
+    else self.postMessage({ id: data.id, error: String(error?.message ?? error) });
+  }
+};
