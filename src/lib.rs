@@ -196,6 +196,11 @@ pub mod doc {
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
 
+    // The first definition of a picture counts: here the pictures themselves, in the repository links to their files.
+    #[doc = include_str!("../assets/validation/inline.md")]
+    #[doc = include_str!("doc/validation.md")]
+    pub mod validation {}
+
     #[doc = include_str!("doc/performance.md")]
     pub mod performance {}
 

@@ -58,4 +58,5 @@ mod statics;
 mod strangers;
 mod structure;
 mod wedging;
+mod validation;
 mod words;

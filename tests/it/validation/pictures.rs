@@ -1,0 +1,96 @@
+//! The pictures of the page: each a scene just beyond its limit, or at it.
+
+use drystone::Analysis;
+use drystone::figure::{self, Kind, Options};
+use drystone::output::svg;
+use serde_json::{Value, json};
+
+use super::{arches, blocks, stacks, walls};
+use crate::structure::{scene, tilted};
+
+/// Gravity to the right as well, as a share of the weight.
+fn pushed(mut file: Value, share: f64) -> Value {
+    file["gravity"] = json!([9.81 * share, -9.81]);
+    file
+}
+
+fn arch(thickness: f64, friction: f64) -> Value {
+    arches::Arch::semicircle(30, thickness, friction).file()
+}
+
+type Picture = (&'static str, Kind, fn() -> Value);
+
+/// Name, kind, and the scene.
+pub const PICTURES: &[Picture] = &[
+    ("arch-thin", Kind::Mechanism, || arch(0.1065, 2.0)),
+    ("arch-slides", Kind::Mechanism, || arch(0.25, 0.30)),
+    ("arch-vertical", Kind::Mechanism, || {
+        arches::cut_vertically(0.108, 30)
+    }),
+    ("arch-pushed", Kind::Mechanism, || {
+        pushed(arches::oppenheim(), 0.38)
+    }),
+    ("arch-tilted", Kind::Mechanism, || {
+        tilted(arches::lact3(), 17.3)
+    }),
+    ("wall-1", Kind::Mechanism, || pushed(walls::ferris(1), 0.65)),
+    ("wall-3", Kind::Mechanism, || pushed(walls::ferris(3), 0.41)),
+    ("stack-4", Kind::Forces, || stacks::best(4, -1e-3)),
+    ("stack-6", Kind::Forces, || stacks::best(6, -1e-3)),
+    ("columns", Kind::Mechanism, || {
+        pushed(blocks::frame_of_columns(), 0.21)
+    }),
+    ("ladder", Kind::Forces, blocks::ladder),
+    ("toppling", Kind::Mechanism, || {
+        let mut file = blocks::toppling(0.0);
+        file["friction"] = json!(0.65);
+        file
+    }),
+];
+
+pub fn drawn(name: &str, kind: Kind, file: &Value) -> String {
+    let analysis = Analysis::new(&scene(file));
+    let mut options = Options::default();
+    (options.titles, options.captions, options.verdicts) = (false, false, false);
+    (options.keys, options.labels) = (false, false);
+    (options.width, options.height) = (Some(480.0), Some(300.0));
+    let drawing = figure::draw(&analysis, kind, &options);
+    let mut svg = svg::write(&drawing);
+    svg.push_str(if svg.ends_with('\n') { "" } else { "\n" });
+    assert!(svg.len() < 40_000, "{name} has {} bytes", svg.len());
+    svg
+}
+
+/// The links of the page to its pictures, as definitions at its end.
+pub fn links() -> String {
+    PICTURES
+        .iter()
+        .map(|(name, ..)| format!("[{name}]: ../../assets/validation/{name}.svg\n"))
+        .collect()
+}
+
+/// A picture as a definition that contains it: rustdoc has no folder with pictures, and the first definition counts.
+pub fn inline(name: &str, svg: &str) -> String {
+    format!(
+        "[{name}]: data:image/svg+xml;base64,{}\n",
+        base64(svg.as_bytes())
+    )
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for three in bytes.chunks(3) {
+        let part = |k: usize| u32::from(*three.get(k).unwrap_or(&0));
+        let bits = part(0) << 16 | part(1) << 8 | part(2);
+        for k in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * k)) as usize & 63];
+            text.push(if k <= three.len() {
+                letter as char
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
