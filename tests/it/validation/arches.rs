@@ -209,15 +209,15 @@ pub fn least_thickness_cut_vertically() -> f64 {
     limit([0.107, 0.112], 1e-7, |t| cut_vertically(t, 60))
 }
 
-/// Oppenheim's arch: seven voussoirs over 157.5°, thickness 0.15 of the radius.
-pub fn oppenheim() -> Value {
-    let mut arch = Arch::semicircle(7, 0.15, 2.0);
+/// Oppenheim's arch over 157.5°, thickness 0.15 of the radius; his has seven voussoirs.
+pub fn oppenheim(voussoirs: usize) -> Value {
+    let mut arch = Arch::semicircle(voussoirs, 0.15, 2.0);
     arch.embrace = 157.5;
     arch.file()
 }
 
 pub fn oppenheim_pushed() -> f64 {
-    horizontal(&oppenheim())
+    horizontal(&oppenheim(7))
 }
 
 /// The sample arch of LACT3: 25 of 27 voussoirs of a semicircle, radii 317 and 373.3 mm, on skewbacks; φ = 30°.

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::measure::{frame, friction, horizontal, only_by_wedging, tilt};
 use crate::structure::{on_floor, on_slope, rectangle};
-use crate::wedging::{bar_between_walls, h_model};
+use crate::wedging::bar_between_walls;
 
 /// A column 1 m wide and 4 m high.
 pub fn column() -> Value {
@@ -110,9 +110,9 @@ pub fn toppling_safety() -> f64 {
 }
 
 pub fn h_model_wedges() -> f64 {
-    only_by_wedging(&h_model(0.7))
+    only_by_wedging(&bar_between_walls(0.0, 0.84))
 }
 
 pub fn a_model_wedges() -> f64 {
-    only_by_wedging(&bar_between_walls(0.2, 0.7))
+    only_by_wedging(&bar_between_walls(0.2, 0.84))
 }

@@ -64,7 +64,7 @@ const WEDGE: &str = "wedging";
 pub const CASES: &[Case] = &[
     row((ARCH, "semicircle, least thickness over mean radius"), ("0.1075", Ratio), ("Milankovitch07", true), 0.1, arches::least_thickness),
     row((ARCH, "the same, its weight on the mean radius"), ("0.107426", Ratio), ("Cocchetti20", true), 0.05, arches::least_thickness_on_the_line),
-    row((ARCH, "the same, approximate theory"), ("0.106", Ratio), ("Heyman69", false), 2.0, arches::least_thickness),
+    row((ARCH, "the same, approximate theory"), ("0.106", Ratio), ("Heyman69", true), 2.0, arches::least_thickness),
     row((ARCH, "the same, hinge assumed at 45°"), ("0.101", Ratio), ("Couplet1730", false), 7.0, arches::least_thickness),
     row((ARCH, "the same, vertical joints"), ("0.1095", Ratio), ("MakrisAlexakis13", true), 0.2, arches::least_thickness_cut_vertically),
     row((ARCH, "thinnest semicircle, angle of the hinge from the crown"), ("54.4963", Degrees), ("Cocchetti20", true), 0.1, arches::hinge_of_the_thinnest),
@@ -107,6 +107,6 @@ pub const CASES: &[Case] = &[
     row((TOPPLING, "16 rock columns, least friction"), ("0.7855", Ratio), ("Goodman76", true), 17.0, blocks::toppling_alone),
     row((TOPPLING, "the same, supported by 2013 kN"), ("0.6500", Ratio), ("Goodman76", true), 11.0, blocks::toppling_supported),
     row((TOPPLING, "16 rock columns, φ = 38.15°, factor of safety by distinct elements"), ("0.99", Ratio), ("RS2", true), 21.0, blocks::toppling_safety),
-    row((WEDGE, "bar between two columns stands only by wedging"), ("yes", Answer), ("Kao22", false), 0.0, blocks::h_model_wedges),
-    row((WEDGE, "bar between two walls that lean together stands only by wedging"), ("yes", Answer), ("Kao22", false), 0.0, blocks::a_model_wedges),
+    row((WEDGE, "model H, a bar between two fixed columns, stands only by wedging"), ("yes", Answer), ("Kao22", false), 0.0, blocks::h_model_wedges),
+    row((WEDGE, "model A, the same with columns that lean together"), ("yes", Answer), ("Kao22", false), 0.0, blocks::a_model_wedges),
 ];

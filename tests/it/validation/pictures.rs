@@ -28,7 +28,7 @@ pub const PICTURES: &[Picture] = &[
         arches::cut_vertically(0.108, 30)
     }),
     ("arch-pushed", Kind::Mechanism, || {
-        pushed(arches::oppenheim(), 0.38)
+        pushed(arches::oppenheim(7), 0.38)
     }),
     ("arch-tilted", Kind::Mechanism, || {
         tilted(arches::lact3(), 17.3)

@@ -35,7 +35,7 @@ pub const SOURCES: &[(&str, &str, &str)] = &[
     (
         "Heyman69",
         "J. Heyman, *The safety of masonry arches*, International Journal of Mechanical Sciences 11 (1969), 363–385",
-        "not checked",
+        "seen in a text about it",
     ),
     (
         "HoekBray81",
