@@ -17,7 +17,7 @@ export class Figures {
   /**
    * @param {{ tabs: HTMLElement, panel: HTMLElement, image: HTMLImageElement, note: HTMLElement }} parts
    * @param {(options: any) => Promise<import("./solver.js").Answer | null>} ask
-   * @param {() => any} options what the page adds: frame, theme, selected block
+   * @param {(kind: string) => any} options what the page adds: frame, theme, selected block
    */
   constructor(parts, ask, options) {
     this.parts = parts;

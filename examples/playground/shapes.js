@@ -63,5 +63,5 @@ export function shapeAt(scene, choice, at, size, decimals) {
   const block = choice.make(size);
   const grid = gridOf(scene);
   if (grid && !block.polygon) return { ...block, at: nearestNode(grid, at) };
-  return { polygon: rounded(block.polygon.map(([x, y]) => [x + at[0], y + at[1]]), decimals) };
+  return { polygon: rounded(block.polygon.map((/** @type {Point} */ [x, y]) => [x + at[0], y + at[1]]), decimals) };
 }

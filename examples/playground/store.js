@@ -10,6 +10,12 @@ const DEPTH = 200;
 /** Changes with the same label within this many milliseconds are one: holding an arrow key is undone at once. */
 const TOGETHER = 900;
 
+/**
+ * Marks that turn the direction of text, written as \u202e: the scene means the same, and nobody reads it wrongly.
+ * @param {string} text
+ */
+const visible = (text) => text.replace(/[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`);
+
 /** @typedef {{ text: string, frame: number, factor: number, loads: any[] }} Entry */
 
 export class Store extends EventTarget {
@@ -47,7 +53,7 @@ export class Store extends EventTarget {
     if (this.text) this.remember("");
     this.frame = 0;
     this.selected = null;
-    this.setText(text);
+    this.setText(visible(text));
     this.frame = Math.max(0, this.resolved.frames.length - 1);
     this.emit("scene", { fit: true, from: "open" });
     this.emit("selection");
@@ -115,7 +121,7 @@ export class Store extends EventTarget {
     change(scene);
     this.take(scene);
     if (JSON.stringify(scene.loads) !== loads) this.resetLoads();
-    if (!this.dragging) this.text = formatScene(scene);
+    if (!this.dragging) this.text = visible(formatScene(scene));
     this.emit("scene", { from: this.dragging ? "drag" : "edit" });
   }
 
@@ -136,7 +142,7 @@ export class Store extends EventTarget {
     this.dragging = false;
     const before = /** @type {Entry} */ (this.past.at(-1));
     if (!keep) return this.restore(/** @type {Entry} */ (this.past.pop()));
-    this.text = formatScene(this.scene);
+    this.text = visible(formatScene(this.scene));
     if (this.text === before.text) this.past.pop();
     this.emit("scene", { from: "edit" });
     this.emit("history");
@@ -153,7 +159,7 @@ export class Store extends EventTarget {
       ...(load.torque ? { torque: Number((load.torque * factor).toPrecision(6)) } : {}),
     }));
     this.take(scene);
-    this.text = formatScene(scene);
+    this.text = visible(formatScene(scene));
     [this.factor, this.loads] = [factor, loads];
     this.emit("scene", { from: "edit" });
   }

@@ -32,7 +32,7 @@ export function inWords(answer, blocks) {
   if (!frame) return { state: "waiting", title: "…", detail: "" };
   const total = `${count(blocks, "block")}, ${newtons(frame.weight)} in all.`;
   if (frame.verdict === "stable") {
-    return { state: "stands", title: "It stands", detail: blocks === 0 ? "There is nothing that could fall. Add a block." : `${total} The forces can carry every block to the ground.` };
+    return { state: "stands", title: "It stands", detail: blocks === 0 ? "There is nothing that could fall. Add a block." : `${total} The blocks can carry each other down to the ground.` };
   }
   if (frame.verdict === "unstable") return { state: "falls", title: "It falls", detail: falling(frame, blocks) };
   return { state: "undecided", title: "Undecided", detail: sentence(legiblePart(frame.doubt ?? "Neither verdict could be proved")) };

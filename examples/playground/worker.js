@@ -4,6 +4,8 @@
 import init, * as drystone from "./pkg/drystone.js";
 
 const ready = init();
+// Whoever asks first gets the error; until then it is not an unhandled one.
+ready.catch(() => {});
 
 /** @type {Record<string, (message: any) => any>} */
 const tasks = {
@@ -29,7 +31,8 @@ self.onmessage = async ({ data }) => {
   try {
     await ready;
     self.postMessage({ id: data.id, value: tasks[data.task](data) });
-  } catch (error) {
+  } catch (thrown) {
+    const error = /** @type {any} */ (thrown);
     // An invalid scene is an answer too: its problems, each with its line.
     if (Array.isArray(error?.problems)) self.postMessage({ id: data.id, problems: error.problems });
     else self.postMessage({ id: data.id, error: String(error?.message ?? error) });

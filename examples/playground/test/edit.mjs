@@ -175,7 +175,7 @@ test("the figures change with their tabs", async () => {
   for (const tab of await page.locator("#tabs button").all()) {
     const before = await page.getAttribute("#figure", "src");
     await tab.click();
-    await page.waitForFunction((/** @type {string} */ old) => document.querySelector("#figure")?.getAttribute("src") !== old && !document.querySelector("#figure")?.classList.contains("stale"), before, { timeout: 8000 }).catch(() => {});
+    await page.waitForFunction((/** @type {string} */ old) => document.querySelector("#figure")?.getAttribute("src") !== old && !document.querySelector("#figure")?.classList.contains("stale"), before, { timeout: 20_000 }).catch(() => {});
     seen.add(await page.getAttribute("#figure", "src"));
   }
   assert.ok(seen.size >= 5, `${seen.size} different figures`);

@@ -47,7 +47,7 @@ for (const [name, blocks] of /** @type {const} */ ([["arch.svg", 5], ["lintel.dx
   test(`${name} is imported by dropping it`, async () => {
     const { page, close } = await open();
     await drop(page, name, await readFile(path.join(root, "../../assets/import", name), "utf8"));
-    await page.waitForFunction(() => /opened/.test(document.querySelector("#status")?.textContent ?? ""), null, { timeout: 8000 });
+    await page.waitForFunction(() => /opened/.test(document.querySelector("#status")?.textContent ?? ""), null, { timeout: 20_000 });
     const scene = await sceneOf(page);
     assert.ok(scene.blocks.length >= blocks, `${scene.blocks.length} blocks`);
     await page.waitForTimeout(300);

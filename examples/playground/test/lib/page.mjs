@@ -43,9 +43,9 @@ export async function stop() {
 
 /**
  * A fresh browser with the page.
- * @param {{ hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
+ * @param {{ url?: string, hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
  */
-export async function open({ hash = "", example, scene, ...options } = {}) {
+export async function open({ url = address, hash = "", example, scene, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
   const faults = [];
@@ -53,14 +53,16 @@ export async function open({ hash = "", example, scene, ...options } = {}) {
   page.on("console", (message) => message.type() === "error" && faults.push(`console: ${message.text()}`));
   page.on("dialog", (dialog) => { faults.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
   page.on("request", (request) => {
-    if (!/^(http:\/\/127\.0\.0\.1:|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url()}`);
+    if (!/^(http:\/\/127\.0\.0\.1:|file:|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url()}`);
   });
   page.on("requestfailed", (request) => { if (!request.url().startsWith("blob:")) faults.push(`failed: ${request.url()}`); });
-  await page.goto(address + hash);
+  await page.goto(url + hash);
   await page.waitForFunction(() => document.querySelector("#version")?.textContent !== "…" && document.querySelector("#verdict")?.getAttribute("data-state") !== "waiting", null, { timeout: 30_000 });
   if (example) await page.selectOption("#examples", example);
   if (scene !== undefined) await page.fill("#source", typeof scene === "string" ? scene : formatScene(scene));
   if (example || scene !== undefined) await page.waitForTimeout(700);
+  // Writing into the text has scrolled to it.
+  await page.evaluate(() => { /** @type {HTMLElement} */ (document.activeElement)?.blur(); window.scrollTo(0, 0); });
   const close = async () => {
     await context.close();
     assert.deepEqual(faults, []);
@@ -70,7 +72,7 @@ export async function open({ hash = "", example, scene, ...options } = {}) {
 
 /** Waits for a verdict. @param {any} page @param {"stands" | "falls" | "wrong" | "undecided"} state */
 export async function verdict(page, state) {
-  await page.waitForFunction((/** @type {string} */ s) => document.querySelector("#verdict")?.getAttribute("data-state") === s, state, { timeout: 5000 });
+  await page.waitForFunction((/** @type {string} */ s) => document.querySelector("#verdict")?.getAttribute("data-state") === s, state, { timeout: 20_000 });
 }
 
 /** The middle of a block on the screen. @param {any} page @param {string} key such as blocks/3 */
