@@ -122,6 +122,8 @@ pub mod text;
 #[doc(hidden)]
 pub mod geometry;
 
+mod clock;
+
 mod mechanics;
 
 mod pictures;
@@ -149,6 +151,8 @@ pub use sources::starter;
 use entry::cli;
 #[cfg(feature = "python")]
 use entry::python;
+#[cfg(feature = "wasm")]
+pub use entry::wasm;
 #[cfg(feature = "cli")]
 use mechanics::batch;
 use mechanics::statics::{assembly, effect, interface, resultant};

@@ -1,6 +1,8 @@
-//! The entry points: the command line, and the Python module.
+//! The entry points: the command line, the Python module, and the module for browsers.
 
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "python")]
 pub mod python;
+#[cfg(feature = "wasm")]
+pub mod wasm;

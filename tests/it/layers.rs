@@ -8,18 +8,26 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::source::{bare, collect, modules_used, names_crate, without_groups};
+use crate::source::{bare, collect, modules_used, names_after, names_crate, without_groups};
 
 /// Which groups of modules a group may use, itself apart. A module outside of the groups is a group of its own.
 const GROUP_RULES: &[(&str, &[&str])] = &[
     ("text", &[]),
     ("geometry", &[]),
-    ("mechanics", &["geometry", "text"]),
+    ("clock", &[]),
+    ("mechanics", &["clock", "geometry", "text"]),
     ("pictures", &["geometry", "text"]),
     ("sources", &["mechanics", "geometry", "text"]),
     (
         "products",
-        &["sources", "pictures", "mechanics", "geometry", "text"],
+        &[
+            "sources",
+            "pictures",
+            "mechanics",
+            "clock",
+            "geometry",
+            "text",
+        ],
     ),
     (
         "entry",
@@ -28,6 +36,7 @@ const GROUP_RULES: &[(&str, &[&str])] = &[
             "sources",
             "pictures",
             "mechanics",
+            "clock",
             "geometry",
             "text",
         ],
@@ -100,6 +109,9 @@ const DOORS: &[(&str, &[&str])] = &[
             "scene/format/",
             "result/",
             "drawing/style/format/value.rs",
+            "wasm/drawing.rs",
+            "wasm/look.rs",
+            "wasm/option.rs",
         ],
     ),
     (
@@ -158,6 +170,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
     ("skrifa", &["drawing/text.rs"]),
+    ("web_time", &["clock.rs"]),
     ("ariadne", &["cli/complaint.rs"]),
     ("indicatif", &["cli/progress.rs"]),
     ("anstream", &["cli/terminal.rs"]),
@@ -175,6 +188,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("svgtypes", &["import/", "snapshot/element/shape.rs"]),
     ("simplecss", &["import/"]),
     ("pyo3", &["python/"]),
+    ("wasm_bindgen", &["wasm/"]),
+    ("js_sys", &["wasm/error.rs"]),
     ("arrow_array", &["python/table.rs"]),
     ("arrow_schema", &["python/table.rs"]),
 ];
@@ -287,6 +302,9 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     if outside_tests.contains("use super::*;") && stem != "tests" && !path.contains("/tests/") {
         faults.push(format!("{path}: use super::* outside tests"));
     }
+    if path != "clock.rs" && names_after(&code, "std::time::").contains(&"Instant".into()) {
+        faults.push(format!("{path}: the time comes in through clock.rs only"));
+    }
     for (name, doors) in DOORS {
         let open = doors
             .iter()
@@ -359,6 +377,20 @@ fn a_second_door_is_caught() {
         assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
     }
     assert!(faults("output/png.rs", "use resvg::usvg;").is_empty());
+}
+
+#[test]
+fn a_second_clock_is_caught() {
+    let sources = [
+        "use std::time::{Duration, Instant};",
+        "fn f() { std::time::Instant::now(); }",
+        "use web_time::Instant;",
+    ];
+    for source in sources {
+        assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
+    }
+    let fine = "use crate::clock::Instant;\nuse std::time::Duration;";
+    assert_eq!(faults("analysis/mod.rs", fine), Vec::<String>::new());
 }
 
 #[test]

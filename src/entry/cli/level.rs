@@ -1,11 +1,12 @@
 //! [`AnalysisArgs`]: options of an analysis that `check` and `render` share.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::analysis::{Accuracy, Options};
+use crate::clock::Instant;
 
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Args)]

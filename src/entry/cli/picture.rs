@@ -12,6 +12,7 @@ use crate::output::animation::Step;
 use crate::output::fonts::Fonts;
 pub(crate) use crate::output::format::Format;
 use crate::output::format::{Animate, FormatError, Settings};
+use crate::output::page_width;
 use crate::output::pdf;
 use crate::output::png::{self, Compression, PngError, Size};
 use crate::output::svg::{self, Words};
@@ -49,9 +50,6 @@ pub(crate) struct Picture {
     #[arg(skip)]
     compression: Compression,
 }
-
-/// The scale of a figure that is laid out for print: text of 12.5 pixels (9.4 points) becomes 7.5 points high.
-const IN_PRINT: f64 = 0.8;
 
 impl ValueEnum for Format {
     fn value_variants<'a>() -> &'a [Format] {
@@ -177,7 +175,7 @@ impl Picture {
     /// Returns the width in pixels for which a figure is laid out; `None` for its natural width. With a width in
     /// millimetres, text is as large as a footnote, and names in blocks are slightly smaller.
     pub(crate) fn page(&self) -> Option<f64> {
-        self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
+        self.width_mm.map(page_width)
     }
 
     /// Returns the largest ratio of height to width of a figure on an A4 page. A figure with a width in print must

@@ -1,7 +1,6 @@
 //! `drystone render`: draws figures of scenes.
 
 mod args;
-mod block;
 mod broken;
 mod choice;
 #[cfg(feature = "python")]
@@ -165,9 +164,7 @@ impl Render {
         };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut asked = self.level.options();
-        if self.kind.needs_margins() {
-            asked.margins = true;
-        }
+        asked.margins = self.kind.needs_margins();
         match sources {
             [before, after] if joins => {
                 let work = || self.compared([before, after], &asked, options, format, fonts);
@@ -289,7 +286,7 @@ impl Render {
         let mut options = options.clone();
         if let Some(name) = &self.zoom {
             let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
-            options.zoom = Some(self.found(&source.scene, name).map_err(wrong)?);
+            options.zoom = Some(figure::named_block(&source.scene, name).map_err(wrong)?);
         }
         Ok(options)
     }
@@ -310,14 +307,9 @@ impl Render {
 
     /// Analyses a scene, with the margins that the figure states or needs.
     fn analysed(&self, scene: &Scene, asked: &analysis::Options) -> Analysis {
-        let analysis = Analysis::with(scene, asked);
-        let kind = self.kind.panels();
-        let kinds = kind.and_then(|kind| kind.stated_margins(&analysis));
-        match kinds {
-            Some(kinds) if !asked.margins => {
-                Analysis::with(scene, &asked.margins(true).margin_kinds(kinds))
-            }
-            _ => analysis,
+        match self.kind.panels() {
+            Some(kind) => kind.analysed(scene, asked),
+            None => Analysis::with(scene, asked),
         }
     }
 
@@ -330,8 +322,7 @@ impl Render {
         if let Some(kind) = self.kind.panels() {
             return Ok(figure::draw(analysis, kind, options));
         }
-        let (frame, block) = self
-            .cut_free(&source.scene)
+        let (frame, block) = figure::free_block(&source.scene, self.block.as_deref())
             .map_err(|why| CliError::CommandLine(format!("{}: {why}", source.name())))?;
         let drawing = figure::freebody(analysis, frame, block, options);
         Ok(drawing.expect("the block was found in this frame"))

@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -18,6 +18,7 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIter
 
 use crate::analysis::{self, Accuracy, Verdict};
 use crate::cli;
+use crate::clock::Instant;
 use crate::drawing::Theme;
 use crate::result::{self, Layout, Timing};
 use crate::scene::format::{SceneFile, parsed};

@@ -4,7 +4,6 @@
 //! combine the results. Then look for wedging and margins if they are requested.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
@@ -17,6 +16,7 @@ use super::key::{Key, key};
 use super::margin::{self, ComponentIntervals, Part};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::assembly::Assembly;
+use crate::clock::Instant;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, EffectReport, FrameContext};
 use crate::interface::Interfaces;

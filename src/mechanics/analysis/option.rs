@@ -3,9 +3,8 @@
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
 
-use std::time::Instant;
-
 use super::margin::MarginKinds;
+use crate::clock::Instant;
 use crate::proof::ProofThreshold;
 use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
@@ -27,7 +26,8 @@ pub struct Options {
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
     /// The time at which the analysis stops. Components that are not decided by then are `Undecided`, and the reason
-    /// names the deadline. Without a deadline the same scene gives the same results every time.
+    /// names the deadline. Without a deadline the same scene gives the same results every time. In a browser the type
+    /// is that of the crate `web-time`.
     pub deadline: Option<Instant>,
 }
 

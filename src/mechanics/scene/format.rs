@@ -118,7 +118,7 @@ pub struct SceneFile {
 
 /// Parses one entry of a scene file from its JSON text. Only the types of values are checked. The error is a message
 /// for the user.
-#[cfg(feature = "python")]
+#[cfg(any(feature = "python", feature = "wasm"))]
 pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string())
 }

@@ -8,7 +8,7 @@
 //! - presolve is off, because it only removes infinite bounds, and these programs have none;
 //! - equilibration and iterative refinement are off with [`Conditioning::Plain`].
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -16,6 +16,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 use super::answer::{Answer, Status};
 use super::deadline::deadline;
 use super::settings::{Conditioning, SolverSettings};
+use crate::clock::Instant;
 use crate::program::QuadraticProgram;
 
 /// Solves a conic problem of any size with clarabel. All its numbers must be finite.

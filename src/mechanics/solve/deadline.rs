@@ -1,7 +1,8 @@
 //! [`DeadlineGuard`]: a time limit for all programs that a thread solves.
 
 use std::cell::Cell;
-use std::time::Instant;
+
+use crate::clock::Instant;
 
 thread_local! {
     /// The time after which solvers on this thread stop.

@@ -1,6 +1,6 @@
 //! [`SolverSettings`]: tolerance, conditioning and choice of optimum for a solver.
 
-use std::time::Instant;
+use crate::clock::Instant;
 
 /// The default tolerance of feasibility and duality gap, relative to the data of the program.
 ///

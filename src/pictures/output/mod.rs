@@ -29,3 +29,13 @@ mod tree;
 pub const MM_PER_INCH: f64 = 25.4;
 /// Pixels of a drawing per inch, if no width is given.
 pub const PIXELS_PER_INCH: f64 = 96.0;
+/// The scale of a figure that is laid out for print: text of 12.5 pixels (9.4 points) becomes 7.5 points high.
+#[cfg(any(feature = "cli", feature = "wasm"))]
+const IN_PRINT: f64 = 0.8;
+
+/// Returns the width in pixels for which a figure is laid out that has this width in print, in millimetres. Text is then
+/// as large as a footnote, and names in blocks are slightly smaller.
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) fn page_width(millimetres: f64) -> f64 {
+    millimetres / MM_PER_INCH * PIXELS_PER_INCH / IN_PRINT
+}

@@ -12,7 +12,8 @@ use super::option::{ArrowScale, Options};
 use super::polygon::ForcePolygon;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
-use crate::analysis::{Analysis, MarginKinds};
+use crate::analysis::{self, Analysis, MarginKinds};
+use crate::scene::Scene;
 
 /// The content of the panels of a figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,6 +95,20 @@ impl Kind {
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
+    }
+
+    /// Analyses a scene, with the margins that a figure of this kind states or needs.
+    #[cfg(any(feature = "cli", feature = "wasm"))]
+    pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
+        let mut asked = *asked;
+        asked.margins |= self.needs_margins();
+        let analysis = Analysis::with(scene, &asked);
+        match self.stated_margins(&analysis) {
+            Some(kinds) if !asked.margins => {
+                Analysis::with(scene, &asked.margins(true).margin_kinds(kinds))
+            }
+            _ => analysis,
+        }
     }
 
     /// True if it needs margins, which the analysis only computes on request

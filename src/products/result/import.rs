@@ -20,12 +20,23 @@ use crate::text;
 /// assert!(json.contains(r#""element": "line 2 \"b\"""#));
 /// ```
 pub fn import_json(imported: &Imported) -> String {
+    log(imported, None)
+}
+
+/// Like [`import_json`], with the text of the scene file under the key `scene`.
+#[cfg(feature = "wasm")]
+pub(crate) fn imported_json(imported: &Imported) -> String {
+    log(imported, Some(imported.scene.to_json()))
+}
+
+fn log(imported: &Imported, text: Option<String>) -> String {
     let scene = &imported.scene;
     let done = Done {
         drystone: env!("CARGO_PKG_VERSION"),
         blocks: scene.blocks.len(),
         ground: scene.ground.len(),
         robots: scene.robots.len(),
+        scene: text,
         notes: &imported.notes,
         warnings: (imported.remarks.iter())
             .map(|r| Warning {
@@ -58,6 +69,8 @@ struct Done<'a> {
     blocks: usize,
     ground: usize,
     robots: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<String>,
     notes: &'a [String],
     warnings: Vec<Warning<'a>>,
     snapped: Vec<Moved<'a>>,

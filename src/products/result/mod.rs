@@ -36,6 +36,8 @@ use block::Block;
 use force::{Interface, Missing, Motion, Robot};
 #[cfg(feature = "import")]
 pub use import::import_json;
+#[cfg(feature = "wasm")]
+pub(crate) use import::imported_json;
 pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
@@ -43,6 +45,8 @@ pub use margin::margins_json;
 pub use page::{Counts, quoted, report_json};
 use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};
+#[cfg(feature = "wasm")]
+pub(crate) use refusal::{problem_list, remark_list};
 use solve::Solve;
 use wedging::Wedging;
 

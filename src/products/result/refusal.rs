@@ -3,6 +3,8 @@
 use serde::Serialize;
 
 use super::{Layout, Origin};
+#[cfg(feature = "wasm")]
+use crate::import::Remark;
 use crate::scene::Problem;
 use crate::scene::format::Lines;
 use crate::text;
@@ -49,6 +51,37 @@ pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
         },
         layout,
     )
+}
+
+/// Writes problems as one JSON list: the value of `problems` in [`refusal`], on one line without a line feed.
+#[cfg(feature = "wasm")]
+pub(crate) fn problem_list(problems: &[Problem]) -> String {
+    listed(&entries(problems, 0))
+}
+
+/// Writes the problems of a drawing as one JSON list, `[{ element, message, hint }]`, on one line without a line feed.
+#[cfg(feature = "wasm")]
+pub(crate) fn remark_list(remarks: &[Remark]) -> String {
+    let entries = remarks.iter().map(|remark| DrawingEntry {
+        element: &remark.element,
+        message: &remark.message,
+        hint: &remark.help,
+    });
+    listed(&entries.collect::<Vec<_>>())
+}
+
+#[cfg(feature = "wasm")]
+#[derive(Serialize)]
+struct DrawingEntry<'a> {
+    element: &'a str,
+    message: &'a str,
+    hint: &'a str,
+}
+
+#[cfg(feature = "wasm")]
+fn listed<T: Serialize>(entries: &[T]) -> String {
+    let json = serde_json::to_string(entries);
+    text::json(&json.expect("plain structures with text keys always serialise into memory"))
 }
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.

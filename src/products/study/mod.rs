@@ -13,14 +13,13 @@ mod reference;
 mod skyline;
 mod summary;
 
-use std::time::Instant;
-
 pub use method::Method;
 pub use outcome::Outcome;
 pub use reference::Reference;
 pub use summary::{Summary, summary};
 
 use crate::analysis::Verdict;
+use crate::clock::Instant;
 use crate::effect::{self, FrameContext};
 use crate::interface::Interfaces;
 use crate::program::{Program, Scale};

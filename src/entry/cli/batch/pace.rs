@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::analysis::Verdict;
 use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
+use crate::clock::Instant;
 use crate::wording::verdict::counted;
 
 /// The default interval between two reports on a terminal.

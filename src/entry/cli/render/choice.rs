@@ -29,10 +29,7 @@ impl ValueEnum for KindChoice {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let (name, help) = match self {
             KindChoice::Panels(kind) => (kind.name(), kind.help()),
-            KindChoice::Freebody => (
-                "freebody",
-                "One block as a free body, with names for all forces that may act on it",
-            ),
+            KindChoice::Freebody => (figure::FREEBODY, figure::FREEBODY_HELP),
         };
         Some(PossibleValue::new(name).help(help))
     }

@@ -13,8 +13,6 @@
 //! The amounts x and their distances s from the bounds are separate variables. Otherwise, for an amount far above its
 //! bound, a small change of x would be lost in the rounding of s.
 
-use std::time::Instant;
-
 use super::block_matrix::{
     BlockDiagonal, MAX_BLOCK_COLUMNS, backward_substitute, cholesky_in_place, forward_substitute,
 };
@@ -22,6 +20,7 @@ use super::cholesky::Cholesky;
 use super::column_groups::ColumnGroups;
 use super::dense::{dot, max_norm};
 use super::iterate::{REGULARIZATION, STEP_TO_BOUNDARY, shorten_step};
+use crate::clock::Instant;
 use crate::program::QuadraticProgram;
 use crate::solve::answer::{Answer, Status};
 use crate::solve::settings::StoppingCriteria;

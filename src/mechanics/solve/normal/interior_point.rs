@@ -15,14 +15,13 @@
 //! [`InteriorPoint::drop_non_basic`]. References: Xu, Hung and Ye 1996; Andersen and Andersen 2000 (homogeneous form);
 //! Mehrotra 1992 (predictor and corrector); Gondzio 1996 (additional correctors).
 
-use std::time::Instant;
-
 use super::cholesky::Cholesky;
 use super::dense::dot;
 use super::iterate::{Iterate, LinearProgram, REGULARIZATION, STEP_TO_BOUNDARY};
 use super::newton::Newton;
 use super::residuals::{Optimality, Residuals, Termination};
 use super::slack_trend::SlackTrend;
+use crate::clock::Instant;
 use crate::solve::settings::{CrossoverTolerance, StoppingCriteria};
 
 /// The optimum, a certificate, or the last iterate.

@@ -1,6 +1,7 @@
 //! The normal equations against products, conditions of an optimum, and clarabel.
 
 use super::*;
+use crate::clock::Instant;
 use crate::solve::numbers::Numbers;
 use crate::solve::{Conditioning, TOLERANCE};
 
@@ -286,7 +287,7 @@ fn it_gives_up_after_its_iterations_and_at_its_deadline() {
     let answer = solve_any_size(&problem, few, 0.0).expect("of this kind");
     assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 2));
     let late = StoppingCriteria {
-        deadline: Some(std::time::Instant::now()),
+        deadline: Some(Instant::now()),
         ..criteria()
     };
     let answer = solve_any_size(&problem, late, 0.0).expect("of this kind");

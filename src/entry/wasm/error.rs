@@ -1,0 +1,55 @@
+//! [`Refusal`]: why a scene, a drawing or an option was refused, and how JavaScript receives it.
+
+use wasm_bindgen::JsValue;
+
+use crate::import::DrawingProblems;
+use crate::result::{problem_list, remark_list};
+use crate::scene::SceneError;
+
+/// Why the input was refused. JavaScript receives an `Error` with the message, whose property `problems` is a list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The message, which contains all problems.
+    pub(super) message: String,
+    /// The problems as a JSON list; empty if an option is not valid.
+    pub(super) problems: String,
+}
+
+impl Refusal {
+    /// The refusal of an option.
+    pub(super) fn of_option(why: impl Into<String>) -> Refusal {
+        Refusal {
+            message: why.into(),
+            problems: "[]".into(),
+        }
+    }
+}
+
+impl From<SceneError> for Refusal {
+    fn from(error: SceneError) -> Refusal {
+        Refusal {
+            message: error.to_string(),
+            problems: problem_list(&error.list),
+        }
+    }
+}
+
+impl From<DrawingProblems> for Refusal {
+    fn from(error: DrawingProblems) -> Refusal {
+        let messages: Vec<&str> = error.problems.iter().map(|p| p.message.as_str()).collect();
+        Refusal {
+            message: messages.join("\n"),
+            problems: remark_list(&error.problems),
+        }
+    }
+}
+
+impl From<Refusal> for JsValue {
+    fn from(refusal: Refusal) -> JsValue {
+        let error = js_sys::Error::new(&refusal.message);
+        let list = js_sys::JSON::parse(&refusal.problems).unwrap_or_default();
+        // Setting a property of a new object cannot fail.
+        let _ = js_sys::Reflect::set(&error, &"problems".into(), &list);
+        error.into()
+    }
+}

@@ -1,0 +1,28 @@
+//! Analyses scenes, and writes the results as JSON.
+
+use super::Refusal;
+use super::option::{self, CheckOptions};
+use crate::analysis::Analysis;
+use crate::result::{Layout, Timing, to_json, to_json_of};
+
+/// Analyses a scene, and returns the result as `check --json` prints it.
+pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {
+    let asked = options.asked()?;
+    let scene = option::scene(scene, options.contact_tolerance, options.frame)?;
+    Ok(written(Analysis::with(scene, &asked), options))
+}
+
+/// Writes an analysis as JSON.
+pub(super) fn written(mut found: Analysis, options: &CheckOptions) -> String {
+    if options.no_notes {
+        found.notes.clear();
+    }
+    let timing = match options.timing {
+        true => Timing::Included,
+        false => Timing::LeftOut,
+    };
+    match &options.file {
+        Some(file) => to_json_of(file, &found, timing, Layout::Lines),
+        None => to_json(&found, timing, Layout::Lines),
+    }
+}

@@ -1,0 +1,112 @@
+//! The module for browsers: scenes and options come in as JSON text, and results and pictures go out as text.
+//!
+//! Nothing is computed here. `examples/playground/build.sh` makes a package of it for JavaScript, with declarations for
+//! TypeScript. A function that refuses its input throws an `Error` whose property `problems` is the list that
+//! `drystone check --json` prints. After an internal error (an `Error` without `problems`) the module has to be started
+//! again.
+
+mod draw;
+mod drawing;
+mod error;
+mod examine;
+mod look;
+mod option;
+mod session;
+
+use std::panic;
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+pub use error::Refusal;
+pub use session::Session;
+
+use crate::figure::{FREEBODY, FREEBODY_HELP, Kind};
+use crate::result::quoted;
+use crate::scene::Scene;
+
+/// Prepares the module: an internal error becomes a JavaScript error with the same message.
+#[wasm_bindgen(start)]
+pub fn start() {
+    if cfg!(target_family = "wasm") {
+        panic::set_hook(Box::new(|fault| {
+            wasm_bindgen::throw_str(&fault.to_string())
+        }));
+    }
+}
+
+/// The version of drystone.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
+}
+
+/// The kinds of figures as a JSON list: `[{ "kind", "label", "help" }]`.
+#[wasm_bindgen]
+pub fn kinds() -> String {
+    let panels = Kind::ALL.map(|kind| (kind.name(), kind.help()));
+    let entry = |(kind, help): &(&str, &str)| {
+        let mut label = (*kind).to_owned();
+        label[..1].make_ascii_uppercase();
+        format!(
+            "{{\"kind\":{},\"label\":{},\"help\":{}}}",
+            quoted(kind),
+            quoted(&label),
+            quoted(help)
+        )
+    };
+    let entries: Vec<String> = panels
+        .iter()
+        .chain([&(FREEBODY, FREEBODY_HELP)])
+        .map(entry)
+        .collect();
+    format!("[{}]", entries.join(","))
+}
+
+/// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is JSON with the
+/// names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
+/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `no_notes`; and `timing` to include times,
+/// and `file` for a name.
+///
+/// # Errors
+/// The problems of the scene, or an option that is not valid.
+#[wasm_bindgen]
+pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
+    examine::checked(scene, &option::read(options.as_deref())?)
+}
+
+/// Draws a scene as SVG, as `drystone render` does. `options` is JSON with the names of the options of `render`:
+/// `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill` and others. `style` is an object with changes of
+/// the theme, `width_px` is the width of the page, and `way`, from 0 to 1, the position of a moving mechanism.
+///
+/// # Errors
+/// As [`check`].
+#[wasm_bindgen]
+pub fn figure(scene: &str, options: Option<String>) -> Result<String, Refusal> {
+    draw::figure(scene, &option::read(options.as_deref())?)
+}
+
+/// Returns the problems of a scene as a JSON list, `[{ code, path, line, column, message, hint }]`, which is empty for
+/// a valid scene.
+#[wasm_bindgen]
+pub fn problems(scene: &str) -> String {
+    match Scene::from_json(scene) {
+        Ok(_) => "[]".into(),
+        Err(error) => Refusal::from(error).problems,
+    }
+}
+
+/// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the log
+/// of the import as JSON, with the text of the scene file under the key `scene`. `options` is JSON: `scale` and
+/// `flatten`, `gap`, `ratio`, `ground_layers`, `frame`, `title`, `friction`, `material`, `density`, `thickness`,
+/// `kernel`, `gravity`.
+///
+/// # Errors
+/// The elements of the drawing that prevent an import, or an option that is not valid.
+#[wasm_bindgen(js_name = importDrawing)]
+pub fn import_drawing(
+    text: &str,
+    format: &str,
+    options: Option<String>,
+) -> Result<String, Refusal> {
+    drawing::imported(text, format, option::read(options.as_deref())?)
+}

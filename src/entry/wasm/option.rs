@@ -1,0 +1,175 @@
+//! The options of the functions for JavaScript, read from JSON.
+
+use std::time::Duration;
+
+use serde::Deserialize;
+
+use super::Refusal;
+use crate::analysis::{Accuracy, MarginKind, MarginKinds, Options};
+use crate::clock::Instant;
+use crate::scene::format::parsed;
+use crate::scene::{Scene, SceneError};
+
+/// Reads options from JSON text. Without text, all options have their default values.
+pub(super) fn read<T: Default + for<'a> Deserialize<'a>>(text: Option<&str>) -> Result<T, Refusal> {
+    match text {
+        None => Ok(T::default()),
+        Some(text) => parsed(text).map_err(|why| Refusal::of_option(format!("options: {why}"))),
+    }
+}
+
+/// The options of `check`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct CheckOptions {
+    pub(super) margins: Margins,
+    wedging: bool,
+    verdict_only: bool,
+    accuracy: Level,
+    pub(super) contact_tolerance: Option<f64>,
+    time_limit: Option<f64>,
+    pub(super) frame: Option<FrameChoice>,
+    pub(super) no_notes: bool,
+    pub(super) timing: bool,
+    pub(super) file: Option<String>,
+}
+
+impl CheckOptions {
+    /// Returns the options of the analysis. A time limit starts with this call.
+    pub(super) fn asked(&self) -> Result<Options, Refusal> {
+        let mut asked = Options::default()
+            .accuracy(self.accuracy.accuracy())
+            .wedging(self.wedging)
+            .verdict_only(self.verdict_only);
+        asked.deadline = deadline(self.time_limit)?;
+        if let Some(kinds) = self.margins.kinds() {
+            asked = asked.margins(true).margin_kinds(kinds);
+        }
+        Ok(asked)
+    }
+}
+
+/// Returns the time at which an analysis stops that may take this many seconds from now.
+pub(super) fn deadline(time_limit: Option<f64>) -> Result<Option<Instant>, Refusal> {
+    match time_limit {
+        Some(seconds) if !(0.0..=1e6).contains(&seconds) => Err(Refusal::of_option(
+            "time_limit is a time in seconds, from 0 to 1000000",
+        )),
+        limit => Ok(limit.and_then(|s| Instant::now().checked_add(Duration::from_secs_f64(s)))),
+    }
+}
+
+/// Reads a scene with an optional tolerance in metres, and reduces it to one of its frames.
+pub(super) fn scene(
+    text: &str,
+    tolerance: Option<f64>,
+    frame: Option<FrameChoice>,
+) -> Result<Scene, Refusal> {
+    if tolerance.is_some_and(|metres| !(0.0..=1e12).contains(&metres)) {
+        return Err(Refusal::of_option(
+            "contact_tolerance is a length in metres, at least 0",
+        ));
+    }
+    let scene: Result<Scene, SceneError> = Scene::from_json_within(text, tolerance);
+    let mut scene = scene?;
+    if let Some(choice) = frame {
+        let count = scene.frames.len();
+        let number = match choice {
+            FrameChoice::Number(number) => number,
+            FrameChoice::Last(_) => count,
+        };
+        if !(1..=count).contains(&number) {
+            let why = format!("there is no frame {number}: frames have numbers from 1 to {count}");
+            return Err(Refusal::of_option(why));
+        }
+        scene.frames = vec![scene.frames[number - 1].clone()];
+    }
+    Ok(scene)
+}
+
+/// A frame: its number from 1, or "last".
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, expecting = "a frame is a number from 1, or \"last\"")]
+pub(super) enum FrameChoice {
+    Number(usize),
+    Last(Last),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Last {
+    Last,
+}
+
+/// How strong a proof must be.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Level {
+    #[default]
+    Standard,
+    Proved,
+}
+
+impl Level {
+    pub(super) fn accuracy(self) -> Accuracy {
+        match self {
+            Level::Standard => Accuracy::Standard,
+            Level::Proved => Accuracy::Proved,
+        }
+    }
+}
+
+/// The margins to compute: all, none, or those of a list.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "margins are true, false, or a list of friction, tilt, horizontal_load, kernel, load_factor and robots"
+)]
+pub(super) enum Margins {
+    Whether(bool),
+    These(Vec<Margin>),
+}
+
+impl Default for Margins {
+    fn default() -> Margins {
+        Margins::Whether(false)
+    }
+}
+
+impl Margins {
+    fn kinds(&self) -> Option<MarginKinds> {
+        match self {
+            Margins::Whether(false) => None,
+            Margins::Whether(true) => Some(MarginKinds::ALL),
+            Margins::These(list) => {
+                let kinds: Vec<MarginKind> = list.iter().map(|name| name.kind()).collect();
+                Some(MarginKinds::new(&kinds))
+            }
+        }
+    }
+}
+
+/// A margin, by its name in results.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Margin {
+    Friction,
+    Tilt,
+    HorizontalLoad,
+    Kernel,
+    LoadFactor,
+    Robots,
+}
+
+impl Margin {
+    fn kind(self) -> MarginKind {
+        match self {
+            Margin::Friction => MarginKind::Friction,
+            Margin::Tilt => MarginKind::Tilt,
+            Margin::HorizontalLoad => MarginKind::HorizontalLoad,
+            Margin::Kernel => MarginKind::Kernel,
+            Margin::LoadFactor => MarginKind::LoadFactor,
+            Margin::Robots => MarginKind::Robots,
+        }
+    }
+}

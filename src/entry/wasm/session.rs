@@ -1,0 +1,64 @@
+//! [`Session`]: one scene with its analysis, for several questions about it.
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use super::option::{self, CheckOptions};
+use super::{Refusal, draw, examine};
+use crate::analysis::Analysis;
+use crate::result::word;
+
+/// A scene that is changed often, for example while a block is dragged. It is analysed once for each change, and the
+/// verdict, the result and the figures come from the same analysis.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct Session {
+    options: CheckOptions,
+    found: Analysis,
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// Starts with a scene and the options of `check`.
+    ///
+    /// # Errors
+    /// The problems of the scene, or an option that is not valid.
+    #[wasm_bindgen(constructor)]
+    pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
+        let options: CheckOptions = option::read(options.as_deref())?;
+        let found = analysis(scene, &options)?;
+        Ok(Session { options, found })
+    }
+
+    /// Replaces the scene, and returns its verdict: stable, unstable or undecided.
+    ///
+    /// # Errors
+    /// The problems of the scene; the session then keeps the former scene.
+    pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
+        self.found = analysis(scene, &self.options)?;
+        Ok(self.verdict())
+    }
+
+    /// The worst verdict of all frames: stable, unstable or undecided.
+    pub fn verdict(&self) -> String {
+        word(self.found.verdict()).to_owned()
+    }
+
+    /// The result as `check` returns it.
+    pub fn result(&self) -> String {
+        examine::written(self.found.clone(), &self.options)
+    }
+
+    /// A figure of the analysed frames; `options` as for `figure`, without those of the analysis.
+    ///
+    /// # Errors
+    /// An option that is not valid.
+    pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
+        draw::drawn(&self.found, &option::read(options.as_deref())?)
+    }
+}
+
+fn analysis(scene: &str, options: &CheckOptions) -> Result<Analysis, Refusal> {
+    let asked = options.asked()?;
+    let scene = option::scene(scene, options.contact_tolerance, options.frame)?;
+    Ok(Analysis::with(scene, &asked))
+}

@@ -1,0 +1,61 @@
+//! Finds the blocks that options name.
+
+use crate::scene::{BlockId, Scene};
+use crate::text::{self, nearest};
+
+/// A message lists at most this many blocks.
+const MAX_LISTED_BLOCKS: usize = 12;
+
+/// The name of the free-body diagram, which is a kind of figure without panels.
+pub(crate) const FREEBODY: &str = "freebody";
+/// One line that describes the free-body diagram.
+pub(crate) const FREEBODY_HELP: &str =
+    "One block as a free body, with names for all forces that may act on it";
+
+/// Returns the last frame in which the block of a free-body diagram is placed, and the block. Without a name, it is the
+/// only block of the scene.
+pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, BlockId), String> {
+    let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
+    let Some(name) = name else {
+        return match (scene.blocks.as_slice(), placed(BlockId(0))) {
+            ([_], Some(frame)) => Ok((frame, BlockId(0))),
+            _ => Err(format!(
+                "a free-body diagram is of one block; choose with --block one of {}",
+                first_names(scene)
+            )),
+        };
+    };
+    let block = named_block(scene, name)?;
+    match placed(block) {
+        Some(frame) => Ok((frame, block)),
+        None => Err(format!("block {name} is not placed in these frames")),
+    }
+}
+
+/// Finds the block with a name.
+pub(crate) fn named_block(scene: &Scene, name: &str) -> Result<BlockId, String> {
+    let number = scene.blocks.iter().position(|b| b.id == name);
+    number.map(BlockId).ok_or_else(|| {
+        let known = scene.blocks.iter().map(|b| b.id.as_str());
+        let near = nearest(name, known)
+            .map_or_else(|| listed(scene), |near| format!("; did you mean {near}?"));
+        format!("it has no block {name}{near}")
+    })
+}
+
+/// Names the blocks of a scene, at most [`MAX_LISTED_BLOCKS`] of them: `; its blocks are a, b, …`.
+fn listed(scene: &Scene) -> String {
+    match scene.blocks.is_empty() {
+        true => "; it has no blocks".into(),
+        false => format!("; its blocks are {}", first_names(scene)),
+    }
+}
+
+fn first_names(scene: &Scene) -> String {
+    let ids = scene.blocks.iter().map(|b| text::line(&b.id));
+    let mut names: Vec<String> = ids.take(MAX_LISTED_BLOCKS).collect();
+    if scene.blocks.len() > MAX_LISTED_BLOCKS {
+        names.push("…".into());
+    }
+    names.join(", ")
+}
