@@ -4,6 +4,7 @@
 //! from the scene, whose y points up. Later items lie on top of earlier ones. This module knows neither forces nor file
 //! formats; `output` writes a drawing to a file.
 
+mod advance;
 pub mod arrow;
 mod camera;
 mod colour;

@@ -7,9 +7,9 @@
 use std::sync::OnceLock;
 
 use skrifa::MetadataProvider;
-use skrifa::instance::{LocationRef, Size};
 use skrifa::raw::{FileRef, FontRef};
 
+use super::advance::advance;
 use super::{Colour, PagePoint};
 
 /// A built-in font. All text of figures uses these fonts.
@@ -75,7 +75,7 @@ impl Face {
 
     /// True if the face has a glyph for a character.
     pub fn has(self, character: char) -> bool {
-        self.font().charmap().map(character).is_some()
+        advance(self as usize, character).is_some()
     }
 
     /// Returns the index of the glyph for a character in this face; `None` if there is none.
@@ -175,18 +175,9 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     let common = common_advances(face);
     let advance = |c: char| match common.get(c as usize) {
         Some(advance) => *advance,
-        None => advance(&face.font(), c),
+        None => advance(face as usize, c).unwrap_or_else(|| elsewhere(c)),
     };
     words.chars().map(advance).sum::<f64>() * size
-}
-
-/// Returns the advance width of a character as a fraction of the font size.
-fn advance(font: &FontRef<'_>, c: char) -> f64 {
-    let Some(glyph) = font.charmap().map(c) else {
-        return elsewhere(c);
-    };
-    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
-    f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
 }
 
 /// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. It is 1 for
@@ -210,8 +201,8 @@ fn common_advances(face: Face) -> &'static [f64] {
     static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
         [const { OnceLock::new() }; Face::ALL.len()];
     KNOWN[face as usize].get_or_init(|| {
-        let font = face.font();
-        (0..128_u8).map(|c| advance(&font, char::from(c))).collect()
+        let width = |c| advance(face as usize, c).unwrap_or_else(|| elsewhere(c));
+        (0..128_u8).map(|c| width(char::from(c))).collect()
     })
 }
 
@@ -288,7 +279,52 @@ pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64
 
 #[cfg(test)]
 mod tests {
+    use skrifa::instance::{LocationRef, Size};
+
     use super::*;
+    use crate::drawing::advance;
+
+    /// The characters of a face with their widths in units.
+    fn characters(face: Face) -> Vec<(char, u16)> {
+        let font = face.font();
+        let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
+        let width = |glyph| metrics.advance_width(glyph).unwrap_or(0.0) as u16;
+        (char::MIN..=char::MAX)
+            .filter_map(|c| Some((c, width(font.charmap().map(c)?))))
+            .collect()
+    }
+
+    #[test]
+    fn the_table_of_widths_is_that_of_the_fonts() {
+        let table = Face::ALL.map(|face| {
+            let metrics = face
+                .font()
+                .metrics(Size::unscaled(), LocationRef::default());
+            advance::written(metrics.units_per_em, &characters(face))
+        });
+        let table = table.concat();
+        if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+            let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+            std::fs::write(root.join("assets/fonts/advances.bin"), &table).expect("written");
+        }
+        assert!(
+            advance::is(&table),
+            "set UPDATE_SNAPSHOTS=1, and build again"
+        );
+    }
+
+    #[test]
+    fn the_table_gives_the_widths_that_skrifa_gives() {
+        for face in Face::ALL {
+            let font = face.font();
+            let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
+            for (c, _) in characters(face) {
+                let glyph = font.charmap().map(c).expect("it has the character");
+                let width = metrics.advance_width(glyph).map(f64::from);
+                assert_eq!(advance(face as usize, c), width, "{face:?} {c:?}");
+            }
+        }
+    }
 
     #[test]
     fn widths_grow_with_size_and_words_and_know_the_letters() {
