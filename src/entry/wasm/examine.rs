@@ -3,7 +3,7 @@
 use super::Refusal;
 use super::option::{self, CheckOptions};
 use crate::analysis::Analysis;
-use crate::result::{Layout, Timing, to_json, to_json_of};
+use crate::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
 
 /// Analyses a scene, and returns the result as `check --json` prints it.
 pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {
@@ -21,8 +21,10 @@ pub(super) fn written(mut found: Analysis, options: &CheckOptions) -> String {
         true => Timing::Included,
         false => Timing::LeftOut,
     };
-    match &options.file {
-        Some(file) => to_json_of(file, &found, timing, Layout::Lines),
-        None => to_json(&found, timing, Layout::Lines),
+    let file = options.file.as_deref();
+    match (options.blocks, file) {
+        (true, file) => to_json_with_blocks(file, &found, timing, Layout::Lines),
+        (false, Some(file)) => to_json_of(file, &found, timing, Layout::Lines),
+        (false, None) => to_json(&found, timing, Layout::Lines),
     }
 }

@@ -64,7 +64,7 @@ pub fn kinds() -> String {
 
 /// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is JSON with the
 /// names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
-/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `no_notes`; and `timing` to include times,
+/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`; and `timing` to include times,
 /// and `file` for a name.
 ///
 /// # Errors

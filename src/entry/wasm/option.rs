@@ -31,6 +31,7 @@ pub(super) struct CheckOptions {
     pub(super) frame: Option<FrameChoice>,
     pub(super) no_notes: bool,
     pub(super) timing: bool,
+    pub(super) blocks: bool,
     pub(super) file: Option<String>,
 }
 

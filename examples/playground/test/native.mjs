@@ -1,0 +1,119 @@
+// The module in pkg/ against the program: the same scenes give the same bytes. Needs Node.js, and the program
+// (DRYSTONE, or target/debug/drystone).
+
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
+import { test } from "node:test";
+import { root } from "./lib/root.mjs";
+
+const top = path.resolve(root, "../..");
+const program = process.env.DRYSTONE ?? path.join(top, "target/debug/drystone");
+const before = performance.now();
+const module = await import(path.join(root, "pkg/drystone.js"));
+await module.default({ module_or_path: readFileSync(path.join(root, "pkg/drystone_bg.wasm")) });
+const started = performance.now() - before;
+
+/** All scene files below a folder, sorted. @param {string} folder @returns {string[]} */
+function scenes(folder) {
+  const entries = readdirSync(path.join(top, folder), { withFileTypes: true });
+  return entries.sort((a, b) => (a.name < b.name ? -1 : 1)).flatMap((entry) => {
+    const name = `${folder}/${entry.name}`;
+    if (entry.isDirectory()) return entry.name === "pkg" || entry.name === "node_modules" ? [] : scenes(name);
+    if (!entry.name.endsWith(".json")) return [];
+    return /"drystone"\s*:\s*1\b/.test(readFileSync(path.join(top, name), "utf8").slice(0, 2000)) ? [name] : [];
+  });
+}
+
+/** What the program prints, whatever the verdict. @param {string[]} words */
+function printed(...words) {
+  const { stdout, stderr, error } = spawnSync(program, words, { cwd: top, maxBuffer: 1 << 28, encoding: "utf8" });
+  if (error) throw error;
+  return { stdout, stderr };
+}
+
+const files = ["assets", "examples", "tests/scenes"].flatMap(scenes);
+const read = (/** @type {string} */ name) => readFileSync(path.join(top, name), "utf8");
+// Large scenes take long and show nothing more.
+const valid = files.filter((name) => read(name).length < 20_000 && module.problems(read(name)) === "[]");
+
+test("the program and the module have the same version", () => {
+  assert.ok(existsSync(program), `${program} is missing: run cargo build`);
+  assert.equal(execFileSync(program, ["--version"], { encoding: "utf8" }).trim().split(" ").at(-1), module.version());
+});
+
+test("at least 60 scenes are compared", () => assert.ok(valid.length >= 60, `${valid.length} scenes`));
+
+test("results have the same bytes", () => {
+  for (const name of files.filter((name) => read(name).length < 20_000)) {
+    const { stdout } = printed("check", "--json", "--no-timing", name);
+    let own;
+    try {
+      own = module.check(read(name), JSON.stringify({ file: name }));
+    } catch (error) {
+      assert.deepEqual(/** @type {any} */ (error).problems, JSON.parse(stdout).problems, name);
+      continue;
+    }
+    assert.equal(own, stdout, name);
+  }
+});
+
+test("figures have the same bytes", () => {
+  const kinds = JSON.parse(module.kinds()).map((/** @type {any} */ entry) => entry.kind).filter((/** @type {string} */ kind) => kind !== "freebody");
+  const themes = ["thesis", "paper", "colourblind", "dark"];
+  for (const [number, name] of valid.entries()) {
+    const kind = kinds[number % kinds.length];
+    const theme = themes[number % themes.length];
+    const [options, words] = number % 3 === 0
+      ? [{}, []]
+      : [{ kind, theme, amounts: true, width_mm: 174 }, ["--kind", kind, "--theme", theme, "--amounts", "--width-mm", "174"]];
+    const { stdout, stderr } = printed("render", name, "-o", "-", "--format", "svg", ...words);
+    assert.ok(stdout.startsWith("<svg"), `${name} ${words.join(" ")}: ${stderr}`);
+    assert.equal(module.figure(read(name), JSON.stringify(options)), stdout, `${name} ${words.join(" ")}`);
+  }
+});
+
+test("margins have the same bytes", () => {
+  for (const name of ["assets/starter.json", "tests/scenes/lintel.json", "assets/thesis/figure-1.json"].filter((name) => valid.includes(name))) {
+    const { stdout } = printed("check", "--json", "--no-timing", "--margins", name);
+    assert.equal(module.check(read(name), JSON.stringify({ file: name, margins: true })), stdout, name);
+  }
+});
+
+test("a drawing becomes the same scene", () => {
+  const drawing = module.figure(read("assets/starter.json"));
+  const { stdout } = spawnSync(program, ["import", "-", "--format", "svg"], { input: drawing, encoding: "utf8" });
+  assert.equal(JSON.parse(module.importDrawing(drawing, "svg")).scene, stdout);
+});
+
+test("a session gives what the functions give", () => {
+  const [one, other] = [read("assets/starter.json"), read("assets/starter-falls.json")];
+  const session = new module.Session(one);
+  assert.equal(session.verdict(), "stable");
+  assert.equal(session.set(other), "unstable");
+  assert.equal(session.result(), module.check(other));
+  assert.equal(session.figure(), module.figure(other));
+  assert.throws(() => session.set("{"), (error) => /** @type {any} */ (error).problems.length === 1);
+  assert.equal(session.verdict(), "unstable");
+});
+
+test("options that are not valid are refused by name", () => {
+  const scene = read("assets/starter.json");
+  const refused = (/** @type {() => unknown} */ work) => assert.throws(work, (error) => error instanceof Error && /** @type {any} */ (error).problems.length === 0);
+  refused(() => module.check(scene, '{"margin": true}'));
+  refused(() => module.check(scene, '{"frame": 99}'));
+  refused(() => module.figure(scene, '{"kind": "picture"}'));
+  refused(() => module.figure(scene, '{"zoom": "no such block"}'));
+  refused(() => module.importDrawing("", "dwg"));
+});
+
+test("the first answer on the lintel comes within half a second", () => {
+  // In a browser of its own it also takes the download; here the file is read from the disk.
+  const scene = read("tests/scenes/lintel.json");
+  const begin = performance.now();
+  module.check(scene);
+  const seconds = (started + performance.now() - begin) / 1000;
+  console.log(`started in ${started.toFixed(0)} ms`);
+  assert.ok(seconds < 0.5, `${seconds} s`);
+});
