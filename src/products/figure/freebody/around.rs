@@ -60,6 +60,13 @@ pub(super) struct Corner {
     pub friction: f64,
 }
 
+impl Corner {
+    /// Returns the whole force on the block, N. `normal` is the unit normal into the block.
+    pub(super) fn on_block(self, normal: Vector) -> Vector {
+        normal * self.normal + quarter_turn(normal) * self.friction
+    }
+}
+
 /// Returns the forces at both ends of an interface. The end to the left of the unit normal ŝ comes first, as in figures
 /// 1 and 2 of the thesis.
 ///

@@ -56,7 +56,7 @@ impl Sheet<'_> {
             ));
         if let Some(scale) = scale {
             let at = start.moved(13.5 + wide + 22.0, 0.0);
-            group.items.extend(legend::single(&scale, at, theme).0);
+            group.items.extend(legend::single(&scale, at, theme));
         }
         let mut y = top + 28.0;
         let size = theme.sizes.reason;

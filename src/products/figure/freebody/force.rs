@@ -2,8 +2,8 @@
 
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
-use super::around::{corners, distinct, inward, other};
-use crate::analysis::{Analysis, Contact, Failure};
+use super::around::{Corner, corners, distinct, inward, other};
+use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::drawing::Colour;
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
@@ -83,196 +83,245 @@ pub(super) fn forces(
     contacts: &[&Contact],
     options: &Options,
 ) -> Vec<Force> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
-    let (theme, body) = (&options.theme, &scene.blocks[block.0]);
-    let mut forces = Vec::new();
-    let mut add = |symbol, what, from, at, (force, torque), colour| {
-        forces.push(Force {
-            symbol,
-            what,
-            from,
-            at,
-            force,
-            torque,
-            colour,
-        });
+    let source = ForceSource {
+        analysis,
+        found: &analysis.frames[frame],
+        block,
+        contacts,
+        options,
     };
-    let arrow = |below: &str| Symbol::new("F", Accent::Arrow, below);
-    if body.weight > 0.0 {
-        let weight = scene.down() * body.weight;
-        let whose = "weight".to_owned();
-        add(
-            self::weight(),
-            "Weight",
-            whose,
-            body.centroid,
-            (weight, 0.0),
-            theme.ink,
-        );
-    }
-    for (number, load) in scene.loads.iter().filter(|l| l.block == block).enumerate() {
-        let below = (number + 1).to_string();
-        let whose = "load".to_owned();
-        if load.force.norm() > 0.0 {
-            let symbol = Symbol::new("Q", Accent::Arrow, &below);
-            add(
-                symbol,
-                "Load",
-                whose.clone(),
-                load.at,
-                (load.force, 0.0),
-                theme.load,
-            );
-        }
-        if load.torque != 0.0 {
-            let symbol = Symbol::new("M", Accent::None, &format!("Q{below}"));
-            let torque = (Vector::zeros(), load.torque);
-            add(
-                symbol,
-                "Torque of a load",
-                whose,
-                load.at,
-                torque,
-                theme.load,
-            );
-        }
-    }
-    let detail = detail(contacts.len(), options);
-    let carried = contacts.iter().flat_map(|c| c.normal_forces);
-    let noise = FORCE_TOL * carried.fold(body.weight, f64::max);
+    let mut forces: Vec<Force> = source.weight().into_iter().collect();
+    forces.extend(source.loads());
     for (number, contact) in contacts.iter().enumerate() {
-        let given = corners(contact, block);
-        let (normal, left) = (inward(contact, block), quarter_turn(inward(contact, block)));
-        let whose = named(analysis, other(contact, block));
-        let count = distinct(contact).len();
-        match detail {
-            Detail::Parts => {
-                for (k, corner) in given.iter().enumerate().take(count) {
-                    let k = k + 1;
-                    let symbol = arrow(&format!("s{k}"));
-                    let pushed = (normal * corner.normal, 0.0);
-                    add(
-                        symbol,
-                        "Normal force",
-                        whose.clone(),
-                        corner.at,
-                        pushed,
-                        theme.ink,
-                    );
-                    let side = if corner.friction >= 0.0 { "l" } else { "r" };
-                    for which in ["l", "r"] {
-                        let acts = which == side && corner.friction.abs() > noise;
-                        if options.corners == Corners::Few && !acts {
-                            continue;
-                        }
-                        let amount = if acts { corner.friction } else { 0.0 };
-                        let symbol = arrow(&format!("f{which}{k}"));
-                        let rubbed = (left * amount, 0.0);
-                        add(
-                            symbol,
-                            "Friction force",
-                            whose.clone(),
-                            corner.at,
-                            rubbed,
-                            theme.ink,
-                        );
-                    }
-                }
-            }
-            Detail::Corners => {
-                for (k, corner) in given.iter().enumerate().take(count) {
-                    let (letter, accent) = match options.corners {
-                        Corners::All => ("x", Accent::None),
-                        Corners::Few => ("F", Accent::Arrow),
-                    };
-                    let symbol = Symbol::new(letter, accent, &(k + 1).to_string());
-                    let symbol = symbol.raised(&format!("({})", number + 1));
-                    let both = normal * corner.normal + left * corner.friction;
-                    add(
-                        symbol,
-                        "Force",
-                        whose.clone(),
-                        corner.at,
-                        (both, 0.0),
-                        theme.ink,
-                    );
-                }
-            }
-            Detail::Resultants => {
-                let force = given.iter().map(|c| normal * c.normal + left * c.friction);
-                let symbol = arrow(&(number + 1).to_string());
-                let sum = (force.sum(), 0.0);
-                add(symbol, "Force", whose, contact.resultant.at, sum, theme.ink);
-            }
-        }
+        forces.extend(source.interface(number + 1, contact));
     }
-    for robot in found.robots.iter().filter(|r| r.block == block) {
-        let id = &scene.robots[robot.robot.0].id;
-        let colour = theme.robot(robot.robot.0).mixed(theme.ink, 0.25);
-        let whose = format!("robot {id}");
-        let given = (robot.force, 0.0);
-        add(
-            arrow("").raised(id),
-            "Force",
-            whose.clone(),
-            robot.at,
-            given,
-            colour,
-        );
-        if scene.robots[robot.robot.0].limits.torque > 0.0 {
-            let symbol = Symbol::new("M", Accent::None, "").raised(id);
-            let given = (Vector::zeros(), robot.torque);
-            add(symbol, "Torque", whose, robot.at, given, colour);
-        }
-    }
-    let mut count = 0;
-    for failure in &found.failures {
-        let Some((whose, what, at, missing)) = missing(analysis, failure, block) else {
-            continue;
-        };
-        count += 1;
-        let accent = if missing.1 == 0.0 {
-            Accent::Arrow
-        } else {
-            Accent::None
-        };
-        let symbol = Symbol::new("X", accent, &count.to_string());
-        add(symbol, what, whose, at, missing, theme.failure);
-    }
+    forces.extend(source.robots());
+    forces.extend(source.missing());
     forces
 }
 
-/// Returns the missing force of a failure on a block: its origin, its kind, its point of action, and force (N) and
-/// torque (N·m). Returns `None` if it does not act on this block.
-fn missing(
-    analysis: &Analysis,
-    failure: &Failure,
+/// Collects the forces on a block, one method for each kind of force.
+struct ForceSource<'a> {
+    analysis: &'a Analysis,
+    found: &'a FrameAnalysis,
     block: BlockId,
-) -> Option<(String, &'static str, Point, (Vector, f64))> {
-    let scene = &analysis.scene;
-    let own = BodyId::Block(block);
-    let action = failure.on(own)?;
-    let what = match failure {
-        Failure::Tension { .. } => "Missing pull",
-        Failure::Friction { .. } => "Missing friction",
-        Failure::RobotForce { .. } => "Missing force",
-        Failure::RobotTorque { .. } => "Missing torque",
-    };
-    let whose = match *failure {
-        Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
-            let other = bodies.into_iter().find(|body| *body != own)?;
-            named(analysis, other)
-        }
-        _ => format!("robot {}", scene.robots[failure.robot()?.0].id),
-    };
-    Some((format!("missing, {whose}"), what, failure.at(), action))
+    /// The contacts of the block.
+    contacts: &'a [&'a Contact],
+    options: &'a Options,
 }
 
-/// Returns the name of a body for the list.
-fn named(analysis: &Analysis, body: BodyId) -> String {
-    match body {
-        BodyId::Ground(_) => "ground".to_owned(),
-        BodyId::Block(_) => analysis.scene.name(body).to_owned(),
+impl ForceSource<'_> {
+    /// Returns the weight of the block, if it has one.
+    fn weight(&self) -> Option<Force> {
+        let scene = &self.analysis.scene;
+        let block = &scene.blocks[self.block.0];
+        (block.weight > 0.0).then(|| Force {
+            symbol: weight(),
+            what: "Weight",
+            from: "weight".to_owned(),
+            at: block.centroid,
+            force: scene.down() * block.weight,
+            torque: 0.0,
+            colour: self.options.theme.ink,
+        })
+    }
+
+    /// Returns the loads on the block. A load with a force and a torque has an entry for each.
+    fn loads(&self) -> Vec<Force> {
+        let loads = self.analysis.scene.loads.iter();
+        let loads = loads.filter(|load| load.block == self.block);
+        let mut forces = Vec::new();
+        for (number, load) in loads.enumerate() {
+            let below = (number + 1).to_string();
+            let push = Force {
+                symbol: Symbol::new("Q", Accent::Arrow, &below),
+                what: "Load",
+                from: "load".to_owned(),
+                at: load.at,
+                force: load.force,
+                torque: 0.0,
+                colour: self.options.theme.load,
+            };
+            let turn = Force {
+                symbol: Symbol::new("M", Accent::None, &format!("Q{below}")),
+                what: "Torque of a load",
+                force: Vector::zeros(),
+                torque: load.torque,
+                ..push.clone()
+            };
+            forces.extend((load.force.norm() > 0.0).then_some(push));
+            forces.extend((load.torque != 0.0).then_some(turn));
+        }
+        forces
+    }
+
+    /// Returns the forces of an interface in the level of detail of the figure. `number` counts interfaces from 1.
+    fn interface(&self, number: usize, contact: &Contact) -> Vec<Force> {
+        match detail(self.contacts.len(), self.options) {
+            Detail::Parts => self.normal_and_friction(contact),
+            Detail::Corners => self.corner_forces(number, contact),
+            Detail::Resultants => vec![self.resultant(number, contact)],
+        }
+    }
+
+    /// Returns the normal and the friction forces at both ends of an interface. Friction has two names, one for each
+    /// direction. With [`Corners::All`] both are in the list, the one that does not act with magnitude 0.
+    fn normal_and_friction(&self, contact: &Contact) -> Vec<Force> {
+        let normal = inward(contact, self.block);
+        let left = quarter_turn(normal);
+        let pushes = self.contacts.iter().flat_map(|c| c.normal_forces);
+        let weight = self.analysis.scene.blocks[self.block.0].weight;
+        let noise = FORCE_TOL * pushes.fold(weight, f64::max);
+        let mut forces = Vec::new();
+        for (number, corner) in self.ends(contact) {
+            let named = |kind: &str| Symbol::new("F", Accent::Arrow, &format!("{kind}{number}"));
+            let push = normal * corner.normal;
+            forces.push(self.of_contact(contact, "Normal force", named("s"), (corner.at, push)));
+            let side = if corner.friction >= 0.0 { "fl" } else { "fr" };
+            for kind in ["fl", "fr"] {
+                let acts = kind == side && corner.friction.abs() > noise;
+                if self.options.corners == Corners::Few && !acts {
+                    continue;
+                }
+                let amount = if acts { corner.friction } else { 0.0 };
+                let rub = (corner.at, left * amount);
+                forces.push(self.of_contact(contact, "Friction force", named(kind), rub));
+            }
+        }
+        forces
+    }
+
+    /// Returns the force at each end of an interface, which is the sum of its normal and its friction force.
+    fn corner_forces(&self, number: usize, contact: &Contact) -> Vec<Force> {
+        let (letter, accent) = match self.options.corners {
+            Corners::All => ("x", Accent::None),
+            Corners::Few => ("F", Accent::Arrow),
+        };
+        let force = |(end, corner): (usize, Corner)| {
+            let symbol = Symbol::new(letter, accent, &end.to_string());
+            let symbol = symbol.raised(&format!("({number})"));
+            let sum = corner.on_block(inward(contact, self.block));
+            self.of_contact(contact, "Force", symbol, (corner.at, sum))
+        };
+        self.ends(contact).map(force).collect()
+    }
+
+    /// Returns the sum of the forces of an interface, at its resultant.
+    fn resultant(&self, number: usize, contact: &Contact) -> Force {
+        let ends = corners(contact, self.block);
+        let normal = inward(contact, self.block);
+        let sum: Vector = ends.iter().map(|corner| corner.on_block(normal)).sum();
+        let symbol = Symbol::new("F", Accent::Arrow, &number.to_string());
+        self.of_contact(contact, "Force", symbol, (contact.resultant.at, sum))
+    }
+
+    /// Returns the distinct ends of an interface with the forces on the block, numbered from 1.
+    fn ends(&self, contact: &Contact) -> impl Iterator<Item = (usize, Corner)> {
+        let count = distinct(contact).len();
+        (1..).zip(corners(contact, self.block)).take(count)
+    }
+
+    /// Makes the entry of a force (N) of an interface that acts at a point.
+    fn of_contact(
+        &self,
+        contact: &Contact,
+        what: &'static str,
+        symbol: Symbol,
+        (at, force): (Point, Vector),
+    ) -> Force {
+        Force {
+            symbol,
+            what,
+            from: self.named(other(contact, self.block)),
+            at,
+            force,
+            torque: 0.0,
+            colour: self.options.theme.ink,
+        }
+    }
+
+    /// Returns the force of each robot that holds the block, and its torque if the robot can turn the block.
+    fn robots(&self) -> Vec<Force> {
+        let (scene, theme) = (&self.analysis.scene, &self.options.theme);
+        let mut forces = Vec::new();
+        for held in self.found.robots.iter().filter(|r| r.block == self.block) {
+            let robot = &scene.robots[held.robot.0];
+            let push = Force {
+                symbol: Symbol::new("F", Accent::Arrow, "").raised(&robot.id),
+                what: "Force",
+                from: format!("robot {}", robot.id),
+                at: held.at,
+                force: held.force,
+                torque: 0.0,
+                colour: theme.robot(held.robot.0).mixed(theme.ink, 0.25),
+            };
+            let turn = Force {
+                symbol: Symbol::new("M", Accent::None, "").raised(&robot.id),
+                what: "Torque",
+                force: Vector::zeros(),
+                torque: held.torque,
+                ..push.clone()
+            };
+            forces.push(push);
+            forces.extend((robot.limits.torque > 0.0).then_some(turn));
+        }
+        forces
+    }
+
+    /// Returns the missing forces on the block, numbered from 1.
+    fn missing(&self) -> Vec<Force> {
+        let failures = self.found.failures.iter();
+        let missing = failures.filter_map(|failure| self.missing_force(failure));
+        let numbered = missing.enumerate().map(|(number, force)| {
+            let accent = if force.torque == 0.0 {
+                Accent::Arrow
+            } else {
+                Accent::None
+            };
+            Force {
+                symbol: Symbol::new("X", accent, &(number + 1).to_string()),
+                ..force
+            }
+        });
+        numbered.collect()
+    }
+
+    /// Returns the missing force of a failure, without a number; `None` if it does not act on the block.
+    fn missing_force(&self, failure: &Failure) -> Option<Force> {
+        let own = BodyId::Block(self.block);
+        let (force, torque) = failure.on(own)?;
+        let what = match failure {
+            Failure::Tension { .. } => "Missing pull",
+            Failure::Friction { .. } => "Missing friction",
+            Failure::RobotForce { .. } => "Missing force",
+            Failure::RobotTorque { .. } => "Missing torque",
+        };
+        let from = match *failure {
+            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
+                self.named(bodies.into_iter().find(|body| *body != own)?)
+            }
+            _ => format!(
+                "robot {}",
+                self.analysis.scene.robots[failure.robot()?.0].id
+            ),
+        };
+        Some(Force {
+            symbol: Symbol::new("X", Accent::None, ""),
+            what,
+            from: format!("missing, {from}"),
+            at: failure.at(),
+            force,
+            torque,
+            colour: self.options.theme.failure,
+        })
+    }
+
+    /// Returns the name of a body for the list.
+    fn named(&self, body: BodyId) -> String {
+        match body {
+            BodyId::Ground(_) => "ground".to_owned(),
+            BodyId::Block(_) => self.analysis.scene.name(body).to_owned(),
+        }
     }
 }
 

@@ -1,12 +1,121 @@
-//! Signs of the legend for weights, loads and forces that are too small for an arrow. Each is drawn from the middle of
-//! its left end.
+//! Signs of the legend. Each is drawn from the middle of its left end, `at`.
 
 use crate::drawing::arrow::straight;
-use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{
+    Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
 pub(super) const SAMPLE: f64 = 26.0;
+/// Distance of the centre of a disc from the left end of its sign, pixels.
+pub(super) const SIGN_GAP: f64 = 9.0;
+/// Length of a line in the legend, pixels.
+pub(super) const LINE_LENGTH: f64 = 26.0;
+/// Length of a bar of colours, pixels.
+pub(super) const BAR_LENGTH: f64 = 120.0;
+/// The text before the arrows of blocks.
+pub(super) const ON_BLOCK: &str = "force on block";
+/// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
+const COLOUR_ARROW: (f64, f64) = (22.0, 2.6);
+
+/// Returns a text of the legend. `at` is its left end, at half the height of the line.
+pub(super) fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
+    let size = theme.sizes.key;
+    let at = at.moved(0.0, 0.36 * size);
+    Text::new(at, words, Face::Sans, size, theme.faint).into()
+}
+
+/// Draws an arrow to the right. `size` is its length and the width of its shaft, pixels.
+pub(super) fn arrow(at: PagePoint, size: (f64, f64), colour: Colour) -> Item {
+    Path::filled(straight(at, (size.0, 0.0), size.1), colour).into()
+}
+
+/// Draws arrows in the colours of blocks, each followed by the name of its block.
+pub(super) fn blocks(blocks: &[(Colour, String)], at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
+    let mut items = vec![written(ON_BLOCK, at, theme)];
+    let mut x = wide(ON_BLOCK);
+    for (colour, id) in blocks {
+        x += 8.0;
+        items.push(arrow(at.moved(x, 0.0), COLOUR_ARROW, *colour));
+        x += COLOUR_ARROW.0 + 5.0;
+        items.push(written(id, at.moved(x, 0.0), theme));
+        x += wide(id);
+    }
+    items
+}
+
+/// Draws arrows in all colours of blocks.
+pub(super) fn colours(colours: &[Colour], at: PagePoint) -> Vec<Item> {
+    let colours = colours.iter().enumerate();
+    let arrows =
+        colours.map(|(i, colour)| arrow(at.moved(30.0 * i as f64, 0.0), COLOUR_ARROW, *colour));
+    arrows.collect()
+}
+
+/// Draws the disc of a robot.
+pub(super) fn robot(colour: Colour, at: PagePoint, theme: &Theme) -> Item {
+    let disc = Outline::circle(at.moved(SIGN_GAP, 0.0), 0.8 * SIGN_GAP);
+    let edge = Stroke::new(colour.mixed(theme.ink, 0.35), 0.8);
+    Path::filled(disc, colour).with_stroke(edge).into()
+}
+
+/// Draws the outline of a planned block, a hexagon.
+pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
+    let hexagon = [
+        (-1.0, 0.0),
+        (-0.5, -0.87),
+        (0.5, -0.87),
+        (1.0, 0.0),
+        (0.5, 0.87),
+        (-0.5, 0.87),
+    ];
+    let corner = |(x, y): (f64, f64)| at.moved(SIGN_GAP + 0.85 * SIGN_GAP * x, 0.85 * SIGN_GAP * y);
+    let outline = Outline::ring(hexagon.map(corner));
+    Path::stroked(outline, Stroke::new(colour, 1.8)).into()
+}
+
+/// Draws a bar of amplitude colours between the labels of its ends. `ramp` is the colour of a share (0 to 1).
+pub(super) fn amplitudes(
+    [low, high]: &[String; 2],
+    ramp: fn(&Theme, f64) -> Colour,
+    at: PagePoint,
+    theme: &Theme,
+) -> Vec<Item> {
+    let start = text::width(low, Face::Sans, theme.sizes.key) + 7.0;
+    let mut items = vec![written(low, at, theme)];
+    let parts = 64;
+    for part in 0..parts {
+        // Each part reaches to the end of the bar, and the next part covers it, so that there are no gaps.
+        let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
+        let rect = PageRect {
+            at: at.moved(start + x, -5.0),
+            width: BAR_LENGTH - x,
+            height: 10.0,
+        };
+        let fill = ramp(theme, (f64::from(part) + 0.5) / f64::from(parts));
+        items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
+    }
+    let end = at.moved(start + BAR_LENGTH + 7.0, 0.0);
+    items.push(written(high, end, theme));
+    items
+}
+
+/// Draws a short line of this width in pixels.
+pub(super) fn line(colour: Colour, width: f64, at: PagePoint) -> Item {
+    let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
+    Path::stroked(line, Stroke::new(colour, width).mitred()).into()
+}
+
+/// Draws a scale bar of this length in pixels.
+pub(super) fn metres(length: f64, at: PagePoint, theme: &Theme) -> Item {
+    let mut bar = Outline::line([at, at.moved(length, 0.0)]);
+    for x in [0.0, length] {
+        bar.extend(Outline::line([at.moved(x, -4.0), at.moved(x, 4.0)]));
+    }
+    Path::stroked(bar, Stroke::new(theme.faint, 1.4)).into()
+}
 
 pub(super) fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let (colour, from) = (theme.arrow(1), at.moved(4.0, 0.0));

@@ -1,0 +1,246 @@
+//! Returns the entries of the legend for what occurs in a figure.
+
+use super::super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks, TurnKind};
+use super::super::context::FigureContext;
+use super::super::description;
+use super::super::limit;
+use super::super::option::{ArrowScale, Options};
+use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
+use super::super::words::{counted, quantity, round_below};
+use super::entry::Entry;
+use super::sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
+use crate::drawing::Colour;
+use crate::drawing::arrow::HEAD_LENGTH;
+
+/// Largest number of robots in the legend; the others are counted.
+const MAX_LISTED_ROBOTS: usize = 16;
+/// The arrow of a torque has a least length, so that its direction is visible.
+const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
+/// With more blocks the legend shows the colours only.
+const MAX_NAMED_BLOCKS: usize = 6;
+/// With a longer name, characters, the legend shows the colours only.
+const MAX_NAME_LENGTH: usize = 12;
+
+/// Returns the entries for everything that occurs in a figure of forces. `unit` is the unit edge in pixels.
+pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+    let options = context.options;
+    let mut entries = Vec::new();
+    if options.scale == ArrowScale::Strip {
+        entries.extend(shared_scale(context, unit));
+    }
+    let drawn = DrawnArrows::new(context, unit);
+    entries.extend(block_colours(context, &drawn));
+    // In small figures weights have no ring at their tails, so there is nothing to explain.
+    if !options.printed()
+        && unit >= MIN_READABLE_UNIT_EDGE
+        && drawn.any(|kind| kind == ArrowKind::Weight)
+    {
+        let words = "weight, from the centroid".to_owned();
+        entries.push(Entry::Sign(weight_sign, SAMPLE, words));
+    }
+    if !options.printed() && !drawn.too_small {
+        entries.extend(limits(context));
+    }
+    entries.extend(loads(context));
+    entries.extend(robots(context));
+    entries.extend(missing(context, &drawn));
+    if drawn.any_dot(|kind| kind == ArrowKind::Load) {
+        let words = "load too small for an arrow".to_owned();
+        entries.push(Entry::Sign(load_dot, 2.0 * DOT_RADIUS, words));
+    }
+    if drawn.any_dot(ArrowKind::is_failure) {
+        let words = "missing force too small for an arrow".to_owned();
+        entries.push(Entry::Sign(missing_dot, 2.0 * DOT_RADIUS, words));
+    }
+    let mut blocks = context.analysis.scene.blocks.iter();
+    if blocks.any(|b| b.body.fill.is_none()) && context.fills.vary() {
+        let (ends, what) = context.fills.key();
+        entries.push(Entry::Amplitudes(ends, what, context.fills.ramp()));
+    }
+    entries
+}
+
+/// Which arrows of a figure are large enough to be visible.
+struct DrawnArrows<'a> {
+    context: &'a FigureContext<'a>,
+    /// Pixels per metre.
+    scale: f64,
+    /// Whether arrows in general are too small, so that colours show the forces instead.
+    too_small: bool,
+}
+
+impl<'a> DrawnArrows<'a> {
+    fn new(context: &'a FigureContext<'a>, unit: f64) -> DrawnArrows<'a> {
+        let scale = unit / context.unit;
+        DrawnArrows {
+            context,
+            scale,
+            too_small: context.arrows_too_small(scale),
+        }
+    }
+
+    fn arrows(&self) -> impl Iterator<Item = &'a ForceArrow> {
+        self.context.marks.iter().flat_map(|m| &m.arrows)
+    }
+
+    fn is_seen(&self, arrow: &ForceArrow) -> bool {
+        arrow.reach().norm() * self.scale >= LEAST_SEEN
+    }
+
+    /// True if an arrow of this kind has to be explained. If arrows are too small in general, none has to be.
+    fn any(&self, kind: fn(ArrowKind) -> bool) -> bool {
+        !self.too_small && self.arrows().any(|a| kind(a.kind) && self.is_seen(a))
+    }
+
+    /// True if an arrow of this kind is drawn as a dot.
+    fn any_dot(&self, kind: fn(ArrowKind) -> bool) -> bool {
+        self.arrows()
+            .any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
+    }
+}
+
+/// Returns the colours of the forces on blocks, with the names of the blocks if they are few and short, and each colour
+/// belongs to one block.
+fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
+    let (scene, theme) = (&context.analysis.scene, &context.options.theme);
+    let mut seen: Vec<(Colour, String)> = Vec::new();
+    let mut clash = false;
+    let placed = scene.frames.iter().map(|frame| &frame.placed);
+    for (place, id) in placed.flat_map(|placed| placed.iter().enumerate()) {
+        let entry = (theme.arrow(place + 1), scene.blocks[id.0].id.clone());
+        if !seen.contains(&entry) {
+            clash |= seen.iter().any(|s| s.0 == entry.0 || s.1 == entry.1);
+            seen.push(entry);
+        }
+    }
+    let short = |name: &str| name.chars().count() <= MAX_NAME_LENGTH;
+    let short = seen.iter().all(|s| short(&s.1));
+    if !clash && short && !seen.is_empty() && seen.len() <= MAX_NAMED_BLOCKS {
+        Some(Entry::Blocks(seen))
+    } else if seen.len() > 1 && drawn.any(|kind| !kind.is_failure()) {
+        Some(Entry::Colours(theme.arrows.clone()))
+    } else {
+        None
+    }
+}
+
+/// Returns the sign of missing forces and torques; `None` if no frame shows any.
+fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
+    let mut forces = drawn.arrows();
+    let mut turns = context.marks.iter().flat_map(|m| &m.turns);
+    let any = forces.any(|a| a.kind.is_failure() && drawn.is_seen(a))
+        || turns.any(|t| matches!(t.kind, TurnKind::Missing(_)));
+    any.then_some(Entry::Missing)
+}
+
+/// Returns an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit` pixels) long, and
+/// the largest force is `largest` N. Returns `None` if there is no force.
+pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) -> Option<Entry> {
+    let largest = if options.printed() { newtons } else { largest };
+    let amount = round_below(largest);
+    let width = options.theme.widths.force * unit;
+    // The arrow of the scale has the same form as the other arrows.
+    let beyond = if options.printed() {
+        HEAD_LENGTH * width
+    } else {
+        0.0
+    };
+    (amount > 0.0).then(|| {
+        let length = amount / newtons * unit + beyond;
+        Entry::Scale(length, width, quantity(amount, "N"))
+    })
+}
+
+/// Returns the common scale of the arrows of all panels; `None` if there are no forces. `unit` is the unit edge in
+/// pixels.
+pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
+    let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
+    let newtons = most(|m| m.newtons_per_unit);
+    scale(newtons, most(Marks::largest), unit, context.options)
+}
+
+/// Returns a scale bar of a round number of metres. It is at most a quarter of `content` pixels long; `scale` is in
+/// pixels per metre.
+pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
+    let metres = round_below(0.25 * content / scale);
+    (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, "m")))
+}
+
+/// Returns the sign of joints at their limit; `None` if no frame has such a joint.
+pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
+    let scene = &context.analysis.scene;
+    let mut frames = context.analysis.frames.iter();
+    let any = frames.any(|found| !limit::reached(scene, found).is_empty());
+    any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
+}
+
+/// Returns the sign of loads with their magnitudes; `None` if no frame shows a load.
+pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
+    let scene = &context.analysis.scene;
+    let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
+    let loads = scene.loads.iter().filter(|l| placed(l.block));
+    let turns = loads.clone().any(|l| l.torque != 0.0);
+    let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
+    let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = amounts.iter().copied().fold(0.0, f64::max);
+    let (least, most) = (quantity(least, "N"), quantity(most, "N"));
+    let words = match amounts.len() {
+        0 if turns => return Some(Entry::Note(TURNING.into())),
+        0 => return None,
+        1 => format!("load of {most}"),
+        n if least == most => format!("{n} loads of {most} each"),
+        n => format!("{n} loads of {least} to {most}"),
+    };
+    let words = match own_scale(context) {
+        true => format!("{words}, drawn larger than other forces"),
+        false => words,
+    };
+    let words = if turns {
+        format!("{words}; {TURNING}")
+    } else {
+        words
+    };
+    Some(Entry::Sign(load_sign, SAMPLE, words))
+}
+
+/// True if the arrows of loads have a larger scale than other forces in any frame.
+fn own_scale(context: &FigureContext<'_>) -> bool {
+    let longer = |marks: &Marks, arrow: &ForceArrow| {
+        let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
+        arrow.kind == ArrowKind::Load && arrow.vector.norm() > 1.01 * usual
+    };
+    let mut frames = context.marks.iter();
+    frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
+}
+
+/// Returns the robots that hold or plan a block in any frame, and the sign of a planned block.
+pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
+    let (scene, theme) = (&context.analysis.scene, &context.options.theme);
+    let mut entries = Vec::new();
+    let holds = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.holds.iter().any(|h| h.robot.0 == number))
+    };
+    let plans = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
+    };
+    let busy = |number: &usize| holds(*number) || plans(*number);
+    let busy: Vec<usize> = (0..scene.robots.len()).filter(busy).collect();
+    for number in busy.iter().take(MAX_LISTED_ROBOTS) {
+        let id = scene.robots[*number].id.clone();
+        entries.push(Entry::Robot(theme.robot(*number), id));
+    }
+    if busy.len() > MAX_LISTED_ROBOTS {
+        let left = busy.len() - MAX_LISTED_ROBOTS;
+        entries.push(Entry::Note(format!("and {}", counted(left, "more robot"))));
+    }
+    if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
+        entries.push(Entry::Planned(theme.robot(number)));
+    }
+    entries
+}

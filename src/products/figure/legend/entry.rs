@@ -1,0 +1,155 @@
+//! [`Entry`]: an entry of the legend, with its sign and its text.
+
+use super::sign::{self, BAR_LENGTH, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
+use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
+
+const COLOURS: &str = "the forces on a block share a colour";
+const PLANNED: &str = "planned block";
+const MISSING: &str = "missing force, without which it falls";
+
+/// An entry of the legend.
+pub(crate) enum Entry {
+    /// Arrow colours, each with the name of its block.
+    Blocks(Vec<(Colour, String)>),
+    /// The arrow colours alone, if there are too many blocks to list.
+    Colours(Vec<Colour>),
+    /// The disc of a robot: its colour and its name.
+    Robot(Colour, String),
+    /// The outline of a planned block.
+    Planned(Colour),
+    /// Missing forces.
+    Missing,
+    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, and the colour of a share.
+    Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour),
+    /// The scale of arrows: the length of an arrow from tail to tip and the width of its shaft in pixels, and its
+    /// force.
+    Scale(f64, f64, String),
+    /// A line: its colour, its width in pixels, and its meaning.
+    Line(Colour, f64, String),
+    /// A scale bar: its length in pixels, and the length that it shows.
+    Metres(f64, String),
+    /// A note, such as on labels that are left out.
+    Note(String),
+    /// A sign: the function that draws it from the middle of its left end, its width in pixels, and its meaning.
+    Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
+}
+
+impl Entry {
+    /// Returns the entry for a width of `room` pixels. Arrow colours lose the names of their blocks if these do not
+    /// fit.
+    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
+        match self {
+            Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
+            entry => entry,
+        }
+    }
+
+    /// True if another entry has the same meaning.
+    pub(super) fn same(&self, other: &Entry) -> bool {
+        match (self, other) {
+            (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
+            (Entry::Colours(_), Entry::Colours(_))
+            | (Entry::Planned(_), Entry::Planned(_))
+            | (Entry::Missing, Entry::Missing) => true,
+            (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
+            (Entry::Amplitudes(a, what, _), Entry::Amplitudes(b, other, _)) => {
+                (a, what) == (b, other)
+            }
+            (Entry::Line(_, a, what), Entry::Line(_, b, other)) => (a, what) == (b, other),
+            (Entry::Scale(a, _, what), Entry::Scale(b, _, other)) => (a, what) == (b, other),
+            (Entry::Metres(a, what), Entry::Metres(b, other)) => (a, what) == (b, other),
+            (Entry::Note(a), Entry::Note(b)) | (Entry::Sign(_, _, a), Entry::Sign(_, _, b)) => {
+                a == b
+            }
+            _ => false,
+        }
+    }
+
+    /// Returns the width of the sign to the left of the text, including the gap between them, pixels.
+    pub(super) fn sign_width(&self, theme: &Theme) -> f64 {
+        let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
+        match self {
+            Entry::Blocks(blocks) => blocks
+                .iter()
+                .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
+                .fold(wide(ON_BLOCK), |sum, block| sum + block),
+            Entry::Colours(colours) => 30.0 * colours.len() as f64,
+            Entry::Robot(..) | Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0,
+            Entry::Missing => 34.0 + 7.0,
+            Entry::Amplitudes([low, high], ..) => {
+                wide(low) + 7.0 + BAR_LENGTH + 7.0 + wide(high) + 8.0
+            }
+            Entry::Scale(length, ..) | Entry::Metres(length, _) => length + 7.0,
+            Entry::Line(..) => LINE_LENGTH + 7.0,
+            Entry::Note(_) => 0.0,
+            Entry::Sign(_, width, _) => width + 7.0,
+        }
+    }
+
+    /// Returns the text to the right of the sign.
+    pub(super) fn words(&self) -> String {
+        match self {
+            Entry::Blocks(_) => String::new(),
+            Entry::Colours(_) => COLOURS.to_owned(),
+            Entry::Robot(_, id) => robot(id),
+            Entry::Planned(_) => PLANNED.to_owned(),
+            Entry::Missing => MISSING.to_owned(),
+            Entry::Amplitudes(_, words, _)
+            | Entry::Scale(_, _, words)
+            | Entry::Line(_, _, words)
+            | Entry::Metres(_, words)
+            | Entry::Note(words)
+            | Entry::Sign(_, _, words) => words.clone(),
+        }
+    }
+
+    /// Returns the width of the entry in one line, pixels.
+    pub(super) fn width(&self, theme: &Theme) -> f64 {
+        let words = text::width(&self.words(), Face::Sans, theme.sizes.key);
+        self.sign_width(theme) + words
+    }
+
+    /// Draws the entry in one line with the middle of its left end at `at`.
+    pub(super) fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let mut items = self.sign(at, theme);
+        let words = self.words();
+        if !words.is_empty() {
+            items.push(written(
+                &words,
+                at.moved(self.sign_width(theme), 0.0),
+                theme,
+            ));
+        }
+        items
+    }
+
+    /// Draws the sign of the entry with the middle of its left end at `at`.
+    pub(super) fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        match self {
+            Entry::Blocks(blocks) => sign::blocks(blocks, at, theme),
+            Entry::Colours(colours) => sign::colours(colours, at),
+            Entry::Robot(colour, _) => vec![sign::robot(*colour, at, theme)],
+            Entry::Planned(colour) => vec![sign::planned(*colour, at)],
+            Entry::Missing => vec![sign::arrow(at, (34.0, 4.0), theme.failure)],
+            Entry::Amplitudes(ends, _, ramp) => sign::amplitudes(ends, *ramp, at, theme),
+            Entry::Line(colour, width, _) => vec![sign::line(*colour, *width, at)],
+            Entry::Metres(length, _) => vec![sign::metres(*length, at, theme)],
+            Entry::Note(_) => Vec::new(),
+            Entry::Sign(sign, ..) => sign(at, theme),
+            Entry::Scale(length, width, _) => {
+                vec![sign::arrow(at, (*length, *width), theme.faint)]
+            }
+        }
+    }
+}
+
+/// Returns the name of a robot in the legend: `robot` and its name, or only its name if that begins with `robot`.
+fn robot(id: &str) -> String {
+    match id
+        .get(..5)
+        .is_some_and(|start| start.eq_ignore_ascii_case("robot"))
+    {
+        true => id.to_owned(),
+        false => format!("robot {id}"),
+    }
+}

@@ -1,0 +1,122 @@
+//! [`draw`]: arranges the entries of a legend in lines, and draws them.
+
+use super::entry::Entry;
+use super::sign::written;
+use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
+
+/// Distance of the lines of an entry that needs several lines, as a multiple of the font size.
+const WRAPPED_LINE: f64 = 1.25;
+/// Smallest width of the text of an entry, pixels.
+const MIN_WORDS_WIDTH: f64 = 60.0;
+/// Gap between the entries of a line, pixels.
+const ENTRY_GAP: f64 = 28.0;
+
+/// Replaces the space after each number by a non-breaking space, so that the number and the next word stay on one line.
+fn glued(words: &str) -> String {
+    let mut glued = String::with_capacity(words.len());
+    let mut after_digit = false;
+    for character in words.chars() {
+        let joins = after_digit && character == ' ';
+        glued.push(if joins { text::NO_BREAK } else { character });
+        after_digit = character.is_ascii_digit();
+    }
+    glued
+}
+
+/// An entry with its text broken into lines.
+struct Laid<'e> {
+    entry: &'e Entry,
+    lines: Vec<String>,
+    width: f64,
+}
+
+impl<'e> Laid<'e> {
+    /// Breaks the text of an entry so that the entry fits into `room` pixels.
+    fn new(entry: &'e Entry, room: f64, theme: &Theme) -> Laid<'e> {
+        let (words, size) = (entry.words(), theme.sizes.key);
+        let sign = entry.sign_width(theme);
+        let left = (room - sign).max(MIN_WORDS_WIDTH);
+        let lines = text::balanced(&glued(&words), Face::Sans, size, left, usize::MAX);
+        let lines: Vec<String> = lines
+            .iter()
+            .map(|l| l.replace(text::NO_BREAK, " "))
+            .collect();
+        let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
+        let width = sign + widths.fold(0.0, f64::max);
+        Laid {
+            entry,
+            lines,
+            width,
+        }
+    }
+
+    /// Returns the additional height compared with an entry of one line, pixels.
+    fn extra_height(&self, theme: &Theme) -> f64 {
+        self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
+    }
+
+    /// Draws the entry with the middle of its left end at `at`.
+    fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let mut items = self.entry.sign(at, theme);
+        let first = at.moved(
+            self.entry.sign_width(theme),
+            -0.5 * self.extra_height(theme),
+        );
+        for (number, line) in self.lines.iter().enumerate() {
+            let down = number as f64 * WRAPPED_LINE * theme.sizes.key;
+            items.push(written(line, first.moved(0.0, down), theme));
+        }
+        items
+    }
+}
+
+/// A line of the legend: entries next to each other.
+#[derive(Default)]
+struct KeyLine<'e> {
+    entries: Vec<Laid<'e>>,
+    width: f64,
+}
+
+/// Puts each entry into the first line of at most `room` pixels that has space for it.
+fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
+    let mut lines: Vec<KeyLine<'e>> = Vec::new();
+    for entry in entries {
+        let laid = Laid::new(entry, room, theme);
+        let fits = |line: &&mut KeyLine<'e>| line.width + ENTRY_GAP + laid.width <= room;
+        match lines.iter_mut().find(fits) {
+            Some(line) => {
+                line.width += ENTRY_GAP + laid.width;
+                line.entries.push(laid);
+            }
+            None => lines.push(KeyLine {
+                width: laid.width,
+                entries: vec![laid],
+            }),
+        }
+    }
+    lines
+}
+
+/// Draws the legend in lines of at most `room` pixels, centred about `middle`, downwards from `top`. Also returns its
+/// height in pixels. `line` is the height of a line as a multiple of the font size.
+pub(crate) fn draw(
+    entries: &[Entry],
+    (middle, top): (f64, f64),
+    room: f64,
+    line: f64,
+    theme: &Theme,
+) -> (Group, f64) {
+    let mut group = Group::with_class("key");
+    let mut height = 0.0;
+    for key_line in lines(entries, room, theme) {
+        let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
+        let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
+        let mut at = PagePoint::new(middle - key_line.width / 2.0, top + height + high / 2.0);
+        for entry in &key_line.entries {
+            group.items.extend(entry.draw(at, theme));
+            at = at.moved(entry.width + ENTRY_GAP, 0.0);
+        }
+        height += high;
+    }
+    (group, height)
+}

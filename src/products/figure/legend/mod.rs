@@ -1,0 +1,45 @@
+//! The legend: explains the colours and signs of a figure. It only lists those that occur.
+
+mod content;
+mod entry;
+mod lines;
+mod sign;
+
+pub(crate) use content::{entries, limits, loads, metres, robots, scale, shared_scale};
+pub(crate) use entry::Entry;
+pub(crate) use lines::draw;
+
+use crate::drawing::{Item, PagePoint, Theme};
+
+/// Height of a line of the legend, as a multiple of its font size.
+pub(crate) const LINE: f64 = 2.08;
+/// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
+pub(crate) const NARROW_LINE: f64 = 1.7;
+
+/// Joins the entries of several legends, each entry once. If their arrow colours name different blocks, only the
+/// colours remain.
+pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
+    let mut all: Vec<Entry> = Vec::new();
+    for entry in keys.into_iter().flatten() {
+        if all.iter().any(|known| known.same(&entry)) {
+            continue;
+        }
+        let blocks = |e: &Entry| matches!(e, Entry::Blocks(_) | Entry::Colours(_));
+        match all.iter_mut().find(|known| blocks(known) && blocks(&entry)) {
+            Some(known) => *known = Entry::Colours(theme.arrows.clone()),
+            None => all.push(entry),
+        }
+    }
+    all
+}
+
+/// Draws one entry with the middle of its left end at `at`.
+pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> Vec<Item> {
+    entry.draw(at, theme)
+}
+
+/// Returns the width of the widest entry, pixels.
+pub(crate) fn widest(entries: &[Entry], theme: &Theme) -> f64 {
+    let widths = entries.iter().map(|entry| entry.width(theme));
+    widths.fold(0.0, f64::max)
+}

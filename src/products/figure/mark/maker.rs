@@ -1,0 +1,194 @@
+//! [`ArrowMaker`]: makes the arrows of weights, loads, interfaces and robots.
+
+use super::super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
+use super::super::option::{Normalisation, Options};
+use super::part::parts;
+use crate::analysis::{Contact, FrameAnalysis};
+use crate::drawing::Colour;
+use crate::geometry::{Point, Vector};
+use crate::scene::{BodyId, Frame, Scene};
+
+/// Forces below this share of the largest are not drawn, because they may be solver errors. Forces are accurate to
+/// about 1e-9.
+pub(super) const FORCE_TOL: f64 = 1e-6;
+/// In [`Normalisation::Drawn`] arrows shorter than this, unit edges, have a thinner shaft and head.
+const FULL_WIDTH_LENGTH: f64 = 0.35;
+/// Least width of a shaft, as a share of the full width. With the full width, arrows of small forces would only be
+/// heads.
+const MIN_WIDTH_SHARE: f64 = 0.65;
+
+/// Makes the arrows of a frame.
+pub(super) struct ArrowMaker<'a> {
+    pub scene: &'a Scene,
+    pub options: &'a Options,
+    /// The unit edge, metres.
+    pub edge: f64,
+    /// Length of an arrow for each newton, metres.
+    pub metres_per_newton: f64,
+}
+
+impl ArrowMaker<'_> {
+    /// Adds the arrow of a force, unless the force is too small. `look` is its colour, and its width in unit edges.
+    pub(super) fn straight(
+        &self,
+        marks: &mut Marks,
+        kind: ArrowKind,
+        on: BodyId,
+        at: Point,
+        force: Vector,
+        look: (Colour, f64),
+    ) {
+        // Loads are input, so even a very small load is not noise.
+        let least = match kind {
+            ArrowKind::Load => 0.0,
+            _ => FORCE_TOL * marks.newtons_per_unit,
+        };
+        if force.norm() > least {
+            let vector = force * self.metres_per_newton;
+            marks.arrows.push(ForceArrow {
+                on,
+                at,
+                vector,
+                force,
+                colour: look.0,
+                width: self.width(look.1, vector),
+                head: self.head(),
+                kind,
+            });
+        }
+    }
+
+    /// Returns how the head of an arrow lies at its tip.
+    pub(super) fn head(&self) -> Head {
+        if self.options.printed() {
+            Head::Beyond
+        } else {
+            Head::Within
+        }
+    }
+
+    /// Returns the width of an arrow's shaft in metres: `full` unit edges, or less for a short arrow.
+    pub(super) fn width(&self, full: f64, vector: Vector) -> f64 {
+        let share = match self.options.normalisation {
+            Normalisation::Source => 1.0,
+            Normalisation::Drawn => {
+                let length = vector.norm() / self.edge;
+                libm::sqrt(length / FULL_WIDTH_LENGTH).clamp(MIN_WIDTH_SHARE, 1.0)
+            }
+        };
+        full * share * self.edge
+    }
+
+    /// Adds the arrow of a torque, or the two vertical arrows of the thesis at half a unit edge to both sides.
+    pub(super) fn torque(
+        &self,
+        marks: &mut Marks,
+        kind: TurnKind,
+        on: BodyId,
+        at: Point,
+        torque: f64,
+        look: (Colour, f64),
+    ) {
+        if torque.abs() <= FORCE_TOL * marks.newtons_per_unit * self.edge {
+            return;
+        }
+        let source = self.options.printed();
+        let half = match kind {
+            TurnKind::Robot(robot) => Some(ArrowKind::RobotTorque(robot)),
+            TurnKind::Missing(robot) => Some(ArrowKind::MissingTorque(robot)),
+            TurnKind::Load => None,
+        };
+        if let (true, Some(kind)) = (source, half) {
+            for side in [1.0, -1.0] {
+                let force = Vector::new(0.0, side * torque / self.edge);
+                self.straight(
+                    marks,
+                    kind,
+                    on,
+                    at + Vector::new(side * self.edge / 2.0, 0.0),
+                    force,
+                    look,
+                );
+            }
+        } else {
+            let arc = torque / self.edge * self.metres_per_newton;
+            marks.turns.push(TurnArrow {
+                on,
+                at,
+                torque,
+                arc,
+                colour: look.0,
+                width: look.1 * self.edge,
+                kind,
+            });
+        }
+    }
+
+    /// Adds the arrows of weights, loads and forces of interfaces, block by block in placing order.
+    pub(super) fn blocks(&self, frame: &Frame, found: &FrameAnalysis, marks: &mut Marks) {
+        let (scene, theme) = (self.scene, &self.options.theme);
+        let touching = self.contacts_of_blocks(found);
+        for (place, id) in frame.placed.iter().enumerate() {
+            let block = &scene.blocks[id.0];
+            let on = BodyId::Block(*id);
+            let look = (theme.arrow(place + 1), theme.widths.force);
+            let weight = scene.down() * block.weight;
+            self.straight(marks, ArrowKind::Weight, on, block.centroid, weight, look);
+            let load_look = (theme.load, theme.widths.robot);
+            for load in scene.loads.iter().filter(|l| l.block == *id) {
+                self.straight(marks, ArrowKind::Load, on, load.at, load.force, load_look);
+                self.torque(marks, TurnKind::Load, on, load.at, load.torque, load_look);
+            }
+            for contact in &touching[id.0] {
+                let [first, second] = contact.interface.bodies;
+                let (from, sign) = if first == on {
+                    (second, 1.0)
+                } else {
+                    (first, -1.0)
+                };
+                for part in parts(contact, self.options.style) {
+                    let force = part.force * sign;
+                    self.straight(marks, (part.kind)(from), on, part.at, force, look);
+                }
+            }
+        }
+    }
+
+    /// Returns the contacts of each block, by its index.
+    fn contacts_of_blocks<'c>(&self, found: &'c FrameAnalysis) -> Vec<Vec<&'c Contact>> {
+        let mut touching: Vec<Vec<&Contact>> = vec![Vec::new(); self.scene.blocks.len()];
+        for contact in &found.contacts {
+            for body in contact.interface.bodies {
+                if let BodyId::Block(block) = body {
+                    touching[block.0].push(contact);
+                }
+            }
+        }
+        touching
+    }
+
+    /// Adds the arrows of the forces and torques of robots.
+    pub(super) fn robots(&self, found: &FrameAnalysis, marks: &mut Marks) {
+        let theme = &self.options.theme;
+        for robot in &found.robots {
+            let on = BodyId::Block(robot.block);
+            let look = (theme.robot(robot.robot.0), theme.widths.robot);
+            self.straight(
+                marks,
+                ArrowKind::Robot(robot.robot),
+                on,
+                robot.at,
+                robot.force,
+                look,
+            );
+            self.torque(
+                marks,
+                TurnKind::Robot(robot.robot),
+                on,
+                robot.at,
+                robot.torque,
+                look,
+            );
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Makes the arrows of missing forces.
+
+use super::super::apart;
+use super::super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
+use super::super::option::Normalisation;
+use super::maker::{ArrowMaker, FORCE_TOL};
+use crate::analysis::{Failure, FrameAnalysis};
+use crate::drawing::{Colour, Theme};
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Scene};
+
+/// Least length of the arrow of the largest missing force, unit edges. If it is shorter at the scale of the other
+/// forces, missing forces have a scale of their own. The second number is the least length of any of them.
+const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
+/// The thesis draws the missing forces on a block at this share of the scale of that block.
+const SOURCE_FAILURE_SCALE: f64 = 0.4;
+
+/// What determines the length of the arrow of a missing force.
+enum MissingScale {
+    /// The largest missing force of the frame, N.
+    Largest(f64),
+    /// The largest single unknown or weight on each block, by its index, N: the scale of the thesis.
+    OfBlocks(Vec<f64>),
+}
+
+impl ArrowMaker<'_> {
+    /// Adds the arrows of missing forces.
+    pub(super) fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
+        let look = (self.failure_colour(), self.options.theme.widths.failure);
+        let scale = self.missing_scale(found);
+        for failure in &found.failures {
+            let at = failure.at();
+            if let Failure::RobotTorque {
+                robot,
+                block,
+                torque,
+                ..
+            } = *failure
+            {
+                let on = BodyId::Block(block);
+                self.torque(marks, TurnKind::Missing(robot), on, at, torque, look);
+                continue;
+            }
+            for (kind, on, force) in missing_forces(failure) {
+                let BodyId::Block(block) = on else { continue };
+                if force.norm() <= FORCE_TOL * marks.newtons_per_unit {
+                    continue;
+                }
+                let vector = self.missing_vector(&scale, block, force);
+                let width = self.width(look.1, vector);
+                // The figures of the source begin every arrow at its point.
+                let at = match self.options.printed() {
+                    true => at,
+                    false => self.on_own_side(kind, block, at, vector, width),
+                };
+                marks.arrows.push(ForceArrow {
+                    on,
+                    at,
+                    vector,
+                    force,
+                    colour: look.0,
+                    width,
+                    head: self.head(),
+                    kind,
+                });
+            }
+        }
+    }
+
+    /// Returns the colour of missing forces. Figures in the style of the thesis have its red. The red of other figures
+    /// is darker, so that a grey print shows the difference from green.
+    fn failure_colour(&self) -> Colour {
+        let theme = &self.options.theme;
+        if self.options.printed() && *theme == Theme::thesis() {
+            Colour::hex(0xff0000)
+        } else {
+            theme.failure
+        }
+    }
+
+    fn missing_scale(&self, found: &FrameAnalysis) -> MissingScale {
+        match self.options.normalisation {
+            Normalisation::Source => MissingScale::OfBlocks(acting(self.scene, found)),
+            Normalisation::Drawn => {
+                let amounts = found.failures.iter().map(|failure| failure.force().norm());
+                MissingScale::Largest(amounts.fold(0.0, f64::max))
+            }
+        }
+    }
+
+    /// Returns the vector in metres of the arrow of a missing force (N) on a block.
+    fn missing_vector(&self, scale: &MissingScale, block: BlockId, force: Vector) -> Vector {
+        match scale {
+            MissingScale::OfBlocks(acting) if acting[block.0] > 0.0 => {
+                force * (SOURCE_FAILURE_SCALE * self.edge / acting[block.0])
+            }
+            MissingScale::OfBlocks(_) => force * self.metres_per_newton,
+            MissingScale::Largest(largest) => {
+                let (longest, least) = MISSING_LENGTHS;
+                let own = longest * self.edge / largest.max(f64::MIN_POSITIVE);
+                let vector = force * self.metres_per_newton.max(own);
+                let length = vector.norm().max(f64::MIN_POSITIVE);
+                vector * (least * self.edge / length).max(1.0)
+            }
+        }
+    }
+
+    /// Returns the beginning, in metres, at which the arrow of a missing force lies on its own block.
+    ///
+    /// A missing pull moves along its line of action until its head is at the joint: begun there, it would lie on the other
+    /// block and look like a push. Missing friction moves across by half the distance of parallel arrows.
+    fn on_own_side(
+        &self,
+        kind: ArrowKind,
+        block: BlockId,
+        at: Point,
+        vector: Vector,
+        width: f64,
+    ) -> Point {
+        match kind {
+            ArrowKind::MissingPull(_) => {
+                // The heads of the pair stay apart by a little more than the gap between arrows.
+                let length = vector.norm();
+                at - vector * ((length + 0.6 * apart::GAP * width) / length)
+            }
+            ArrowKind::MissingFriction(_) => {
+                let left = quarter_turn(vector) / vector.norm();
+                let across = left * (0.5 * (1.0 + apart::GAP) * width);
+                let polygon = &self.scene.blocks[block.0].body.polygon;
+                match polygon.contains(at + across * 0.1) {
+                    true => at + across,
+                    false => at - across,
+                }
+            }
+            _ => at,
+        }
+    }
+}
+
+/// Returns the missing forces of a failure, in N, each with the body on which it would act.
+fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
+    match *failure {
+        Failure::Tension {
+            bodies: [a, b],
+            force,
+            ..
+        } => vec![
+            (ArrowKind::MissingPull(b), a, force),
+            (ArrowKind::MissingPull(a), b, -force),
+        ],
+        Failure::Friction {
+            bodies: [a, b],
+            force,
+            ..
+        } => vec![
+            (ArrowKind::MissingFriction(b), a, force),
+            (ArrowKind::MissingFriction(a), b, -force),
+        ],
+        Failure::RobotForce {
+            robot,
+            block,
+            force,
+            ..
+        } => vec![(
+            ArrowKind::MissingRobotForce(robot),
+            BodyId::Block(block),
+            force,
+        )],
+        Failure::RobotTorque { .. } => Vec::new(),
+    }
+}
+
+/// Returns the largest single unknown or weight on each block, by its index, in N. The thesis scales missing forces
+/// with it.
+fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
+    let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
+    let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
+    for contact in &found.contacts {
+        for body in contact.interface.bodies {
+            if let BodyId::Block(block) = body {
+                for normal in contact.normal_forces {
+                    note(block, normal);
+                }
+                note(block, contact.friction_force.abs());
+            }
+        }
+    }
+    for robot in &found.robots {
+        for component in [robot.force.x, robot.force.y] {
+            note(robot.block, component.abs());
+        }
+    }
+    most
+}

@@ -1,0 +1,44 @@
+//! [`parts`]: the forces of an interface that have an arrow of their own.
+
+use super::super::arrow::ArrowKind;
+use super::super::option::ForceStyle;
+use crate::analysis::Contact;
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::BodyId;
+
+/// A force of an interface on its first body.
+pub(super) struct Part {
+    /// The kind of its arrow, given the other body.
+    pub kind: fn(BodyId) -> ArrowKind,
+    /// The force, N.
+    pub force: Vector,
+    /// The point where it acts, metres.
+    pub at: Point,
+}
+
+/// Returns the forces of an interface on its first body: one or two, by style.
+pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
+    let at = contact.resultant.at;
+    let part = |kind, force| Part { kind, force, at };
+    match style {
+        ForceStyle::Resultant => {
+            let on_first = contact.resultant.on == contact.interface.bodies[0];
+            let force = contact.resultant.force;
+            vec![part(
+                ArrowKind::Contact,
+                if on_first { force } else { -force },
+            )]
+        }
+        ForceStyle::Components => {
+            let normal = contact.interface.normal;
+            let pressed: f64 = contact.normal_forces.iter().sum();
+            vec![
+                part(ArrowKind::Normal, normal * pressed),
+                part(
+                    ArrowKind::Friction,
+                    quarter_turn(normal) * contact.friction_force,
+                ),
+            ]
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! [`Strip`]: draws a page of panels, one per frame, each with its caption and verdict, and one legend below all
+//! panels. [`PanelContent`] draws the content of a panel.
+//!
+//! This file decides which panels are on which page. `page` draws a page, `panel` a panel, and `words` has their texts.
+
+mod page;
+mod panel;
+mod words;
+
+pub(crate) use page::page;
+
+use super::content::PanelContent;
+use super::context::FigureContext;
+use super::layout::Layout;
+use super::option::Options;
+use crate::analysis::Analysis;
+use crate::drawing::Drawing;
+
+/// Space for names around a panel if names need it: on both sides, and above and below, pixels.
+const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
+
+/// Draws a figure with a panel of this content for each frame.
+pub(crate) fn strip(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+) -> Drawing {
+    let context = FigureContext::new(analysis, options, content);
+    let count = analysis.frames.len();
+    let drawn = |context: &FigureContext<'_>| {
+        let layout = Layout::new(context, count);
+        let strip = Strip {
+            content,
+            context,
+            layout,
+            captions: None,
+            alike: false,
+        };
+        (strip.drawing(), context.cramped.get(), layout.scale)
+    };
+    let (drawing, cramped, scale) = drawn(&context);
+    if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
+        return drawing;
+    }
+    // Some names do not fit into their blocks. Draw the figure again with space around the structure, and keep it if
+    // this helps at least half of these names.
+    let (across, up) = SPACE_FOR_NAMES;
+    let roomy = context.with_room(across / scale, up / scale);
+    let (roomier, still, _) = drawn(&roomy);
+    if 2 * still <= cramped {
+        roomier
+    } else {
+        drawing
+    }
+}
+
+/// Draws the panels of [`strip`] for these frames, each on a page of its own. All pages have the same size and scale,
+/// as an animation needs.
+pub(crate) fn pages(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+    frames: impl Iterator<Item = usize>,
+) -> Vec<Drawing> {
+    let steps = frames.map(|frame| (frame, options.way));
+    steps_of(analysis, content, options, steps)
+}
+
+/// Like [`pages`], for pairs of a frame and the share of their paths (0 to 1) by which its blocks are displaced.
+pub(crate) fn steps_of(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+    steps: impl Iterator<Item = (usize, f64)>,
+) -> Vec<Drawing> {
+    let mut context = FigureContext::new(analysis, options, content);
+    let mut pages: Vec<Drawing> = Vec::new();
+    for (frame, way) in steps {
+        context.go(way);
+        let strip = Strip {
+            content,
+            context: &context,
+            layout: Layout::new(&context, 1),
+            captions: None,
+            alike: true,
+        };
+        pages.push(page(&[&strip], &[(0, frame)], &analysis.scene.title));
+    }
+    let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
+    for page in &mut pages {
+        page.height = highest;
+    }
+    pages
+}
+
+/// Draws the panels of [`strip`] on several pages at one scale. A page has as many rows as fit if it is at most `high`
+/// times as high as wide, but at least one.
+pub(crate) fn split(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+    high: f64,
+) -> Vec<Drawing> {
+    let context = FigureContext::new(analysis, options, content);
+    let count = analysis.frames.len();
+    let layout = Layout::roomy(&context, count);
+    let strip = Strip {
+        content,
+        context: &context,
+        layout,
+        captions: None,
+        alike: false,
+    };
+    let order: Vec<(usize, usize)> = (0..count).map(|frame| (0, frame)).collect();
+    let drawn = |order: &[(usize, usize)]| page(&[&strip], order, &analysis.scene.title);
+    let mut pages = Vec::new();
+    let mut rest = &order[..];
+    while !rest.is_empty() {
+        let mut taken = layout.columns.min(rest.len());
+        let mut page = drawn(&rest[..taken]);
+        while taken < rest.len() {
+            let more = (taken + layout.columns).min(rest.len());
+            let next = drawn(&rest[..more]);
+            if next.height > high * next.width {
+                break;
+            }
+            (taken, page) = (more, next);
+        }
+        pages.push(page);
+        rest = &rest[taken..];
+    }
+    pages
+}
+
+/// A strip of panels of one kind.
+pub(crate) struct Strip<'a> {
+    pub content: &'static dyn PanelContent,
+    pub context: &'a FigureContext<'a>,
+    pub layout: Layout,
+    /// Captions of the frames, instead of their letters and titles.
+    pub captions: Option<&'a [String]>,
+    /// Whether every panel shows the part of the scene that all panels need together, as in an animation.
+    pub alike: bool,
+}
+
+impl Strip<'_> {
+    fn drawing(&self) -> Drawing {
+        let frames = 0..self.context.marks.len();
+        let order: Vec<(usize, usize)> = frames.map(|frame| (0, frame)).collect();
+        page(&[self], &order, &self.context.analysis.scene.title)
+    }
+}

@@ -1,0 +1,210 @@
+//! Draws a panel: its picture with the caption, the verdict and its reason below.
+
+use super::super::dimension;
+use super::super::label;
+use super::super::legend::{self, Entry};
+use super::super::option::ArrowScale;
+use super::super::verdict;
+use super::Strip;
+use crate::drawing::{Anchor, Camera, Face, Group, Item, PagePoint, Text, text};
+use crate::geometry::Bounds;
+
+/// Height of a line of a caption, as a multiple of its font size.
+const CAPTION_LINE: f64 = 22.0 / 17.0;
+/// Height of a line of the text below a verdict, as a multiple of its font size.
+const REASON_LINE: f64 = 1.36;
+/// Longer reasons are cut with an ellipsis.
+const MAX_REASON_LINES: usize = 12;
+/// Gap between the mark of a verdict and its text, pixels.
+const MARK_GAP: f64 = 6.0;
+/// Gap between the text of a verdict and the scale of arrows, pixels.
+const SCALE_GAP: f64 = 22.0;
+
+/// Where a panel is drawn, and what it shows.
+pub(super) struct Place {
+    /// Its upper left corner.
+    pub at: PagePoint,
+    /// The part of the scene that its picture shows, metres.
+    pub view: Bounds,
+    /// The number of lines for which there is space below the picture for its caption.
+    pub captions: usize,
+}
+
+impl Strip<'_> {
+    /// Draws the panel of a frame: picture, caption and verdict. Also returns the position of its lower end, pixels.
+    pub(super) fn panel(&self, frame: usize, place: Place) -> (Group, f64) {
+        let (context, layout) = (self.context, self.layout);
+        let (view, at) = (place.view, place.at);
+        let found = &context.analysis.frames[frame];
+        let aside = (layout.panel - view.width() * layout.scale) / 2.0;
+        let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
+        let mut group = Group {
+            id: Some(format!("frame-{}", frame + 1)),
+            ..Group::with_class("frame")
+        };
+        group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
+        let picture = self.content.picture(context, frame, view, &camera);
+        let cramped = without_room(&picture);
+        group = group.with(picture);
+        let mut below = PagePoint::new(
+            at.x + layout.panel / 2.0,
+            at.y + view.height() * layout.scale,
+        );
+        if context.options.dimensions {
+            group = group.with(dimension::lines(context, frame, view, &camera));
+            below.y += dimension::BELOW;
+        }
+        let (lines, mut below) = self.caption_at(frame, below, place.captions);
+        group.items.extend(lines);
+        if context.options.verdicts || context.options.keys {
+            below.y += 8.0;
+            let half = context.options.theme.sizes.verdict * 10.0 / 13.5;
+            let (signs, more) = self.verdict(frame, below.moved(0.0, half));
+            group.items.extend(signs);
+            below.y += 2.2 * half + more;
+            let (lines, end) = self.reason(frame, below, cramped);
+            group.items.extend(lines);
+            below = end;
+        }
+        (group, below.y)
+    }
+
+    /// Writes the caption of a frame below the point `top`, in space for `captions` lines. Also returns the point below
+    /// that space.
+    fn caption_at(&self, frame: usize, top: PagePoint, captions: usize) -> (Vec<Item>, PagePoint) {
+        let theme = &self.context.options.theme;
+        let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);
+        let mut y = top.y;
+        y += if captions > 0 { 10.0 } else { 0.0 };
+        let mut items = Vec::new();
+        for (number, line) in self.caption_lines(frame).into_iter().enumerate() {
+            let below = size * 5.0 / 17.0;
+            let at = PagePoint::new(top.x, y + (number + 1) as f64 * line_height - below);
+            let words = Text::new(at, line, Face::Serif, size, theme.ink);
+            items.push(words.anchored(Anchor::Middle).into());
+        }
+        (
+            items,
+            PagePoint::new(top.x, y + captions as f64 * line_height),
+        )
+    }
+
+    /// Draws the mark and the text of a verdict and the scale of arrows in one line about `centre`. If the panel is too
+    /// narrow, the scale is below. Also returns the additional height in pixels.
+    fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
+        let options = self.context.options;
+        let theme = &options.theme;
+        let size = theme.sizes.verdict;
+        let (word, _) = self.headline(frame);
+        let wide = text::width(&word, Face::SansBold, size);
+        let lead = match options.verdicts {
+            true => 2.0 * mark_radius(size) + MARK_GAP + wide + SCALE_GAP,
+            false => 0.0,
+        };
+        let scale = self.scale_of_panel(frame);
+        let scale_width = scale.as_ref().map_or(0.0, |scale| {
+            legend::widest(std::slice::from_ref(scale), theme)
+        });
+        let alone = (lead - SCALE_GAP).max(0.0);
+        let stacked = scale.is_some() && alone > 0.0 && lead + scale_width > self.layout.panel;
+        let total = if scale.is_none() || stacked {
+            alone
+        } else {
+            lead + scale_width
+        };
+        let start = centre.moved(-total / 2.0, 0.0);
+        let mut items: Vec<Item> = Vec::new();
+        if options.verdicts {
+            items.extend(self.marked_verdict(frame, word, start));
+        }
+        let below = if stacked { 1.7 * size } else { 0.0 };
+        if let Some(scale) = scale {
+            let at = if stacked {
+                centre.moved(-scale_width / 2.0, below)
+            } else {
+                start.moved(lead, 0.0)
+            };
+            items.extend(legend::single(&scale, at, theme));
+        }
+        (items, below)
+    }
+
+    /// Returns the scale of the arrows of a panel; `None` if it has none of its own.
+    fn scale_of_panel(&self, frame: usize) -> Option<Entry> {
+        let (context, options) = (self.context, self.context.options);
+        let too_small = context.arrows_too_small(self.layout.scale);
+        if options.scale != ArrowScale::Panel || !options.keys || too_small {
+            return None;
+        }
+        let marks = &context.marks[frame];
+        let unit = self.layout.scale * context.unit;
+        legend::scale(marks.newtons_per_unit, marks.largest(), unit, options)
+    }
+
+    /// Draws the mark of a verdict and its text, with their left end at `start`.
+    fn marked_verdict(&self, frame: usize, words: String, start: PagePoint) -> [Item; 2] {
+        let theme = &self.context.options.theme;
+        let found = &self.context.analysis.frames[frame];
+        let size = theme.sizes.verdict;
+        let radius = mark_radius(size);
+        let colour = verdict::badge_colour(found, theme);
+        let centre = start.moved(radius, 0.0);
+        let at = start.moved(2.0 * radius + MARK_GAP, 0.35 * size);
+        [
+            verdict::mark_in(colour, found.verdict, centre, radius, theme).into(),
+            Text::new(at, words, Face::SansBold, size, colour).into(),
+        ]
+    }
+
+    /// Writes the reason for a verdict below the point `top`, then the notes on arrows that are too small, and on labels
+    /// without space (`cramped`). Also returns the point below them.
+    fn reason(
+        &self,
+        frame: usize,
+        top: PagePoint,
+        cramped: Option<String>,
+    ) -> (Vec<Item>, PagePoint) {
+        let (context, layout) = (self.context, self.layout);
+        let theme = &context.options.theme;
+        let reason = if context.options.verdicts {
+            let said = [
+                self.headline(frame).1,
+                Some(context.statements[frame].clone()),
+            ];
+            let said = said.into_iter().flatten().filter(|words| !words.is_empty());
+            said.collect::<Vec<String>>().join("; ")
+        } else {
+            String::new()
+        };
+        let size = theme.sizes.reason;
+        let broken =
+            |words: &str, most| text::balanced(words, Face::Sans, size, layout.panel, most);
+        let unseen = context.marks[frame].unseen(context.unit, layout.scale);
+        let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));
+        let notes = unseen.into_iter().chain(cramped);
+        let notes = notes.flat_map(|note| broken(&note, 2));
+        let mut items = Vec::new();
+        let mut y = top.y;
+        for line in broken(&reason, MAX_REASON_LINES).into_iter().chain(notes) {
+            y += REASON_LINE * size;
+            let at = PagePoint::new(top.x, y - 0.32 * size);
+            let words = Text::new(at, line, Face::Sans, size, theme.faint);
+            items.push(words.anchored(Anchor::Middle).into());
+        }
+        (items, PagePoint::new(top.x, y))
+    }
+}
+
+/// Returns the radius of the mark of a verdict with this font size, pixels.
+fn mark_radius(size: f64) -> f64 {
+    size * 7.5 / 13.5
+}
+
+/// Returns the note of a picture on labels without space; `None` if there is no such label.
+fn without_room(picture: &Group) -> Option<String> {
+    let groups = picture.items.iter().filter_map(|item| match item {
+        Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),
+        _ => None,
+    });
+    groups.into_iter().find(|labelled| !labelled.is_empty())
+}

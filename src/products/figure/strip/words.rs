@@ -1,0 +1,136 @@
+//! The texts of a strip: legend, captions, verdicts and descriptions of its panels.
+
+use super::super::arrow::{ArrowKind, ForceArrow};
+use super::super::label;
+use super::super::legend;
+use super::super::verdict;
+use super::super::words::{counted, letter, quantity};
+use super::Strip;
+use crate::drawing::{Face, text};
+use crate::geometry::Bounds;
+
+/// Longer captions are cut with an ellipsis.
+const MAX_CAPTION_LINES: usize = 8;
+
+impl Strip<'_> {
+    /// Returns the entries of the legend.
+    pub(super) fn entries(&self) -> Vec<legend::Entry> {
+        let options = self.context.options;
+        let unit = self.layout.scale * self.context.unit;
+        let mut entries = if options.keys {
+            let mut entries = self.content.entries(self.context, unit);
+            entries.extend(label::left_out(self.context).map(legend::Entry::Note));
+            entries
+        } else {
+            Vec::new()
+        };
+        if self.context.arrows_too_small(self.layout.scale) {
+            let arrows = self.context.marks.iter().flat_map(|m| &m.arrows);
+            let left_out = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
+            let count = arrows.filter(left_out).count();
+            let left_out = format!("{} too small to read, left out", counted(count, "arrow"));
+            entries.push(legend::Entry::Note(left_out));
+        }
+        if options.scale_bar {
+            entries.extend(legend::metres(self.layout.scale, self.layout.content));
+        }
+        entries
+    }
+
+    /// Returns the part of the scene that the panel of a frame shows, metres. It is as wide as all frames need, so that
+    /// structures are aligned in columns.
+    pub(super) fn shows(&self, frame: usize) -> Bounds {
+        if self.alike {
+            self.context.view
+        } else {
+            self.context.row(&[frame])
+        }
+    }
+
+    /// Returns a text about a frame, after its caption if it has one.
+    pub(super) fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
+        let caption = self.caption(frame, between);
+        if caption.is_empty() {
+            what.to_owned()
+        } else {
+            format!("{caption}: {what}")
+        }
+    }
+
+    /// Returns the lines of the caption; none if the options exclude captions.
+    pub(super) fn caption_lines(&self, frame: usize) -> Vec<String> {
+        if !self.context.options.captions {
+            return Vec::new();
+        }
+        text::balanced(
+            &self.caption(frame, " "),
+            Face::Serif,
+            self.context.options.theme.sizes.caption,
+            self.layout.panel,
+            MAX_CAPTION_LINES,
+        )
+    }
+
+    /// Returns the text next to the mark of a verdict. If it is wider than the panel, returns only the verdict, and the
+    /// rest of the text separately.
+    pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
+        let size = self.context.options.theme.sizes.verdict;
+        let found = &self.context.analysis.frames[frame];
+        let words = self.content.headline(self.context, frame);
+        let sign = 1.2 * size + 6.0;
+        let room = match (self.layout.columns, self.context.options.width) {
+            (1, None) => self.layout.panel.max(300.0),
+            (1, Some(width)) => width - 2.0 * self.layout.margin,
+            _ => self.layout.panel,
+        };
+        if sign + text::width(&words, Face::SansBold, size) <= room {
+            return (words, None);
+        }
+        let badge = verdict::badge(found);
+        let rest = words.strip_prefix(badge).unwrap_or(&words);
+        let rest = rest.trim_start_matches([':', ',', ' ']).to_owned();
+        (badge.to_owned(), Some(rest).filter(|rest| !rest.is_empty()))
+    }
+
+    /// Returns the caption of a frame, such as `(a) Initial situation`. It has no letter if there is only one frame,
+    /// and no title if the heading already has this title. A zoomed figure names its block.
+    fn caption(&self, frame: usize, between: &str) -> String {
+        let scene = &self.context.analysis.scene;
+        if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
+            return caption.clone();
+        }
+        let title = &scene.frames[frame].title;
+        let mut parts = Vec::new();
+        if scene.frames.len() > 1 {
+            parts.push(format!("({})", letter(frame)));
+        }
+        if !title.is_empty() && (scene.frames.len() > 1 || *title != scene.title) {
+            parts.push(title.clone());
+        }
+        if let Some(block) = self.context.options.zoom {
+            parts.push(format!("around block {}", scene.blocks[block.0].id));
+        }
+        parts.join(between)
+    }
+
+    /// Describes a frame in a sentence.
+    pub(super) fn described(&self, frame: usize) -> String {
+        let (scene, found) = (
+            &self.context.analysis.scene,
+            &self.context.analysis.frames[frame],
+        );
+        let blocks = counted(scene.frames[frame].placed.len(), "block");
+        let weight = quantity(found.weight, "N");
+        let what = format!(
+            "{blocks}, {weight} in all, {}",
+            verdict::word(found.verdict)
+        );
+        let mut sentence = self.labelled(frame, " ", &what);
+        let more = [self.context.statements[frame].clone()];
+        for more in more.iter().chain(&found.notices).filter(|m| !m.is_empty()) {
+            sentence.push_str("; ");
+            sentence.push_str(&more.replace(text::NO_BREAK, " "));
+        }
+        sentence + "."
+    }
+}
