@@ -8,19 +8,18 @@
 use std::collections::BTreeMap;
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
-use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
 use super::words::{counted, listed, quantity};
 use crate::analysis::{Analysis, Contact, Verdict};
 use crate::drawing::arrow::straight;
-use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId};
 
@@ -107,67 +106,39 @@ fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize)
 pub(crate) struct Comparison;
 
 impl PanelContent for Comparison {
-    fn name(&self) -> &'static str {
-        "compare"
+    fn about(&self) -> About {
+        About {
+            name: "compare",
+            help: "Changes between consecutive frames, or between the last frames of two scenes",
+            title: "What changes in a dry-laid structure",
+            shares_arrow_scale: true,
+            draws_forces: true,
+            stretches_arrows: true,
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "Changes between consecutive frames, or between the last frames of two scenes"
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        mark::largest(of.analysis, of.frame, of.options)
     }
 
-    fn title(&self) -> &'static str {
-        "What changes in a dry-laid structure"
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        mark::marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
-    fn shares_arrow_scale(&self) -> bool {
-        true
-    }
-
-    fn draws_forces(&self) -> bool {
-        true
-    }
-
-    fn stretches_arrows(&self) -> bool {
-        true
-    }
-
-    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-        mark::largest(analysis, frame, options)
-    }
-
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
-        mark::marks(analysis, frame, options, newtons_per_unit)
-    }
-
-    fn extent(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        _unit: f64,
-        _marks: &Marks,
-        _options: &Options,
-    ) -> Option<Bounds> {
+    fn extent(&self, of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
+        let FrameSource {
+            analysis, frame, ..
+        } = of;
         let [_, gone] = blocks(analysis, frame);
         let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
         gone.iter().map(bounds).reduce(Bounds::union)
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
-        let mut ink = label::ink(&pen);
+        let mut ink = label::ink(pen);
         let outlines = |ids: &[BlockId]| {
             let mut outline = Outline::default();
             for id in ids {
@@ -216,7 +187,7 @@ impl PanelContent for Comparison {
             }
         }
         parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
-        composed(&pen, view, pen.blocks(), parts, ink)
+        composed(pen, view, pen.blocks(), parts, ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {

@@ -13,81 +13,69 @@ use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
 use super::option::{ArrowScale, Options};
+use super::pen::Pen;
 use super::unit::unit;
 use super::verdict;
 use super::view;
 use crate::analysis::{Analysis, MarginKind};
-use crate::drawing::{Camera, Group};
+use crate::drawing::Group;
 use crate::geometry::{Bounds, Point};
+
+/// What a kind of figure is called, and what it needs. Every kind has a name, a help and a title.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct About {
+    /// The name on the command line and in settings, in lower case.
+    pub name: &'static str,
+    /// One line for the help of `drystone render --kind`.
+    pub help: &'static str,
+    /// The title of the figure if the scene has none.
+    pub title: &'static str,
+    /// Whether the analysis has to compute the margins.
+    pub needs_margins: bool,
+    /// Whether each falling part is shown with one elementary mechanism
+    /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
+    /// motion.
+    pub needs_elementary_mechanisms: bool,
+    /// Whether the arrows of all panels have one scale, whatever the options say.
+    pub shares_arrow_scale: bool,
+    /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
+    pub colours_show_amplitudes: bool,
+    /// Whether the forces on each block are drawn. Arrows on one line are then moved apart.
+    pub draws_forces: bool,
+    /// Whether arrows may be longer than a unit edge where unit edges are short on the page.
+    pub stretches_arrows: bool,
+    /// Whether lines run across the blocks, below their names.
+    pub lines_cross_names: bool,
+}
+
+/// A frame of an analysis that is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameSource<'a> {
+    pub analysis: &'a Analysis,
+    /// The frame, from 0.
+    pub frame: usize,
+    pub options: &'a Options,
+}
 
 /// The content of the panels of one kind of figure. Every kind implements the methods without a default.
 pub(crate) trait PanelContent: Sync {
-    /// Returns the name on the command line and in settings, in lower case.
-    fn name(&self) -> &'static str;
+    /// Returns what the kind is called, and what it needs.
+    fn about(&self) -> About;
 
-    /// Returns one line for the help of `drystone render --kind`.
-    fn help(&self) -> &'static str;
-
-    /// Returns the title of the figure if the scene has none.
-    fn title(&self) -> &'static str;
-
-    /// True if the analysis has to compute the margins.
-    fn needs_margins(&self) -> bool {
-        false
-    }
-
-    /// Returns the margins that the figure shows if the analysis has them. Unlike with
-    /// [`needs_margins`](PanelContent::needs_margins) the figure is complete without them.
+    /// Returns the margins that the figure shows if the analysis has them. Unlike with [`About::needs_margins`] the
+    /// figure is complete without them.
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }
 
-    /// True if each falling part is shown with one elementary mechanism
-    /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
-    /// motion.
-    fn needs_elementary_mechanisms(&self) -> bool {
-        false
-    }
-
-    /// True if the arrows of all panels have one scale, whatever the options say.
-    fn shares_arrow_scale(&self) -> bool {
-        false
-    }
-
-    /// True if the colour of a block shows its amplitude; otherwise blocks are plain.
-    fn colours_show_amplitudes(&self) -> bool {
-        false
-    }
-
-    /// True if the forces on each block are drawn. Arrows on one line are then moved apart.
-    fn draws_forces(&self) -> bool {
-        false
-    }
-
-    /// True if arrows may be longer than a unit edge where unit edges are short on the page.
-    fn stretches_arrows(&self) -> bool {
-        false
-    }
-
-    /// True if lines run across the blocks, below their names.
-    fn lines_cross_names(&self) -> bool {
-        false
-    }
-
     /// Returns the force, in N, whose arrow is one unit edge long if each panel has its own scale; 0 for a kind without
     /// arrows.
-    fn largest_force(&self, _analysis: &Analysis, _frame: usize, _options: &Options) -> f64 {
+    fn largest_force(&self, _of: FrameSource<'_>) -> f64 {
         0.0
     }
 
     /// Returns the arrows of a frame. A force of `newtons_per_unit` N has an arrow as long as the unit edge.
-    fn marks(
-        &self,
-        _analysis: &Analysis,
-        _frame: usize,
-        _options: &Options,
-        _newtons_per_unit: f64,
-    ) -> Marks {
+    fn marks(&self, _of: FrameSource<'_>, _newtons_per_unit: f64) -> Marks {
         Marks::default()
     }
 
@@ -104,25 +92,12 @@ pub(crate) trait PanelContent: Sync {
 
     /// Returns a box in metres around items other than blocks, ground, robots and arrows; `None` if there are none.
     /// `unit` is the unit edge in metres.
-    fn extent(
-        &self,
-        _analysis: &Analysis,
-        _frame: usize,
-        _unit: f64,
-        _marks: &Marks,
-        _options: &Options,
-    ) -> Option<Bounds> {
+    fn extent(&self, _of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
         None
     }
 
-    /// Draws the picture of a frame. The ground is cut at the edge of `view` (metres).
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group;
+    /// Draws the picture of the frame of a pen. The ground is cut at the edge of `view` (metres).
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group;
 
     /// Returns the entries of the legend: all signs that occur in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
@@ -140,6 +115,7 @@ impl<'a> FigureContext<'a> {
         content: &dyn PanelContent,
     ) -> FigureContext<'a> {
         let scene = &analysis.scene;
+        let about = content.about();
         let frames = 0..analysis.frames.len();
         let marks = scaled_marks(analysis, options, content);
         let unit = unit(scene, options.zoom);
@@ -151,7 +127,12 @@ impl<'a> FigureContext<'a> {
             Some(block) => vec![view::around(scene, block); marks.len()],
             None => {
                 let extent = |frame: usize| {
-                    let own = content.extent(analysis, frame, unit, &marks[frame], options);
+                    let source = FrameSource {
+                        analysis,
+                        frame,
+                        options,
+                    };
+                    let own = content.extent(source, unit, &marks[frame]);
                     let reach = courses[frame].reach(scene, &marks[frame]);
                     own.into_iter().chain(reach).reduce(Bounds::union)
                 };
@@ -166,8 +147,8 @@ impl<'a> FigureContext<'a> {
         let view = shown.iter().copied().reduce(Bounds::union);
         let mut context = FigureContext {
             analysis,
-            colours_show_amplitudes: content.colours_show_amplitudes(),
-            lines_cross_names: content.lines_cross_names(),
+            colours_show_amplitudes: about.colours_show_amplitudes,
+            lines_cross_names: about.lines_cross_names,
             options,
             unit,
             view: view.unwrap_or(nothing.grown(unit)),
@@ -191,15 +172,21 @@ impl<'a> FigureContext<'a> {
 
 /// Returns the arrows of each frame at the scale of the options. Arrows on one line are moved apart.
 fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelContent) -> Vec<Marks> {
+    let about = content.about();
+    let source = |frame: usize| FrameSource {
+        analysis,
+        frame,
+        options,
+    };
     let frames = 0..analysis.frames.len();
     let own: Vec<f64> = frames
-        .map(|frame| content.largest_force(analysis, frame, options))
+        .map(|frame| content.largest_force(source(frame)))
         .collect();
     let shared = own.iter().copied().fold(0.0, f64::max);
     let zoomed = options
         .zoom
         .map(|block| view::around(&analysis.scene, block));
-    let (stretch, least_load) = match content.stretches_arrows() && !options.printed() {
+    let (stretch, least_load) = match about.stretches_arrows && !options.printed() {
         true => stretch(analysis, options),
         false => (1.0, 0.0),
     };
@@ -208,7 +195,7 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
             ArrowScale::Panel => own / stretch,
             ArrowScale::Strip => shared / stretch,
         };
-        let mut marks = content.marks(analysis, frame, options, newtons_per_unit);
+        let mut marks = content.marks(source(frame), newtons_per_unit);
         for arrow in &mut marks.arrows {
             arrow.width *= stretch.sqrt();
         }
@@ -217,7 +204,7 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
             marks.arrows.retain(|arrow| view::holds(near, arrow.at));
             marks.turns.retain(|turn| view::holds(near, turn.at));
         }
-        if content.draws_forces() && !options.printed() {
+        if about.draws_forces && !options.printed() {
             apart(&mut marks);
         }
         marks
@@ -273,19 +260,11 @@ fn lengthen_loads(marks: &mut Marks, least: f64) {
 struct Bare;
 
 impl PanelContent for Bare {
-    fn name(&self) -> &'static str {
-        ""
+    fn about(&self) -> About {
+        About::default()
     }
 
-    fn help(&self) -> &'static str {
-        ""
-    }
-
-    fn title(&self) -> &'static str {
-        ""
-    }
-
-    fn picture(&self, _: &FigureContext<'_>, _: usize, _: Bounds, _: &Camera) -> Group {
+    fn picture(&self, _: &Pen<'_>, _: Bounds) -> Group {
         Group::default()
     }
 

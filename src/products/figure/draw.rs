@@ -62,7 +62,7 @@ pub fn film(
     seconds: f64,
 ) -> Vec<(Drawing, f64)> {
     let (analysis, options) = (shown(analysis, kind), kind.options(options));
-    if !kind.content().needs_elementary_mechanisms() {
+    if !kind.content().about().needs_elementary_mechanisms {
         let pages = frame_pages(&analysis, kind, &options).into_iter();
         return pages.map(|page| (page, seconds)).collect();
     }
@@ -125,7 +125,7 @@ pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f
 
 /// Returns the analysis that a kind of figure shows: with elementary mechanisms if it needs them.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
-    if kind.content().needs_elementary_mechanisms() {
+    if kind.content().about().needs_elementary_mechanisms {
         Cow::Owned(analysis.elementary())
     } else {
         Cow::Borrowed(analysis)

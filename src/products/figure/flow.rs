@@ -12,7 +12,7 @@ use strand::{Strand, StrandKind, strands};
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::label::{self, Callout, SAME_FORCE};
 use super::legend::{self, Entry};
@@ -25,7 +25,7 @@ use super::unit::unit;
 use super::words::{quantity, round_below};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::placement::Ink;
-use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Theme};
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
@@ -44,49 +44,33 @@ const SHAFT: f64 = 0.055;
 pub(crate) struct ForceFlow;
 
 impl PanelContent for ForceFlow {
-    fn name(&self) -> &'static str {
-        "flow"
+    fn about(&self) -> About {
+        About {
+            name: "flow",
+            help: "The paths of the forces through the blocks, as lines as wide as the forces",
+            title: "The flow of forces in a dry-laid structure",
+            draws_forces: true,
+            lines_cross_names: true,
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "The paths of the forces through the blocks, as lines as wide as the forces"
-    }
-
-    fn title(&self) -> &'static str {
-        "The flow of forces in a dry-laid structure"
-    }
-
-    fn draws_forces(&self) -> bool {
-        true
-    }
-
-    fn lines_cross_names(&self) -> bool {
-        true
-    }
-
-    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         let edge = unit(&analysis.scene, options.zoom);
         largest_arrow(analysis, frame) * edge / longest_arrow(analysis, options)
     }
 
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
-        marks(analysis, frame, options, newtons_per_unit)
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        Picture::new(context, frame, camera).drawn(view)
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        Picture::new(pen).drawn(view)
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
@@ -201,7 +185,7 @@ fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
 
 /// The picture of a frame.
 struct Picture<'a> {
-    pen: Pen<'a>,
+    pen: &'a Pen<'a>,
     scene: &'a Scene,
     found: &'a FrameAnalysis,
     theme: &'a Theme,
@@ -211,9 +195,9 @@ struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    fn new(context: &'a FigureContext<'a>, frame: usize, camera: &'a Camera) -> Picture<'a> {
+    fn new(pen: &'a Pen<'a>) -> Picture<'a> {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let (scene, found) = (&*context.analysis.scene, &context.analysis.frames[frame]);
-        let pen = Pen::new(context, frame, camera);
         let scale = widest(pen.unit()) / largest(context).max(f64::MIN_POSITIVE);
         let metres = camera.metres(scale);
         Picture {
@@ -227,13 +211,13 @@ impl<'a> Picture<'a> {
     }
 
     fn drawn(&self, view: Bounds) -> Group {
-        let mut ink = label::ink(&self.pen);
+        let mut ink = label::ink(self.pen);
         let flow = self.flow(&mut ink);
         let dots = self.dots(&mut ink);
         let (forces, missing) = (self.pen.arrows(false), self.pen.arrows(true));
         let marks = vec![flow, dots, forces, missing];
         composed_with(
-            &self.pen,
+            self.pen,
             view,
             self.pen.blocks(),
             marks,

@@ -1,16 +1,15 @@
 //! Draws the figure of forces: every force is an arrow on the block on which it acts.
 
 use super::arrow::{ForceArrow, Marks};
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::legend::{self, Entry};
 use super::limit;
 use super::mark;
-use super::option::Options;
 use super::panel;
+use super::pen::Pen;
 use super::verdict;
-use crate::analysis::Analysis;
-use crate::drawing::{Camera, Group};
+use crate::drawing::Group;
 use crate::geometry::Bounds;
 
 /// The figure of forces; each panel has its own scale of arrows.
@@ -47,56 +46,29 @@ pub(crate) struct Forces {
 }
 
 impl PanelContent for Forces {
-    fn name(&self) -> &'static str {
-        self.name
+    fn about(&self) -> About {
+        About {
+            name: self.name,
+            help: self.help,
+            title: "Forces in a dry-laid structure",
+            shares_arrow_scale: self.shares_arrow_scale,
+            colours_show_amplitudes: true,
+            draws_forces: true,
+            stretches_arrows: true,
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        self.help
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        mark::largest(of.analysis, of.frame, of.options)
     }
 
-    fn title(&self) -> &'static str {
-        "Forces in a dry-laid structure"
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        mark::marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
-    fn shares_arrow_scale(&self) -> bool {
-        self.shares_arrow_scale
-    }
-
-    fn colours_show_amplitudes(&self) -> bool {
-        true
-    }
-
-    fn draws_forces(&self) -> bool {
-        true
-    }
-
-    fn stretches_arrows(&self) -> bool {
-        true
-    }
-
-    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-        mark::largest(analysis, frame, options)
-    }
-
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
-        mark::marks(analysis, frame, options, newtons_per_unit)
-    }
-
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        panel::picture(context, frame, view, camera)
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        panel::picture(pen, view)
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {

@@ -2,7 +2,7 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::PanelContent;
+use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::label;
@@ -12,7 +12,7 @@ use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
 
 /// A resultant lies outside the safe part if its distance from the middle exceeds this, in half lengths of this part.
@@ -24,36 +24,27 @@ const STRETCH_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 pub(crate) struct Kernel;
 
 impl PanelContent for Kernel {
-    fn name(&self) -> &'static str {
-        "kernel"
+    fn about(&self) -> About {
+        About {
+            name: "kernel",
+            help: "The safe part of each interface, and the position of the resultant in it",
+            title: "Resultants in the safe stretches of interfaces",
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "The safe part of each interface, and the position of the resultant in it"
-    }
-
-    fn title(&self) -> &'static str {
-        "Resultants in the safe stretches of interfaces"
-    }
-
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let found = &context.analysis.frames[frame];
         let bold = bold(pen.unit());
-        let mut ink = label::ink(&pen);
+        let mut ink = label::ink(pen);
         for contact in &found.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 1.0);
         }
-        let stretches = stretches(&pen, found);
-        let dots = dots(&pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
-        composed(&pen, view, pen.blocks(), vec![stretches, dots], ink)
+        let stretches = stretches(pen, found);
+        let dots = dots(pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
+        composed(pen, view, pen.blocks(), vec![stretches, dots], ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {

@@ -78,7 +78,7 @@ impl Kind {
 
     /// Returns its name, in lower case.
     pub fn name(self) -> &'static str {
-        self.content().name()
+        self.content().about().name
     }
 
     /// Returns the kind with this name; `None` if there is none.
@@ -88,7 +88,7 @@ impl Kind {
 
     /// Returns one line that describes the figure, for a list of all kinds.
     pub fn help(self) -> &'static str {
-        self.content().help()
+        self.content().about().help
     }
 
     /// Returns the margins that a figure of this analysis shows if they have been computed; `None` if it shows none.
@@ -114,13 +114,13 @@ impl Kind {
     /// True if it needs margins, which the analysis only computes on request
     /// ([`analysis::Options::margins`](crate::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
-        self.content().needs_margins()
+        self.content().about().needs_margins
     }
 
     /// Returns the options, with those replaced that the kind determines itself.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
-        if self.content().shares_arrow_scale() {
+        if self.content().about().shares_arrow_scale {
             options.scale = ArrowScale::Strip;
         }
         options

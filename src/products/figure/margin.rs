@@ -10,21 +10,20 @@ mod reason;
 use reason::percent_of;
 
 use super::arrow::Marks;
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::displacement::{Course, Displacement};
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
 use super::mechanism;
-use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
 use super::thrust;
 use super::words::degrees;
 use crate::analysis::{Analysis, Motion, Toward, Verdict};
 use crate::drawing::arrow::straight;
-use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
 /// Length of the arrow of gravity, as a share of the diagonal of the structure.
@@ -36,38 +35,33 @@ const GRAVITY_DISTANCE: f64 = 0.12;
 pub(crate) struct CollapseMargin;
 
 impl PanelContent for CollapseMargin {
-    fn name(&self) -> &'static str {
-        "margin"
+    fn about(&self) -> About {
+        About {
+            name: "margin",
+            help: "The structure, and how it falls just beyond its margin; --margin selects the margin",
+            title: "How far a dry-laid structure is from falling",
+            needs_margins: true,
+            lines_cross_names: true,
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "The structure, and how it falls just beyond its margin; --margin selects the margin"
-    }
-
-    fn title(&self) -> &'static str {
-        "How far a dry-laid structure is from falling"
-    }
-
-    fn needs_margins(&self) -> bool {
-        true
-    }
-
-    fn lines_cross_names(&self) -> bool {
-        true
-    }
-
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         // If the loads grow, they are drawn as in a figure of the line of thrust.
         thrust::marks(analysis, frame, options, newtons_per_unit)
     }
 
-    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         let scene = &analysis.scene;
         let frame = &scene.frames[frame];
 
@@ -77,14 +71,12 @@ impl PanelContent for CollapseMargin {
         }
     }
 
-    fn extent(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        unit: f64,
-        _marks: &Marks,
-        options: &Options,
-    ) -> Option<Bounds> {
+    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
         let ghosts = mechanism::reach(analysis, &displaced);
         let gravity = gravity(analysis, frame, edge, options.toward)
@@ -92,15 +84,9 @@ impl PanelContent for CollapseMargin {
         ghosts.into_iter().chain(gravity).reduce(Bounds::union)
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
-        let mut ink = label::ink(&pen);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
+        let mut ink = label::ink(pen);
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let mut parts = Vec::new();
         let toward = context.options.toward;
@@ -143,7 +129,7 @@ impl PanelContent for CollapseMargin {
             }
         }
         parts.push(pen.arrows(false));
-        composed(&pen, view, pen.blocks(), parts, ink)
+        composed(pen, view, pen.blocks(), parts, ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {

@@ -9,14 +9,13 @@
 
 use super::arrow::Marks;
 use super::collapse;
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::displacement::{Course, Displacement};
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
-use super::option::Options;
 use super::panel::composed;
 use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_EDGE, Pen};
 use super::thrust;
@@ -24,7 +23,7 @@ use super::verdict;
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, Motion, Verdict};
 use crate::drawing::placement::Ink;
-use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, BodyId};
 use crate::wording;
@@ -50,20 +49,14 @@ pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> 
 pub(crate) struct Mechanism;
 
 impl PanelContent for Mechanism {
-    fn name(&self) -> &'static str {
-        "mechanism"
-    }
-
-    fn help(&self) -> &'static str {
-        "How it falls: blocks displaced along the mechanism, hinges and slips"
-    }
-
-    fn title(&self) -> &'static str {
-        "How a dry-laid structure falls"
-    }
-
-    fn needs_elementary_mechanisms(&self) -> bool {
-        true
+    fn about(&self) -> About {
+        About {
+            name: "mechanism",
+            help: "How it falls: blocks displaced along the mechanism, hinges and slips",
+            title: "How a dry-laid structure falls",
+            needs_elementary_mechanisms: true,
+            ..About::default()
+        }
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
@@ -78,18 +71,15 @@ impl PanelContent for Mechanism {
         Course::new(analysis, frame, unit)
     }
 
-    fn largest_force(&self, analysis: &Analysis, frame: usize, _: &Options) -> f64 {
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let FrameSource {
+            analysis, frame, ..
+        } = of;
         thrust::largest_load(&analysis.scene, &analysis.scene.frames[frame])
     }
 
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
-        thrust::marks(analysis, frame, options, newtons_per_unit)
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
@@ -102,27 +92,21 @@ impl PanelContent for Mechanism {
         collapse::reason(context.analysis, frame)
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
-        let mut ink = label::ink(&pen);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
+        let mut ink = label::ink(pen);
         let mut blocks = pen.blocks();
-        blocks.items.extend(ghosts(&pen));
-        blocks.items.extend(displaced(&pen));
-        for (id, _) in moved(&pen) {
+        blocks.items.extend(ghosts(pen));
+        blocks.items.extend(displaced(pen));
+        for (id, _) in moved(pen) {
             for edge in context.analysis.scene.blocks[id.0].body.polygon.edges() {
                 let [from, to] = [edge.from, edge.to].map(|p| camera.place(pen.moved(id, p)));
                 ink.line(from, to, pen.line);
             }
         }
-        let [slips, hinges] = joint_marks(&pen, context.analysis, &mut ink);
+        let [slips, hinges] = joint_marks(pen, context.analysis, &mut ink);
         let loads = pen.arrows(false);
-        composed(&pen, view, blocks, vec![slips, hinges, loads], ink)
+        composed(pen, view, blocks, vec![slips, hinges, loads], ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {

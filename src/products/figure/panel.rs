@@ -1,22 +1,16 @@
 //! Composes the picture of one frame: ground, blocks, plans, robots, arrows or the marks of the kind, and labels on top.
 
-use super::context::FigureContext;
 use super::description;
 use super::label::{self, Callout};
 use super::limit;
 use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
 use crate::drawing::placement::Ink;
-use crate::drawing::{Camera, Group, Item};
+use crate::drawing::{Group, Item};
 use crate::geometry::Bounds;
 
-/// Draws the forces of the frame with index `number`. Ground is cut at the edge of `view` (metres).
-pub(crate) fn picture(
-    context: &FigureContext<'_>,
-    number: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(context, number, camera);
+/// Draws the forces of a frame. Ground is cut at the edge of `view` (metres).
+pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
+    let (context, camera) = (pen.context, pen.camera);
     let many = pen.many();
     let mut group = Group {
         camera: Some(*camera),
@@ -42,11 +36,11 @@ pub(crate) fn picture(
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
-    let mut ink = label::ink(&pen);
+    let mut ink = label::ink(pen);
     if !too_small && !many && !context.options.printed() {
-        group.items.push(limits(&pen, &mut ink).into());
+        group.items.push(limits(pen, &mut ink).into());
     }
-    group.items.push(label::labels(&pen, view, || ink).into());
+    group.items.push(label::labels(pen, view, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );

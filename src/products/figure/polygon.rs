@@ -7,13 +7,12 @@
 //! legend.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
-use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
 use super::unit::unit;
@@ -22,7 +21,7 @@ use super::view;
 use super::words::{letter, listed, round_below};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
-use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::BodyId;
 
@@ -48,33 +47,26 @@ fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
 pub(crate) struct ForcePolygon;
 
 impl PanelContent for ForcePolygon {
-    fn name(&self) -> &'static str {
-        "polygon"
+    fn about(&self) -> About {
+        About {
+            name: "polygon",
+            help: "The external forces on the structure, and their force polygon next to it",
+            title: "The force polygon of a dry-laid structure",
+            draws_forces: true,
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "The external forces on the structure, and their force polygon next to it"
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        mark::largest(of.analysis, of.frame, of.options)
     }
 
-    fn title(&self) -> &'static str {
-        "The force polygon of a dry-laid structure"
-    }
-
-    fn draws_forces(&self) -> bool {
-        true
-    }
-
-    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-        mark::largest(analysis, frame, options)
-    }
-
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         let marks = mark::marks(analysis, frame, options, newtons_per_unit);
         let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
         let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
@@ -86,29 +78,19 @@ impl PanelContent for ForcePolygon {
         Marks { arrows, ..marks }
     }
 
-    fn extent(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        _unit: f64,
-        marks: &Marks,
-        _options: &Options,
-    ) -> Option<Bounds> {
+    fn extent(&self, of: FrameSource<'_>, unit: f64, marks: &Marks) -> Option<Bounds> {
+        let FrameSource {
+            analysis, frame, ..
+        } = of;
         let chain = chain(analysis, frame, marks)?;
         let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
-        Some(own.grown(0.3 * unit(&analysis.scene, None)))
+        Some(own.grown(0.3 * unit))
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let marks = &context.marks[frame];
-        let mut ink = label::ink(&pen);
+        let mut ink = label::ink(pen);
         let mut polygon = Group::with_class("polygon").titled("Force polygon");
         if let Some(chain) = chain(context.analysis, frame, marks) {
             let theme = &context.options.theme;
@@ -163,7 +145,7 @@ impl PanelContent for ForcePolygon {
             beyond.width = (page.at.x + page.width - right).max(0.0);
             ink.rect(beyond);
         }
-        let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
+        let mut picture = composed(pen, view, pen.blocks(), parts, ink);
         for item in &mut picture.items {
             if let (Item::Group(group), Some(shown)) = (item, shown)
                 && group.class == "ground"

@@ -22,80 +22,85 @@ pub fn shapes(theme: &Theme) -> Drawing {
     sheet(lattice, &named, theme)
 }
 
-/// Draws each named set of cells: its outline, the lines between its cells, and a small cross at its lattice origin.
-/// The key `at` of a scene is the position of this origin.
-fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
-    let mut sheet = Vec::new();
-    for (name, cells) in named {
-        let Some(polygon) = lattice.polygon(cells) else {
-            continue;
-        };
+/// A shape of the sheet.
+struct SheetShape<'n> {
+    name: &'n str,
+    body: Body,
+    /// The shown part around the shape and its origin, metres.
+    view: Bounds,
+}
+
+impl<'n> SheetShape<'n> {
+    /// Makes a body of lattice cells; `None` if they have no outline.
+    fn new(lattice: Lattice, name: &'n str, cells: &[Cell]) -> Option<SheetShape<'n>> {
+        let polygon = lattice.polygon(cells)?;
         let origin = Bounds {
             min: Point::origin(),
             max: Point::origin(),
         };
         let view = polygon.bounds().union(origin).grown(0.12 * lattice.side);
-        sheet.push((
-            name,
-            Body {
-                polygon,
-                cells: Some(cells.clone()),
-                material: None,
-                friction: 0.0,
-                fill: None,
-                gap: 0.0,
-                rounding: 0.0,
-            },
-            view,
-        ));
+        let body = Body {
+            polygon,
+            cells: Some(cells.to_vec()),
+            material: None,
+            friction: 0.0,
+            fill: None,
+            gap: 0.0,
+            rounding: 0.0,
+        };
+        Some(SheetShape { name, body, view })
     }
-    let scale = UNIT / lattice.side;
-    let mut items = Vec::new();
-    let (mut x, mut y, mut height, mut widest) = (MAX_MARGIN, MAX_MARGIN, 0.0_f64, 0.0_f64);
-    for (name, body, view) in &sheet {
-        let width = (view.width() * scale).max(100.0);
-        if x > MAX_MARGIN && x + width > ACROSS {
-            (x, y, height) = (MAX_MARGIN, y + height + 64.0, 0.0);
-        }
-        // The shapes of a row are on the same baseline. The tallest shape of the sheet determines the height of all
-        // rows.
-        let tallest = sheet
-            .iter()
-            .map(|s| s.2.height() * scale)
-            .fold(0.0, f64::max);
-        let at = PagePoint::new(
-            x + (width - view.width() * scale) / 2.0,
-            y + tallest - view.height() * scale,
-        );
-        let camera = Camera::new(*view, at, scale);
+
+    /// Draws the outline, the lines between the cells, and a small cross at the origin. The name is at `caption`.
+    fn draw(&self, lattice: Lattice, camera: &Camera, caption: PagePoint, theme: &Theme) -> Group {
         let fill = theme.amplitude(0.02);
-        let outline = camera.polygon(&body.polygon);
+        let outline = camera.polygon(&self.body.polygon);
         let seam = Stroke::new(theme.seam_on(fill, 0.35), 1.0);
+        let seams = seams(&self.body, Some(lattice), camera);
         let origin = camera.place(Point::origin());
         let arm = |dx: f64, dy: f64| Outline::line([origin.moved(-dx, -dy), origin.moved(dx, dy)]);
         let mut cross = arm(5.0, 0.0);
         cross.extend(arm(0.0, 5.0));
-        let caption = PagePoint::new(x + width / 2.0, y + tallest + 26.0);
-        let shape = Group::with_class("shape")
-            .titled(format!(
-                "{name}: {} cells",
-                body.cells.as_ref().map_or(0, Vec::len)
-            ))
+        let count = self.body.cells.as_ref().map_or(0, Vec::len);
+        let size = theme.sizes.caption;
+        let name = Text::new(caption, self.name, Face::Serif, size, theme.ink);
+        Group::with_class("shape")
+            .titled(format!("{}: {count} cells", self.name))
             .with(Path::filled(outline.clone(), fill))
-            .with(Path::stroked(seams(body, Some(lattice), &camera), seam))
+            .with(Path::stroked(seams, seam))
             .with(Path::stroked(outline, Stroke::new(theme.outline, 1.5)))
             .with(Path::stroked(cross.clone(), Stroke::new(theme.page, 4.0)))
             .with(Path::stroked(cross, Stroke::new(theme.failure, 1.8)))
-            .with(
-                Text::new(caption, **name, Face::Serif, theme.sizes.caption, theme.ink)
-                    .anchored(Anchor::Middle),
-            );
-        items.push(shape.into());
+            .with(name.anchored(Anchor::Middle))
+    }
+}
+
+/// Draws each named set of cells: its outline, the lines between its cells, and a small cross at its lattice origin.
+/// The key `at` of a scene is the position of this origin.
+fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
+    let shapes = named.iter();
+    let shapes = shapes.filter_map(|(name, cells)| SheetShape::new(lattice, name, cells));
+    let shapes: Vec<SheetShape<'_>> = shapes.collect();
+    let scale = UNIT / lattice.side;
+    // The shapes of a row are on the same baseline. The tallest shape of the sheet determines the height of all rows.
+    let heights = shapes.iter().map(|shape| shape.view.height() * scale);
+    let tallest = heights.fold(0.0, f64::max);
+    let mut items = Vec::new();
+    let (mut x, mut y, mut widest) = (MAX_MARGIN, MAX_MARGIN, 0.0_f64);
+    for shape in &shapes {
+        let (wide, high) = (shape.view.width() * scale, shape.view.height() * scale);
+        let width = wide.max(100.0);
+        if x > MAX_MARGIN && x + width > ACROSS {
+            (x, y) = (MAX_MARGIN, y + tallest + 64.0);
+        }
+        let at = PagePoint::new(x + (width - wide) / 2.0, y + tallest - high);
+        let camera = Camera::new(shape.view, at, scale);
+        let caption = PagePoint::new(x + width / 2.0, y + tallest + 26.0);
+        items.push(shape.draw(lattice, &camera, caption, theme).into());
         x += width + 36.0;
-        height = height.max(tallest);
         widest = widest.max(x - 36.0);
     }
-    let note = PagePoint::new(MAX_MARGIN, y + height + 62.0);
+    let note = PagePoint::new(MAX_MARGIN, y + tallest + 62.0);
     let words = "The cross is the shape's origin: the lattice point that “at” names.";
     items.push(Text::new(note, words, Face::Sans, theme.sizes.key, theme.faint).into());
     Drawing {

@@ -12,7 +12,7 @@ use fan::Fans;
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::by_colour::ByColour;
-use super::content::PanelContent;
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::funicular::{ForceOrigin, ThrustSegment, segments};
@@ -28,7 +28,7 @@ use crate::analysis::{
     Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict,
 };
 use crate::drawing::placement::Ink;
-use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Frame, Scene};
@@ -49,16 +49,13 @@ const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 pub(crate) struct ThrustLine;
 
 impl PanelContent for ThrustLine {
-    fn name(&self) -> &'static str {
-        "thrust"
-    }
-
-    fn help(&self) -> &'static str {
-        "The line of thrust through the blocks"
-    }
-
-    fn title(&self) -> &'static str {
-        "The line of thrust in a dry-laid structure"
+    fn about(&self) -> About {
+        About {
+            name: "thrust",
+            help: "The line of thrust through the blocks",
+            title: "The line of thrust in a dry-laid structure",
+            ..About::default()
+        }
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
@@ -69,28 +66,23 @@ impl PanelContent for ThrustLine {
         }
     }
 
-    fn largest_force(&self, analysis: &Analysis, frame: usize, _: &Options) -> f64 {
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let FrameSource {
+            analysis, frame, ..
+        } = of;
         largest_load(&analysis.scene, &analysis.scene.frames[frame])
     }
 
-    fn marks(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        options: &Options,
-        newtons_per_unit: f64,
-    ) -> Marks {
-        marks(analysis, frame, options, newtons_per_unit)
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
-    fn extent(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        unit: f64,
-        _: &Marks,
-        options: &Options,
-    ) -> Option<Bounds> {
+    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
+        let FrameSource {
+            analysis,
+            frame,
+            options,
+        } = of;
         if !options.with_polygon {
             return None;
         }
@@ -98,29 +90,23 @@ impl PanelContent for ThrustLine {
         Some(fans(analysis, frame, &states, unit)?.bounds)
     }
 
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let scene = &context.analysis.scene;
         let found = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
         // Show the most central state if it is known.
         let found = family.central.as_ref().map_or(found, |state| &state.frame);
         let segments = segments(scene, &scene.frames[frame], found);
-        let mut ink = label::ink(&pen);
+        let mut ink = label::ink(pen);
         for segment in &segments {
             let [from, to] = [segment.from, segment.to].map(|p| camera.place(p));
-            ink.line(from, to, width(&pen, segment) + 1.0);
+            ink.line(from, to, width(pen, segment) + 1.0);
         }
-        let seams = seams(&pen, found);
-        let [least, greatest] = limits(&pen, family, &mut ink);
-        let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
-        let lines = lines(&pen, scene, found, &segments);
+        let seams = seams(pen, found);
+        let [least, greatest] = limits(pen, family, &mut ink);
+        let dots = dots(pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
+        let lines = lines(pen, scene, found, &segments);
         let loads = pen.arrows(false);
         let fans = match context.options.with_polygon {
             true => fans(context.analysis, frame, family, context.unit),
@@ -130,7 +116,7 @@ impl PanelContent for ThrustLine {
         let polygon = fans.map(|fans| fans.draw(scene, found, camera, theme, &mut ink));
         let marks = [seams, least, greatest, lines, dots, loads];
         let marks = marks.into_iter().chain(polygon).collect();
-        composed(&pen, view, pen.blocks(), marks, ink)
+        composed(pen, view, pen.blocks(), marks, ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {

@@ -5,7 +5,7 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::PanelContent;
+use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::label;
@@ -15,7 +15,7 @@ use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
@@ -28,40 +28,31 @@ const BAR_LENGTH: f64 = 3.2;
 pub(crate) struct Utilisation;
 
 impl PanelContent for Utilisation {
-    fn name(&self) -> &'static str {
-        "utilisation"
+    fn about(&self) -> About {
+        About {
+            name: "utilisation",
+            help: "The used share of the available friction at each interface",
+            title: "Friction used in a dry-laid structure",
+            ..About::default()
+        }
     }
 
-    fn help(&self) -> &'static str {
-        "The used share of the available friction at each interface"
-    }
-
-    fn title(&self) -> &'static str {
-        "Friction used in a dry-laid structure"
-    }
-
-    fn picture(
-        &self,
-        context: &FigureContext<'_>,
-        frame: usize,
-        view: Bounds,
-        camera: &Camera,
-    ) -> Group {
-        let pen = Pen::new(context, frame, camera);
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let found = &context.analysis.frames[frame];
         let bold = bold(pen.unit());
-        let mut ink = label::ink(&pen);
+        let mut ink = label::ink(pen);
         for contact in &found.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 2.0);
             if contact.friction_used >= FULL {
-                let [from, to] = across(&pen, contact);
+                let [from, to] = across(pen, contact);
                 ink.line(from, to, 3.0);
             }
         }
-        let (idle, used) = interfaces(&pen, found);
-        let robots = robots(&pen, found);
-        composed(&pen, view, pen.blocks(), vec![idle, used, robots], ink)
+        let (idle, used) = interfaces(pen, found);
+        let robots = robots(pen, found);
+        composed(pen, view, pen.blocks(), vec![idle, used, robots], ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {

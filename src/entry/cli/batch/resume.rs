@@ -20,6 +20,8 @@ use crate::text;
 const ENDING: &str = ".resume";
 /// Bytes of an entry: two hashes of 16 digits, a space and a line feed.
 const ENTRY_BYTES: usize = 34;
+/// Bytes that are read at once.
+const BUFFER_BYTES: usize = 1 << 16;
 
 /// The options on which the answers of a run depend: name and value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,45 +167,15 @@ pub(super) fn check(
     settings: &Settings,
     records: &mut Records,
 ) -> Result<Checked, CliError> {
-    let path = ResumeFile::path_for(output);
     let name = output.display();
-    let refuse = |why: String| {
-        CliError::CommandLine(format!(
-            "{why}. Give another output, or leave out --resume to answer every scene again"
-        ))
-    };
-    let file = match File::open(&path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(refuse(format!(
-                "{name} cannot be resumed: {}, which records its options and scenes, is missing",
-                path.display()
-            )));
-        }
-        Err(error) => return Err(not_read(&path, &error)),
-    };
-    let mut entries = BufReader::with_capacity(1 << 16, file);
-    let Some(header) = read_header(&mut entries) else {
-        return Err(refuse(format!(
-            "{} is not a file that drystone batch wrote",
-            path.display()
-        )));
-    };
-    let differences = settings.differences(&header);
-    if !differences.is_empty() {
-        let differences = differences.join("; ");
-        return Err(refuse(format!(
-            "{name} was made with other options: {differences}. Use the same options"
-        )));
-    }
-    let mut lines = BufReader::with_capacity(
-        1 << 16,
-        File::open(output).map_err(|error| not_read(output, &error))?,
-    );
+    let path = ResumeFile::path_for(output);
+    let (mut entries, header_bytes) = open_entries(output, &path, settings)?;
+    let file = File::open(output).map_err(|error| not_read(output, &error))?;
+    let mut lines = BufReader::with_capacity(BUFFER_BYTES, file);
     let mut checked = Checked {
         answers: 0,
         bytes: 0,
-        resume_bytes: header.len() as u64,
+        resume_bytes: header_bytes,
     };
     let (mut line, mut entry_line) = (Vec::new(), Vec::new());
     loop {
@@ -220,22 +192,64 @@ pub(super) fn check(
             .map_err(|error| not_read(&path, &error))?;
         let number = checked.answers + 1;
         if entry_line.len() != ENTRY_BYTES {
-            return Err(refuse(format!(
+            return Err(refused(&format!(
                 "{name} has more lines than drystone batch wrote: line {number} is the first extra line"
             )));
         }
         let Some(record) = records.next() else {
-            return Err(refuse(format!(
+            return Err(refused(&format!(
                 "{name} has more lines than the input has scenes, {}: it was made from another input",
                 checked.answers
             )));
         };
         agree(&line, &entry_line, &record)
-            .map_err(|why| refuse(format!("line {number} of {name} {why}")))?;
+            .map_err(|why| refused(&format!("line {number} of {name} {why}")))?;
         checked.answers += 1;
         checked.bytes += line.len() as u64;
         checked.resume_bytes += ENTRY_BYTES as u64;
     }
+}
+
+/// Opens the resume file of an output after its header, and checks that the options are those of the earlier run. Also
+/// returns the length of the header in bytes.
+fn open_entries(
+    output: &Path,
+    path: &Path,
+    settings: &Settings,
+) -> Result<(BufReader<File>, u64), CliError> {
+    let name = output.display();
+    let file = match File::open(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err(refused(&format!(
+                "{name} cannot be resumed: {}, which records its options and scenes, is missing",
+                path.display()
+            )));
+        }
+        Err(error) => return Err(not_read(path, &error)),
+    };
+    let mut entries = BufReader::with_capacity(BUFFER_BYTES, file);
+    let Some(header) = read_header(&mut entries) else {
+        return Err(refused(&format!(
+            "{} is not a file that drystone batch wrote",
+            path.display()
+        )));
+    };
+    let differences = settings.differences(&header);
+    if !differences.is_empty() {
+        let differences = differences.join("; ");
+        return Err(refused(&format!(
+            "{name} was made with other options: {differences}. Use the same options"
+        )));
+    }
+    Ok((entries, header.len() as u64))
+}
+
+/// Makes the error of a run that cannot be continued, with the remedy.
+fn refused(why: &str) -> CliError {
+    CliError::CommandLine(format!(
+        "{why}. Give another output, or leave out --resume to answer every scene again"
+    ))
 }
 
 /// Checks that a line is unchanged since it was written, and that it answers this scene. The error states the

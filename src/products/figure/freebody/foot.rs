@@ -6,7 +6,7 @@ use super::force::largest;
 use super::table::Table;
 use super::value::{self, Piece, rows};
 use super::{AMOUNT, MARGIN, Sheet};
-use crate::drawing::{Anchor, Face, Group, PagePoint, Text, text};
+use crate::drawing::{Anchor, Face, Group, Item, PagePoint, Text, text};
 use crate::figure::arrow::{LEAST_SEEN, round_above};
 use crate::figure::legend;
 use crate::figure::option::Corners;
@@ -26,38 +26,12 @@ impl Sheet<'_> {
     /// names without space. Also returns the lower end in pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
-        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[self.frame]);
         let mut group = Group::with_class("values");
         if !self.options.keys {
             return (group, top);
         }
         let (middle, room) = (self.width / 2.0, self.width - 2.0 * MARGIN);
-        let word = verdict::word(found.verdict);
-        let what = if scene.frames[self.frame].placed.len() > 1 {
-            format!("the structure {word}")
-        } else {
-            word.to_owned()
-        };
-        let wide = text::width(&what, Face::SansBold, 13.5);
-        let scale = self.scale();
-        let scaled = scale.as_ref().map_or(0.0, |s| {
-            22.0 + legend::widest(std::slice::from_ref(s), theme)
-        });
-        let start = PagePoint::new(middle - (wide + 21.0 + scaled) / 2.0 + 7.5, top + 10.0);
-        let colour = verdict::colour(found.verdict, theme);
-        group = group
-            .with(verdict::mark(found.verdict, start, 7.5, theme))
-            .with(Text::new(
-                start.moved(13.5, 0.35 * 13.5),
-                what,
-                Face::SansBold,
-                13.5,
-                colour,
-            ));
-        if let Some(scale) = scale {
-            let at = start.moved(13.5 + wide + 22.0, 0.0);
-            group.items.extend(legend::single(&scale, at, theme));
-        }
+        group.items.extend(self.verdict_and_scale(top + 10.0));
         let mut y = top + 28.0;
         let size = theme.sizes.reason;
         for note in self.notes(nameless) {
@@ -69,8 +43,8 @@ impl Sheet<'_> {
             }
         }
         y += 12.0;
-        let table = self.table();
-        let (list, height) = table.draw(middle, y, room, AMOUNT, theme);
+        let top = PagePoint::new(middle, y);
+        let (list, height) = self.table().draw(top, room, AMOUNT, theme);
         group.items.push(list.into());
         y += height + 6.0;
         if self.guides() {
@@ -87,6 +61,36 @@ impl Sheet<'_> {
             }
         }
         (group, y)
+    }
+
+    /// Draws the mark and the text of the verdict, and the scale of the arrows, in one line at the height `y` in pixels.
+    fn verdict_and_scale(&self, y: f64) -> Vec<Item> {
+        let theme = &self.options.theme;
+        let found = &self.analysis.frames[self.frame];
+        let word = verdict::word(found.verdict);
+        let what = if self.analysis.scene.frames[self.frame].placed.len() > 1 {
+            format!("the structure {word}")
+        } else {
+            word.to_owned()
+        };
+        let wide = text::width(&what, Face::SansBold, 13.5);
+        let scale = self.scale();
+        let scaled = scale.as_ref().map_or(0.0, |s| {
+            22.0 + legend::widest(std::slice::from_ref(s), theme)
+        });
+        let start = self.width / 2.0 - (wide + 21.0 + scaled) / 2.0 + 7.5;
+        let start = PagePoint::new(start, y);
+        let colour = verdict::colour(found.verdict, theme);
+        let at = start.moved(13.5, 0.35 * 13.5);
+        let mut items: Vec<Item> = vec![
+            verdict::mark(found.verdict, start, 7.5, theme).into(),
+            Text::new(at, what, Face::SansBold, 13.5, colour).into(),
+        ];
+        if let Some(scale) = scale {
+            let at = start.moved(13.5 + wide + 22.0, 0.0);
+            items.extend(legend::single(&scale, at, theme));
+        }
+        items
     }
 
     /// Returns an arrow for a round force as scale; `None` if the lengths of the arrows do not show magnitudes.

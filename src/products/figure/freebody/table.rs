@@ -147,94 +147,153 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// Draws the table with its upper edge at `top`, centred at `middle`, at most `room` pixels wide, with the font
-    /// size `size`. Also returns its height. All numbers are in pixels.
-    pub(super) fn draw(
-        &self,
-        middle: f64,
-        top: f64,
-        room: f64,
-        size: f64,
-        theme: &Theme,
-    ) -> (Group, f64) {
-        let wide = |words: &str| text::width(words, Face::Serif, size);
-        let named = |symbol: &Symbol| symbol.size(size).0;
-        let first = self.rows.iter().filter_map(|r| r.symbol.as_ref());
-        let first = first.map(named).fold(wide("sum"), f64::max);
-        let columns: Vec<f64> = (0..4)
-            .map(|k| {
-                let (symbol, unit) = &self.heads[k];
-                let numbers = self.rows.iter().map(|r| wide(&r.numbers[k]));
-                numbers.fold(named(symbol).max(wide(unit)), f64::max)
-            })
-            .collect();
-        let numbers = first + columns.iter().map(|c| c + BETWEEN).sum::<f64>();
-        let left_over = (room - numbers - BETWEEN).max(0.0);
-        let froms = self.rows.iter().map(|r| wide(&r.from));
-        let from = froms.fold(wide("from"), f64::max).min(left_over);
-        let total = numbers + BETWEEN + from;
-        let left = middle - total / 2.0;
+    /// Draws the table with its upper edge in the middle at `top`, at most `room` pixels wide, with the font size
+    /// `size`. Also returns its height in pixels.
+    pub(super) fn draw(&self, top: PagePoint, room: f64, size: f64, theme: &Theme) -> (Group, f64) {
+        let writer = TableWriter {
+            table: self,
+            columns: Columns::new(self, top.x, room, size),
+            size,
+            theme,
+        };
         let mut group = Group::with_class("list").titled("The forces on the block, and their sum");
-        let words = |x: f64, y: f64, words: &str, anchor: Anchor| -> Item {
-            Text::new(PagePoint::new(x, y), words, Face::Serif, size, theme.ink)
-                .anchored(anchor)
-                .into()
-        };
-        let symbol = |symbol: &Symbol, x: f64, y: f64| -> Item {
-            let (width, height) = symbol.size(size);
-            let at = PagePoint::new(x, y - 0.98 * size);
-            symbol
-                .draw(PageRect { at, width, height }, size, theme.ink)
-                .into()
-        };
-        // The right edges of the columns of numbers, followed by the left edge of the last column.
-        let mut edge = left + first;
-        let edges: Vec<f64> = columns
-            .iter()
-            .map(|c| {
-                edge += BETWEEN + c;
-                edge
-            })
-            .collect();
-        let last = edge + BETWEEN;
-        let mut y = top + size;
-        for ((head, unit), x) in self.heads.iter().zip(&edges) {
-            group.items.push(symbol(head, x - named(head), y));
-            group
-                .items
-                .push(words(*x, y + 1.3 * size, unit, Anchor::End));
-        }
-        group.items.push(words(last, y, "from", Anchor::Start));
+        let mut y = top.y + size;
+        group.items.extend(writer.head(y));
         y += 1.3 * size + 0.55 * size;
-        let rule = |y: f64| -> Item {
-            let line = Outline::line([PagePoint::new(left, y), PagePoint::new(left + total, y)]);
-            Path::stroked(line, Stroke::new(theme.rule, 1.0)).into()
-        };
-        group.items.push(rule(y));
+        group.items.push(writer.rule(y));
         y += 1.25 * size;
         for row in &self.rows {
-            match &row.symbol {
-                Some(name) => group.items.push(symbol(name, left, y)),
-                None => {
-                    group.items.push(rule(y - 1.15 * size));
-                    group.items.push(words(left, y, "sum", Anchor::Start));
-                }
-            }
-            for (number, x) in row.numbers.iter().zip(&edges) {
-                if !number.is_empty() {
-                    group.items.push(words(*x, y, number, Anchor::End));
-                }
-            }
-            if !row.from.is_empty() && from > 0.0 {
-                for (number, line) in in_lines(&row.from, from + 0.5, size).iter().enumerate() {
-                    y += if number > 0 { PITCH * size } else { 0.0 };
-                    group.items.push(words(last, y, line, Anchor::Start));
-                }
+            let (items, lines) = writer.row(row, y);
+            group.items.extend(items);
+            for _ in 1..lines {
+                y += PITCH * size;
             }
             y += ROW * size;
         }
         // Leave half a row of space below.
-        (group, y - top - 0.9 * size)
+        (group, y - top.y - 0.9 * size)
+    }
+}
+
+/// The positions of the columns on the page, pixels.
+struct Columns {
+    /// The left edge of the first column, with the names of the forces.
+    left: f64,
+    /// The right edges of the columns of numbers.
+    numbers: Vec<f64>,
+    /// The left edge of the last column, with the origins of the forces.
+    from: f64,
+    /// The width of the last column.
+    from_width: f64,
+    /// The width of the table.
+    total: f64,
+}
+
+impl Columns {
+    /// Makes each column as wide as its widest entry. If the table is then wider than `room`, the last column is
+    /// narrower. The table is centred at `middle`.
+    fn new(table: &Table, middle: f64, room: f64, size: f64) -> Columns {
+        let wide = |words: &str| text::width(words, Face::Serif, size);
+        let named = |symbol: &Symbol| symbol.size(size).0;
+        let names = table.rows.iter().filter_map(|r| r.symbol.as_ref());
+        let names = names.map(named).fold(wide("sum"), f64::max);
+        let widths: Vec<f64> = (0..4)
+            .map(|k| {
+                let (symbol, unit) = &table.heads[k];
+                let numbers = table.rows.iter().map(|r| wide(&r.numbers[k]));
+                numbers.fold(named(symbol).max(wide(unit)), f64::max)
+            })
+            .collect();
+        let numbers = names + widths.iter().map(|c| c + BETWEEN).sum::<f64>();
+        let left_over = (room - numbers - BETWEEN).max(0.0);
+        let froms = table.rows.iter().map(|r| wide(&r.from));
+        let from_width = froms.fold(wide("from"), f64::max).min(left_over);
+        let total = numbers + BETWEEN + from_width;
+        let left = middle - total / 2.0;
+        let mut edge = left + names;
+        let edges = widths.iter().map(|width| {
+            edge += BETWEEN + width;
+            edge
+        });
+        Columns {
+            left,
+            numbers: edges.collect(),
+            from: edge + BETWEEN,
+            from_width,
+            total,
+        }
+    }
+}
+
+/// Writes the rows of a table. Heights (`y`) are those of base lines, pixels.
+struct TableWriter<'a> {
+    table: &'a Table,
+    columns: Columns,
+    /// Font size, pixels.
+    size: f64,
+    theme: &'a Theme,
+}
+
+impl TableWriter<'_> {
+    /// Writes the headings of the columns with their units.
+    fn head(&self, y: f64) -> Vec<Item> {
+        let mut items = Vec::new();
+        for ((head, unit), x) in self.table.heads.iter().zip(&self.columns.numbers) {
+            items.push(self.symbol(head, x - head.size(self.size).0, y));
+            items.push(self.words(*x, y + 1.3 * self.size, unit, Anchor::End));
+        }
+        items.push(self.words(self.columns.from, y, "from", Anchor::Start));
+        items
+    }
+
+    /// Writes a row; the row of the sum is below a line. Also returns the number of lines of its last column, at least
+    /// 1.
+    fn row(&self, row: &Row, y: f64) -> (Vec<Item>, usize) {
+        let columns = &self.columns;
+        let mut items = Vec::new();
+        match &row.symbol {
+            Some(name) => items.push(self.symbol(name, columns.left, y)),
+            None => {
+                items.push(self.rule(y - 1.15 * self.size));
+                items.push(self.words(columns.left, y, "sum", Anchor::Start));
+            }
+        }
+        for (number, x) in row.numbers.iter().zip(&columns.numbers) {
+            if !number.is_empty() {
+                items.push(self.words(*x, y, number, Anchor::End));
+            }
+        }
+        if row.from.is_empty() || columns.from_width <= 0.0 {
+            return (items, 1);
+        }
+        let lines = in_lines(&row.from, columns.from_width + 0.5, self.size);
+        let mut y = y;
+        for (number, line) in lines.iter().enumerate() {
+            y += if number > 0 { PITCH * self.size } else { 0.0 };
+            items.push(self.words(columns.from, y, line, Anchor::Start));
+        }
+        (items, lines.len().max(1))
+    }
+
+    fn words(&self, x: f64, y: f64, words: &str, anchor: Anchor) -> Item {
+        let at = PagePoint::new(x, y);
+        Text::new(at, words, Face::Serif, self.size, self.theme.ink)
+            .anchored(anchor)
+            .into()
+    }
+
+    fn symbol(&self, symbol: &Symbol, x: f64, y: f64) -> Item {
+        let (width, height) = symbol.size(self.size);
+        let at = PagePoint::new(x, y - 0.98 * self.size);
+        let rect = PageRect { at, width, height };
+        symbol.draw(rect, self.size, self.theme.ink).into()
+    }
+
+    /// Draws a line across the table.
+    fn rule(&self, y: f64) -> Item {
+        let (left, right) = (self.columns.left, self.columns.left + self.columns.total);
+        let line = Outline::line([PagePoint::new(left, y), PagePoint::new(right, y)]);
+        Path::stroked(line, Stroke::new(self.theme.rule, 1.0)).into()
     }
 }
 

@@ -88,7 +88,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     Drawing {
         width: page.width().ceil(),
         height: (page.y + layout.margin).ceil(),
-        title: [heading, first.content.title()][usize::from(heading.is_empty())].to_owned(),
+        title: [heading, first.content.about().title][usize::from(heading.is_empty())].to_owned(),
         description: described.join(" "),
         background: Some(theme.page),
         items: page.items,

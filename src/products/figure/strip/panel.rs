@@ -4,6 +4,7 @@ use super::super::dimension;
 use super::super::label;
 use super::super::legend::{self, Entry};
 use super::super::option::ArrowScale;
+use super::super::pen::Pen;
 use super::super::verdict;
 use super::Strip;
 use crate::drawing::{Anchor, Camera, Face, Group, Item, PagePoint, Text, text};
@@ -43,7 +44,9 @@ impl Strip<'_> {
             ..Group::with_class("frame")
         };
         group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
-        let picture = self.content.picture(context, frame, view, &camera);
+        let picture = self
+            .content
+            .picture(&Pen::new(context, frame, &camera), view);
         let cramped = without_room(&picture);
         group = group.with(picture);
         let mut below = PagePoint::new(

@@ -10,84 +10,89 @@ use crate::report::entry::Badge;
 use crate::report::head::sign;
 use crate::wording::verdict::plain;
 
+/// Space for the word of the verdict at the left of the panel.
+const WORD_WIDTH: f64 = 150.0;
+/// Space above and below the content of the panel.
+const PADDING: f64 = 10.0;
+/// Height of the headline margin's bar with the space below it.
+const BAR_HEIGHT: f64 = 22.0;
+/// Font size of the headline.
+const HEADLINE: f64 = 14.0;
+
+/// The texts of a badge, made legible.
+struct Words {
+    headline: Option<String>,
+    /// The headline margin in words.
+    margin: Option<String>,
+    sentence: String,
+}
+
+impl Words {
+    /// Returns the height of the panel with these texts in lines of at most `room`.
+    fn height(&self, room: f64) -> f64 {
+        let lines = |words: &str, face: Face, size: f64| {
+            LINE * size * wrap(words, face, size, room).len() as f64
+        };
+        let headline = self.headline.as_ref();
+        let headline = headline.map_or(0.0, |words| lines(words, Face::SansBold, HEADLINE));
+        let margin = self.margin.as_ref();
+        let margin = margin.map_or(0.0, |words| BAR_HEIGHT + lines(words, Face::Sans, SMALL));
+        2.0 * PADDING + headline + margin + lines(&self.sentence, Face::Sans, SMALL)
+    }
+}
+
 impl Flow {
     /// Draws the verdict with the headline margin, on a tinted panel.
     pub fn badge(&mut self, badge: &Badge) {
-        let (ink, tint) = match badge.verdict {
+        let (left, room) = (self.left, self.room);
+        let inner = room - WORD_WIDTH - GAP;
+        let headline = (!badge.headline.is_empty()).then(|| format!("{}.", badge.headline));
+        let words = Words {
+            headline: headline.map(|words| self.legible(&words)),
+            margin: badge.bar.as_ref().map(|bar| self.legible(&bar.short())),
+            sentence: self.legible(&badge.sentence),
+        };
+        let high = words.height(inner);
+        self.reserve(high + 8.0);
+        let top = self.y;
+        self.verdict_panel(badge.verdict, high);
+        (self.left, self.room) = (left + WORD_WIDTH, inner);
+        let (ink, faint) = (self.theme.ink, self.theme.faint);
+        if let Some(headline) = &words.headline {
+            self.words(headline, Face::SansBold, HEADLINE, ink, &Role::Paragraph);
+        }
+        if let (Some(of), Some(margin)) = (&badge.bar, &words.margin) {
+            let at = PagePoint::new(self.left, self.y + 2.0);
+            bar::draw(self, of, at, 240.0);
+            self.y += BAR_HEIGHT;
+            self.words(margin, Face::Sans, SMALL, faint, &Role::Paragraph);
+        }
+        self.words(&words.sentence, Face::Sans, SMALL, ink, &Role::Paragraph);
+        (self.left, self.room) = (left, room);
+        self.y = top + high + 8.0;
+    }
+
+    /// Draws the tinted panel of this height, and the word of the verdict at its left.
+    fn verdict_panel(&mut self, verdict: Verdict, high: f64) {
+        let (ink, tint) = match verdict {
             Verdict::Stable => (Colour::hex(0x17743f), Colour::hex(0xe8f3ec)),
             Verdict::Unstable => (Colour::hex(0x9c1515), Colour::hex(0xf9eaea)),
             Verdict::Undecided => (Colour::hex(0x5d646e), Colour::hex(0xeeeff1)),
         };
-        let (left, room) = (self.left, self.room);
-        let beside = 150.0;
-        let sentence = self.legible(&badge.sentence);
-        let short = badge.bar.as_ref().map(|bar| self.legible(&bar.short()));
-        let inner = room - beside - GAP;
-        let lines = |words: &str, face: Face, size: f64| {
-            LINE * size * wrap(words, face, size, inner).len() as f64
-        };
-        let headline = self.legible(&format!("{}.", badge.headline));
-        let high =
-            20.0 + if badge.headline.is_empty() {
-                0.0
-            } else {
-                lines(&headline, Face::SansBold, 14.0)
-            } + short
-                .as_ref()
-                .map_or(0.0, |words| 22.0 + lines(words, Face::Sans, SMALL))
-                + lines(&sentence, Face::Sans, SMALL);
-        self.reserve(high + 8.0);
-        let top = self.y;
-        let panel = |from: f64, to: f64| {
+        let (left, top) = (self.left, self.y);
+        let panel = |to: f64| {
             Outline::ring(
-                [(from, top), (to, top), (to, top + high), (from, top + high)]
+                [(left, top), (to, top), (to, top + high), (left, top + high)]
                     .map(|(x, y)| PagePoint::new(x, y)),
             )
         };
-        self.add(Path::filled(panel(left, left + room), tint));
-        self.add(Path::filled(panel(left, left + 5.0), ink));
+        self.add(Path::filled(panel(left + self.room), tint));
+        self.add(Path::filled(panel(left + 5.0), ink));
         self.close(Role::Artifact);
-        self.y = top + 10.0;
-        let word = format!("{} {}", sign(badge.verdict), plain(badge.verdict));
-        self.put(
-            &word,
-            left + 18.0,
-            Face::SerifBold,
-            18.0,
-            ink,
-            Anchor::Start,
-        );
+        self.y = top + PADDING;
+        let word = format!("{} {}", sign(verdict), plain(verdict));
+        let x = left + 18.0;
+        self.put(&word, x, Face::SerifBold, 18.0, ink, Anchor::Start);
         self.close(Role::Paragraph);
-        (self.left, self.room) = (left + beside, inner);
-        if !badge.headline.is_empty() {
-            self.words(
-                &headline,
-                Face::SansBold,
-                14.0,
-                self.theme.ink,
-                &Role::Paragraph,
-            );
-        }
-        if let (Some(of), Some(short)) = (&badge.bar, short) {
-            let at = PagePoint::new(self.left, self.y + 2.0);
-            bar::draw(self, of, at, 240.0);
-            self.y += 22.0;
-            self.words(
-                &short,
-                Face::Sans,
-                SMALL,
-                self.theme.faint,
-                &Role::Paragraph,
-            );
-        }
-        self.words(
-            &sentence,
-            Face::Sans,
-            SMALL,
-            self.theme.ink,
-            &Role::Paragraph,
-        );
-        (self.left, self.room) = (left, room);
-        self.y = top + high + 8.0;
     }
 }

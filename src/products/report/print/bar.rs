@@ -15,66 +15,100 @@ const FALLS: u32 = 0x009c_1515;
 
 /// Draws a bar of the width `wide`, with its upper left corner at a point, in pixels.
 pub(super) fn draw(flow: &mut Flow, bar: &MarginBar, at: PagePoint, wide: f64) {
-    let room = wide - 2.0 * INSET;
-    let x = |value: f64| at.x + INSET + room * bar.share(value);
-    let middle = at.y + 0.5 * HEIGHT;
-    let ink = flow.theme.ink;
-    let line = |from: (f64, f64), to: (f64, f64)| {
-        Outline::line([PagePoint::new(from.0, from.1), PagePoint::new(to.0, to.1)])
-    };
-    let scale = line((at.x + INSET, middle), (at.x + wide - INSET, middle));
-    flow.add(Path::stroked(scale, Stroke::new(flow.theme.rule, 2.5)));
-    if let Some((from, to)) = bar.safe {
-        let safe = line((x(from), middle), (x(to), middle));
-        flow.add(Path::stroked(
-            safe,
-            Stroke::new(Colour::hex(SAFE), 6.0).mitred(),
-        ));
-        for (end, value, outward) in [(bar.ends.0, from, -1.0), (bar.ends.1, to, 1.0)] {
-            let upright = line((x(value), at.y + 2.0), (x(value), at.y + HEIGHT - 2.0));
+    let place = BarPlace { bar, at, wide };
+    let rule = Stroke::new(flow.theme.rule, 2.5);
+    let (from, to) = (at.x + INSET, at.x + wide - INSET);
+    flow.add(Path::stroked(place.along(from, to), rule));
+    place.safe_part(flow);
+    place.present_value(flow);
+    flow.close(Role::Artifact);
+}
+
+/// A bar at its place on the page.
+struct BarPlace<'b> {
+    bar: &'b MarginBar,
+    /// Its upper left corner.
+    at: PagePoint,
+    /// Its width, pixels.
+    wide: f64,
+}
+
+impl BarPlace<'_> {
+    /// Returns the position of a value, pixels.
+    fn x(&self, value: f64) -> f64 {
+        self.at.x + INSET + (self.wide - 2.0 * INSET) * self.bar.share(value)
+    }
+
+    /// Returns the height of the line of the bar, pixels.
+    fn middle(&self) -> f64 {
+        self.at.y + 0.5 * HEIGHT
+    }
+
+    /// Returns a part of the line of the bar between two positions, pixels.
+    fn along(&self, from: f64, to: f64) -> Outline {
+        let y = self.middle();
+        Outline::line([PagePoint::new(from, y), PagePoint::new(to, y)])
+    }
+
+    /// Draws the safe part, and a sign at each of its ends that shows what is known of this end.
+    fn safe_part(&self, flow: &mut Flow) {
+        let Some((from, to)) = self.bar.safe else {
+            return;
+        };
+        let ink = flow.theme.ink;
+        let safe = Stroke::new(Colour::hex(SAFE), 6.0).mitred();
+        flow.add(Path::stroked(self.along(self.x(from), self.x(to)), safe));
+        for (end, value, outward) in [(self.bar.ends.0, from, -1.0), (self.bar.ends.1, to, 1.0)] {
+            let x = self.x(value);
+            let upright = Outline::line([
+                PagePoint::new(x, self.at.y + 2.0),
+                PagePoint::new(x, self.at.y + HEIGHT - 2.0),
+            ]);
+            let stroke = Stroke::new(ink, 1.5);
             match end {
                 BarEnd::Domain => {}
-                BarEnd::Edge => flow.add(Path::stroked(upright, Stroke::new(ink, 1.5))),
+                BarEnd::Edge => flow.add(Path::stroked(upright, stroke)),
                 BarEnd::Unconfirmed => {
-                    flow.add(Path::stroked(
-                        upright,
-                        Stroke::new(ink, 1.5).dashed([2.0, 2.0]),
-                    ));
+                    flow.add(Path::stroked(upright, stroke.dashed([2.0, 2.0])));
                 }
                 BarEnd::Open => {
                     let tip = [(0.0, -6.0), (outward * INSET, 0.0), (0.0, 6.0)];
-                    let tip = tip.map(|(dx, dy)| PagePoint::new(x(value) + dx, middle + dy));
+                    let tip = tip.map(|(dx, dy)| PagePoint::new(x + dx, self.middle() + dy));
                     flow.add(Path::filled(Outline::ring(tip), Colour::hex(SAFE)));
                 }
             }
         }
     }
-    if let Some((least, most)) = bar.now {
-        for value in if least < most {
+
+    /// Draws the present value: a disc in the safe part, a cross outside it, a circle if neither is known. If the value
+    /// is only known between two bounds, both have a sign.
+    fn present_value(&self, flow: &mut Flow) {
+        let Some((least, most)) = self.bar.now else {
+            return;
+        };
+        let values = if least < most {
             vec![least, most]
         } else {
             vec![least]
-        } {
-            let here = PagePoint::new(x(value), middle);
-            match bar.position {
+        };
+        let ink = flow.theme.ink;
+        for value in values {
+            let here = PagePoint::new(self.x(value), self.middle());
+            match self.bar.position {
                 Position::Inside => flow.add(Path::filled(Outline::circle(here, 4.0), ink)),
                 Position::Outside => {
                     for sign in [-1.0, 1.0] {
-                        let cross = line(
-                            (here.x - 4.0, middle - sign * 4.0),
-                            (here.x + 4.0, middle + sign * 4.0),
-                        );
+                        let arm = (4.0, sign * 4.0);
+                        let cross =
+                            Outline::line([here.moved(-arm.0, -arm.1), here.moved(arm.0, arm.1)]);
                         flow.add(Path::stroked(cross, Stroke::new(Colour::hex(FALLS), 2.0)));
                     }
                 }
                 Position::Unknown => {
-                    flow.add(Path::stroked(
-                        Outline::circle(here, 3.5),
-                        Stroke::new(ink, 1.5),
-                    ));
+                    let circle = Outline::circle(here, 3.5);
+                    flow.add(Path::stroked(circle, Stroke::new(ink, 1.5)));
                 }
             }
         }
     }
-    flow.close(Role::Artifact);
 }

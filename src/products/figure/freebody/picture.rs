@@ -1,0 +1,210 @@
+//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces and the lines
+//! to coordinates. Each part adds its shapes to the ink, which names do not cover.
+
+use super::around::{corners, distinct, neighbours};
+use super::arrow::Arrow;
+use super::{BELOW, MARGIN, NAME, Sheet};
+use crate::drawing::arrow::{straight, turning};
+use crate::drawing::hatch::{hatch, lines};
+use crate::drawing::placement::{Ink, LabelRequest};
+use crate::drawing::symbol::{Accent, Symbol};
+use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke};
+use crate::figure::arrow::LEAST_SEEN;
+use crate::geometry::{Point, Polygon};
+use crate::scene::BodyId;
+
+/// Distance of hatching lines, pixels.
+const HATCH: f64 = 7.0;
+
+impl Sheet<'_> {
+    /// Draws the bodies that touch the block; ground is hatched.
+    pub(super) fn neighbours(&self, ink: &mut Ink) -> Group {
+        let (scene, theme) = (&self.analysis.scene, &self.options.theme);
+        let mut group = Group::with_class("neighbours");
+        let page = self.camera.rect(self.view);
+        group.clip = Some(page);
+        for body in neighbours(&self.contacts, self.block) {
+            let polygon = &scene.body(body).polygon;
+            let outline = self.camera.polygon(polygon);
+            let mut drawn = Group::with_class("body").titled(match body {
+                BodyId::Ground(_) => "Ground".to_owned(),
+                BodyId::Block(_) => format!("Block {}", scene.name(body)),
+            });
+            if let BodyId::Ground(_) = body {
+                let ring = |ring: &Vec<Point>| ring.iter().map(|p| self.camera.place(*p)).collect();
+                let rings: Vec<Vec<PagePoint>> = polygon.rings().iter().map(ring).collect();
+                let hatching = hatch(&rings, page, HATCH);
+                for [from, to] in hatching.iter().filter_map(|line| page.part_of(*line)) {
+                    ink.line(from, to, 0.8);
+                }
+                drawn = drawn.with(Path::stroked(
+                    lines(&hatching),
+                    Stroke::new(theme.faint, 0.8),
+                ));
+            }
+            self.bar(ink, polygon, page);
+            drawn = drawn.with(Path::stroked(outline, Stroke::new(theme.ink, 1.3)));
+            group.items.push(drawn.into());
+        }
+        group
+    }
+
+    /// Draws the block.
+    pub(super) fn body(&self, ink: &mut Ink) -> Group {
+        let theme = &self.options.theme;
+        self.bar(ink, self.polygon(), self.camera.rect(self.view));
+        let outline = self.camera.polygon(self.polygon());
+        Group::with_class("block")
+            .titled(format!("Block {}", self.name()))
+            .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
+    }
+
+    /// Adds the visible edges of a polygon to the ink, so that no name covers them.
+    fn bar(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
+        for edge in polygon.edges() {
+            let line = [edge.from, edge.to].map(|p| self.camera.place(p));
+            if let Some([from, to]) = seen.part_of(line) {
+                ink.line(from, to, 1.8);
+            }
+        }
+    }
+
+    /// Draws dashed lines from the application points and the centroid to the edges of the picture. Adds the names of
+    /// their coordinates to `requests`.
+    pub(super) fn guide_lines(
+        &self,
+        ink: &mut Ink,
+        requests: &mut Vec<(Symbol, LabelRequest)>,
+    ) -> Group {
+        let theme = &self.options.theme;
+        let mut group = Group::with_class("guides");
+        let mut described = vec![(
+            "c",
+            String::new(),
+            self.analysis.scene.blocks[self.block.0].centroid,
+        )];
+        for contact in &self.contacts {
+            let count = distinct(contact).len();
+            for (k, corner) in corners(contact, self.block).iter().enumerate().take(count) {
+                described.push(("p", (k + 1).to_string(), corner.at));
+            }
+        }
+        let dash = || Stroke::new(theme.faint, 1.0).dashed([5.0, 4.0]);
+        let (left, floor) = (self.picture.at.x, self.floor());
+        for (letter, number, point) in described {
+            let p = self.camera.place(point);
+            let ends = [
+                (PagePoint::new(left, p.y), "y"),
+                (PagePoint::new(p.x, floor), "x"),
+            ];
+            for (end, axis) in ends {
+                group = group.with(Path::stroked(Outline::line([end, p]), dash()));
+                ink.line(end, p, 1.2);
+                let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
+                let (wide, high) = symbol.size(NAME);
+                // Names that would overlap are placed in rows.
+                let place = |row: f64| match axis {
+                    "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
+                    _ => end.moved(0.0, 1.0 + high / 2.0 + row * (0.7 * high)),
+                };
+                requests.push((
+                    symbol,
+                    LabelRequest {
+                        anchor: end,
+                        first_ring: 4.0,
+                        size: (wide, high),
+                        preferred: (0..3).map(|row| place(f64::from(row))).collect(),
+                        padding: 0.0,
+                        max_distance: None,
+                    },
+                ));
+            }
+        }
+        group
+    }
+
+    /// True if an arrow is long enough to be visible.
+    pub(super) fn seen(arrow: &Arrow) -> bool {
+        let (x, y) = arrow.along;
+        let length = libm::hypot(x, y);
+        arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
+    }
+
+    /// Draws the arrows of the forces. Adds their names to `requests`.
+    pub(super) fn drawn(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
+        let theme = &self.options.theme;
+        let mut group = Group::with_class("forces");
+        for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
+            let from = self.camera.place(arrow.at);
+            let path = match arrow.turn {
+                Some(sweep) => {
+                    let radius = libm::hypot(arrow.along.0, arrow.along.1);
+                    ink.disc(from, radius + 1.5 * arrow.width);
+                    turning(from, radius, -0.4, sweep, arrow.width)
+                }
+                None => {
+                    ink.arrow(from, arrow.along, arrow.width);
+                    straight(from, arrow.along, arrow.width)
+                }
+            };
+            let path = if arrow.hollow {
+                let edge = Stroke::new(arrow.colour, 1.1).mitred();
+                Path::filled(path, theme.page).with_stroke(edge)
+            } else {
+                Path::filled(path, arrow.colour)
+            };
+            let drawn = Group::with_class("force")
+                .titled(arrow.title.as_str())
+                .with(path);
+            group.items.push(drawn.into());
+            let Some(symbol) = &arrow.symbol else {
+                continue;
+            };
+            let (wide, high) = symbol.size(NAME);
+            requests.push((
+                symbol.clone(),
+                LabelRequest {
+                    anchor: from.moved(0.7 * arrow.along.0, 0.7 * arrow.along.1),
+                    first_ring: 5.0,
+                    size: (wide, high),
+                    preferred: arrow.beside(from, wide, high),
+                    padding: 0.0,
+                    max_distance: Some(f64::INFINITY),
+                },
+            ));
+        }
+        group
+    }
+
+    /// Draws the directions of x and y below the picture.
+    pub(super) fn axes(&self, ink: &mut Ink) -> Group {
+        let theme = &self.options.theme;
+        let origin = PagePoint::new(
+            MARGIN + 4.0,
+            self.floor() + if self.guides() { 30.0 } else { BELOW - 4.0 },
+        );
+        let mut group = Group::with_class("axes").titled("Axes: x to the right, y up");
+        let ends = [
+            ((40.0, 0.0), "x", (14.0, 0.0)),
+            ((0.0, -40.0), "y", (0.0, -14.0)),
+        ];
+        for (along, name, beyond) in ends {
+            ink.arrow(origin, along, 1.4);
+            group = group.with(Path::filled(straight(origin, along, 1.4), theme.ink));
+            let symbol = Symbol::new(name, Accent::None, "");
+            let (wide, high) = symbol.size(NAME);
+            let at = origin.moved(
+                along.0 + beyond.0 - wide / 2.0,
+                along.1 + beyond.1 - 0.62 * high,
+            );
+            let rect = PageRect {
+                at,
+                width: wide,
+                height: high,
+            };
+            ink.rect(rect);
+            group = group.with(symbol.draw(rect, NAME, theme.ink));
+        }
+        group
+    }
+}

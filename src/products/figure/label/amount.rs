@@ -1,0 +1,200 @@
+//! Makes the labels with the magnitudes of loads, forces and torques.
+
+use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
+use super::super::pen::{DOT_RADIUS, Pen};
+use super::super::words::quantity;
+use super::lettering::{LINE_HEIGHT, Label, MIN_SIZE, label};
+use crate::drawing::placement::LabelRequest;
+use crate::drawing::{Colour, Face, PagePoint, text};
+use crate::scene::BodyId;
+
+/// Largest number of magnitudes of loads and missing forces in such frames, approximately.
+const MAX_WRITTEN: usize = 16;
+/// Forces that differ by less than this share count as equal: ten times the tolerance of a proof of equilibrium.
+pub(crate) const SAME_FORCE: f64 = 1e-6;
+
+/// A text at a point of a picture.
+pub(crate) struct Callout {
+    /// The point.
+    pub at: PagePoint,
+    /// Least distance of the text from the point, pixels.
+    pub clear: f64,
+    /// The text.
+    pub words: String,
+    /// The colour of the text.
+    pub colour: Colour,
+}
+
+/// Returns the font size of magnitudes, pixels.
+fn amount_size(pen: &Pen<'_>) -> f64 {
+    (0.2 * pen.unit())
+        .max(MIN_SIZE)
+        .min(pen.context.options.theme.sizes.amount)
+}
+
+/// Converts a callout to a label. If there is no space for it, it is left out and counted.
+pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
+    let request = LabelRequest {
+        anchor: callout.at,
+        first_ring: callout.clear,
+        size: (0.0, 0.0),
+        preferred: Vec::new(),
+        padding: 0.0,
+        max_distance: Some(f64::INFINITY),
+    };
+    let size = pen.context.options.theme.sizes.amount;
+    Label {
+        colour: Some(callout.colour),
+        ..label(callout.words, Face::SansBold, size, "amount", request)
+    }
+}
+
+/// Returns the labels with the magnitudes of arrows. If a frame does not have `few` blocks, they are only those of the
+/// largest loads and missing forces.
+pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
+    let marks = &pen.context.marks[pen.number];
+    let options = pen.context.options;
+    let least = least_written(pen, few);
+    let first = principal(pen);
+    let is_first = |arrow: &ForceArrow| first.iter().any(|f| core::ptr::eq(*f, arrow));
+    let is_input = |kind: ArrowKind| kind == ArrowKind::Load || kind.is_failure();
+    let wanted = |arrow: &&ForceArrow| {
+        let seen = pen.seen(arrow) || is_input(arrow.kind);
+        let written = is_written(pen, arrow, few, least) && is_first_of_pair(arrow);
+        seen && (is_first(arrow) || written)
+    };
+    let straight = marks.arrows.iter().filter(wanted).map(|arrow| {
+        let amount = quantity(arrow.force.norm(), "N");
+        let words = match is_first(arrow) && !options.amounts {
+            true => format!("largest: {amount}"),
+            false => amount,
+        };
+        force_label(pen, arrow, words)
+    });
+    let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
+    let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
+    let turns = turns.filter(|t| (options.amounts && few) || is_given(t));
+    straight
+        .chain(turns.map(|turn| torque_label(pen, turn)))
+        .collect()
+}
+
+/// True if the magnitude of a force belongs to this arrow. The two forces between two blocks have the same magnitude. It
+/// is written once, on the block with the lower index.
+fn is_first_of_pair(arrow: &ForceArrow) -> bool {
+    match (arrow.kind.partner(), arrow.on) {
+        (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
+        _ => true,
+    }
+}
+
+/// Makes the label of the arrow of a force.
+fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
+    let size = amount_size(pen);
+    let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
+    let wide = text::width(&words, Face::Sans, size);
+    let request = LabelRequest {
+        anchor: from.moved(0.5 * along.0, 0.5 * along.1),
+        first_ring: (0.5 * pen.width(arrow)).max(DOT_RADIUS) + 3.0,
+        size: (0.0, 0.0),
+        preferred: centres_along(from, along, pen.width(arrow), (wide, LINE_HEIGHT * size)),
+        padding: 0.0,
+        max_distance: Some(f64::INFINITY),
+    };
+    Label {
+        colour: Some(arrow.colour),
+        ..label(words, Face::Sans, size, "amount", request)
+    }
+}
+
+/// Makes the label of the arrow of a torque.
+fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
+    let request = LabelRequest {
+        anchor: pen.camera.place(turn.at),
+        first_ring: pen.camera.length(0.7 * pen.context.unit),
+        size: (0.0, 0.0),
+        preferred: Vec::new(),
+        padding: 0.0,
+        max_distance: Some(f64::INFINITY),
+    };
+    let words = quantity(turn.torque.abs(), "N·m");
+    Label {
+        colour: Some(turn.colour),
+        ..label(words, Face::Sans, amount_size(pen), "amount", request)
+    }
+}
+
+/// True if the magnitude of an arrow is written. Loads and missing forces of at least `least` N have magnitudes even if
+/// the options do not request them: they are the question and the answer of a scene.
+fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
+    let options = pen.context.options;
+    let missing = arrow.kind.is_failure() && !options.printed();
+    let given = arrow.kind == ArrowKind::Load || missing;
+    (options.amounts && few) || (options.labels && given && arrow.force.norm() >= least)
+}
+
+/// Returns the arrows of the largest force between two bodies and of the largest force of a robot. Returns none if
+/// arrows are too small or the options exclude labels.
+fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
+    let context = pen.context;
+    let small = context.arrows_too_small(pen.camera.length(1.0));
+    if small || pen.many() || context.options.printed() || !context.options.labels {
+        return Vec::new();
+    }
+    let arrows = &context.marks[pen.number].arrows;
+    let largest = |kind: fn(ArrowKind) -> bool| {
+        let own = arrows.iter().filter(|a| kind(a.kind) && pen.seen(a));
+        own.reduce(|most, a| {
+            // If several forces are equal except for rounding, take the first, so that noise does not move a label.
+            if a.force.norm() > (1.0 + SAME_FORCE) * most.force.norm() {
+                a
+            } else {
+                most
+            }
+        })
+    };
+    let contact = largest(|kind| matches!(kind, ArrowKind::Contact(_)));
+    let robot = largest(|kind| matches!(kind, ArrowKind::Robot(_)));
+    contact.into_iter().chain(robot).collect()
+}
+
+/// Returns the least magnitude of a load or a missing force that is written in a frame, N. If the frame does not have
+/// `few` blocks, only the largest magnitudes are written.
+fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
+    if few {
+        return 0.0;
+    }
+    let arrows = pen.context.marks[pen.number].arrows.iter();
+    let given = arrows.filter(|a| a.kind == ArrowKind::Load || a.kind.is_failure());
+    let mut amounts: Vec<f64> = given.map(|a| a.force.norm()).collect();
+    amounts.sort_by(|a, b| b.total_cmp(a));
+    amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
+}
+
+/// Returns preferred centres of a label of this size: on both sides of an arrow's shaft, and beyond its tip. All
+/// lengths are in pixels.
+fn centres_along(
+    from: PagePoint,
+    along: (f64, f64),
+    width: f64,
+    (wide, high): (f64, f64),
+) -> Vec<PagePoint> {
+    let length = libm::hypot(along.0, along.1);
+    if length.is_nan() || length <= 0.0 {
+        return Vec::new();
+    }
+    let (ux, uy) = (along.0 / length, along.1 / length);
+    // The distance of a label's centre from a line with this normal that touches the label.
+    let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
+    let mut middles = Vec::new();
+    for share in [0.5, 0.7, 0.3, 0.9, 0.1] {
+        for side in [1.0, -1.0] {
+            let (nx, ny) = (-uy * side, ux * side);
+            let off = 1.5 * width + 2.5 + reach(nx, ny);
+            middles.push(from.moved(along.0 * share + nx * off, along.1 * share + ny * off));
+        }
+    }
+    let beyond = length + 3.0 + reach(ux, uy);
+    middles.push(from.moved(ux * beyond, uy * beyond));
+    middles
+}

@@ -1,0 +1,145 @@
+//! [`Label`]: a text with its face, its size and its request for a position. Breaks it into lines, and draws it.
+
+use super::super::pen::Pen;
+use crate::drawing::placement::{LabelRequest, Placed};
+use crate::drawing::{
+    Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
+};
+use crate::scene::BlockId;
+
+/// Least font size, pixels.
+pub(super) const MIN_SIZE: f64 = 9.0;
+/// Largest number of lines of a name.
+const MAX_LINES: usize = 3;
+/// Distance of the lines of a name, as a multiple of the font size.
+const LINE_PITCH: f64 = 1.1;
+/// The prefix of a code point, which replaces a character that no font has.
+const SPELLED: &str = "U+";
+/// Height of a line, as a multiple of the font size.
+pub(super) const LINE_HEIGHT: f64 = 0.96;
+
+/// A label without a position yet.
+pub(super) struct Label {
+    /// Its lines of text.
+    pub lines: Vec<String>,
+    pub face: Face,
+    pub size: f64,
+    pub class: &'static str,
+    pub request: LabelRequest,
+    /// The colour of its arrow; `None` for plain text.
+    pub colour: Option<Colour>,
+    /// Whether the text below the frame mentions it. Then it is drawn in any case.
+    pub named: bool,
+    /// The block that it names. Inside another block it would seem to name that block.
+    pub of: Option<BlockId>,
+}
+
+/// Makes the label of a text in one line.
+pub(super) fn label(
+    words: String,
+    face: Face,
+    size: f64,
+    class: &'static str,
+    request: LabelRequest,
+) -> Label {
+    let size_of = (text::width(&words, face, size), LINE_HEIGHT * size);
+    Label {
+        request: LabelRequest {
+            size: size_of,
+            ..request
+        },
+        lines: vec![words],
+        face,
+        size,
+        class,
+        colour: None,
+        named: false,
+        of: None,
+    }
+}
+
+/// Breaks a name of several words into lines that fit into `across` pixels, if one line is too wide. Code points can be
+/// separated too. Returns the label unchanged if it would need too many lines or a word would be split.
+pub(super) fn broken(label: Label, across: f64) -> Label {
+    let name = label.lines.concat();
+    if label.request.size.0 <= across {
+        return label;
+    }
+    let (name, most) = match name.contains(SPELLED) {
+        true => (name.replace(text::NO_BREAK, " "), 2 * MAX_LINES),
+        false => (name, MAX_LINES),
+    };
+    let lines = text::balanced(&name, label.face, label.size, across, most + 1);
+    // A name with a split word is not readable.
+    let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
+    if !whole || lines.len() > most {
+        return label;
+    }
+    let widths = lines.iter().map(|l| text::width(l, label.face, label.size));
+    let size = (
+        widths.fold(0.0, f64::max),
+        label.size * (LINE_HEIGHT + LINE_PITCH * (lines.len() - 1) as f64),
+    );
+    let request = LabelRequest {
+        size,
+        ..label.request
+    };
+    Label {
+        lines,
+        request,
+        ..label
+    }
+}
+
+/// Draws a label at its position.
+pub(super) fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
+    let theme = &pen.context.options.theme;
+    let mut group = Group::with_class(label.class);
+    if let Some(leader) = placed.leader {
+        // A thin grey line is not visible on a dark fill, so draw a border in the colour of the page.
+        let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
+        let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
+        group = group.with(seam.with_opacity(0.7)).with(line);
+    }
+    // A label does not cross outlines, so its background has one colour.
+    let below = pen.below(middle(placed.rect));
+    let colour = theme.letters_on(below, label.colour);
+    let halo = pen.context.lines_cross_names.then_some(below);
+    lettered(group, label, middle(placed.rect), colour, halo)
+}
+
+/// Draws a label without a free position at its anchor, with a halo around its letters.
+pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
+    let below = pen.below(label.request.anchor);
+    let colour = pen.context.options.theme.letters_on(below, label.colour);
+    let group = Group::with_class(label.class);
+    lettered(group, label, label.request.anchor, colour, Some(below))
+}
+
+/// Adds the lines of a label to a group, centred at the given point. If a halo is given, the letters get a halo of
+/// that colour.
+fn lettered(
+    mut group: Group,
+    label: &Label,
+    middle: PagePoint,
+    colour: Colour,
+    halo: Option<Colour>,
+) -> Group {
+    let half = 0.5 * (label.lines.len() as f64 - 1.0);
+    for (number, line) in label.lines.iter().enumerate() {
+        let down = 0.36 + LINE_PITCH * (number as f64 - half);
+        let at = middle.moved(0.0, down * label.size);
+        let words = Text::new(at, line.as_str(), label.face, label.size, colour);
+        let words = words.anchored(Anchor::Middle);
+        group = group.with(match halo {
+            Some(below) => words.with_halo(below, 1.5),
+            None => words,
+        });
+    }
+    group
+}
+
+/// Returns the centre of a rectangle.
+pub(super) fn middle(rect: PageRect) -> PagePoint {
+    rect.at.moved(rect.width / 2.0, rect.height / 2.0)
+}

@@ -1,0 +1,205 @@
+//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, where they cover nothing.
+//!
+//! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
+//! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels do not
+//! cover arrows, outlines, discs or other labels. A label without a position is left out, and the figure counts these
+//! labels. Blocks that the line below the verdict mentions come first; they are named in frames with any number of
+//! blocks.
+
+mod amount;
+mod lettering;
+mod name;
+mod obstacle;
+mod solid;
+mod spoken;
+
+pub(crate) use amount::{Callout, SAME_FORCE};
+pub(crate) use obstacle::ink;
+
+use amount::{amounts, called_out};
+use lettering::{Label, drawn, drawn_over, middle};
+use name::{name, robots};
+use solid::Solids;
+use spoken::names;
+
+use super::context::FigureContext;
+use super::pen::Pen;
+use super::view;
+use super::words::{counted, listed};
+use crate::drawing::placement::{Ink, LabelRequest, nearest, place_avoiding};
+use crate::drawing::{Group, PageRect};
+use crate::geometry::Bounds;
+use crate::scene::BlockId;
+
+/// In frames with more blocks than this only blocks that the text mentions are labelled.
+pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
+/// If a unit edge is at least this long, pixels, names may be at any distance from their blocks …
+const ROOMY_UNIT_EDGE: f64 = 26.0;
+/// … and also in frames with at most this many blocks.
+const FEW_BLOCKS: usize = 12;
+/// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
+const MAX_DISTANCE: f64 = 8.0;
+
+/// A name outside its block has a leader if another block's centroid is close: at most at this multiple of the distance
+/// to its own block's centroid.
+const AMBIGUITY_RATIO: f64 = 1.5;
+
+/// The class of the group of a frame's labels. The description of the group counts labels without a position.
+pub(crate) const CLASS: &str = "labels";
+
+/// Draws the labels of a frame. They do not cover `ink`, which is only computed if there are labels. `view` is the
+/// shown part of the scene, metres.
+pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
+    labels_with(pen, view, Vec::new(), ink)
+}
+
+/// Like [`labels`], with callouts, which are placed first.
+pub(crate) fn labels_with(
+    pen: &Pen<'_>,
+    view: Bounds,
+    callouts: Vec<Callout>,
+    ink: impl FnOnce() -> Ink,
+) -> Group {
+    let mut group = Group::with_class(CLASS);
+    let callouts = callouts.into_iter().filter(|_| pen.context.options.labels);
+    let callouts = callouts.map(|callout| called_out(pen, callout));
+    let labels: Vec<Label> = callouts.chain(all_labels(pen, view)).collect();
+    if labels.is_empty() {
+        return group;
+    }
+    let mut ink = ink();
+    let page = pen.camera.rect(view);
+    let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
+    let solids = Solids::new(pen);
+    let covers_other_block = |number: usize, rect: PageRect| {
+        let own: Option<BlockId> = labels[number].of;
+        own.is_some_and(|own| solids.other(pen, own, rect))
+    };
+    let places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
+    let mut missing: Vec<(&str, usize)> = Vec::new();
+    for (label, placed) in labels.iter().zip(places) {
+        if placed.is_none_or(|p| p.avoided) {
+            pen.context.cramped.set(pen.context.cramped.get() + 1);
+        }
+        if let Some(mut placed) = placed {
+            if placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
+                placed.leader = Some([
+                    nearest(placed.rect, label.request.anchor),
+                    label.request.anchor,
+                ]);
+            }
+            group.items.push(drawn(pen, label, placed).into());
+            continue;
+        }
+        if label.named {
+            group.items.push(drawn_over(pen, label).into());
+            continue;
+        }
+        let what = match label.class {
+            "amount" => "amount",
+            _ => "name",
+        };
+        match missing.iter_mut().find(|known| known.0 == what) {
+            Some(known) => known.1 += 1,
+            None => missing.push((what, 1)),
+        }
+    }
+    let missing: Vec<String> = missing
+        .into_iter()
+        .map(|(what, n)| counted(n, what))
+        .collect();
+    if !missing.is_empty() {
+        group.description = format!("no room for {}", listed(&missing));
+    }
+    group
+}
+
+/// True if a name lies outside its block and could be the name of another block, because its centroid is nearly as
+/// close.
+fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
+    let scene = &pen.context.analysis.scene;
+    let Some(own) = label.of.filter(|_| label.class == "name") else {
+        return false;
+    };
+    let at = pen.camera.back(middle(rect));
+    let at = pen.displacement(own).map_or(at, |d| d.back(at));
+    if scene.blocks[own.0].body.polygon.contains(at) {
+        return false;
+    }
+    let far = |id: BlockId| {
+        let anchor = pen.camera.place(pen.moved(id, scene.blocks[id.0].centroid));
+        let end = nearest(rect, anchor);
+        libm::hypot(end.x - anchor.x, end.y - anchor.y)
+    };
+    let others = scene.frames[pen.number].placed.iter().copied();
+    let mut others = others.filter(|id| *id != own);
+    others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
+}
+
+/// Returns the note on labels that are left out because a frame has too many blocks; `None` if no label is left out.
+pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
+    let options = context.options;
+    let frames = &context.analysis.scene.frames;
+    let most = frames.iter().map(|f| f.placed.len()).max().unwrap_or(0);
+    let what = match (options.labels, options.amounts) {
+        (true, true) => "names and amounts",
+        (true, false) => "names",
+        (false, true) => "amounts",
+        (false, false) => return None,
+    };
+    let named = (0..frames.len()).any(|frame| !mentioned(context, frame).is_empty());
+    let but = if named {
+        " but those the text names"
+    } else {
+        ""
+    };
+    (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
+}
+
+/// Returns all labels of a frame, the most important first.
+fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
+    let options = pen.context.options;
+    let frame = &pen.context.analysis.scene.frames[pen.number];
+    let scene = &pen.context.analysis.scene;
+    let shown = |id: &&BlockId| {
+        let body = &scene.blocks[id.0].body;
+        options.zoom.is_none() || view::common(view, body.polygon.bounds()).is_some()
+    };
+    let few = frame.placed.iter().filter(shown).count() <= MAX_LABELLED_BLOCKS;
+    let mut labels = Vec::new();
+    if options.labels {
+        let first = mentioned(pen.context, pen.number);
+        let names = first.iter().filter_map(|id| name(pen, *id, view));
+        labels.extend(names.map(|label| Label {
+            named: true,
+            ..label
+        }));
+        labels.extend(robots(pen, view));
+        if few {
+            let others = frame.placed.iter().filter(|id| !first.contains(id));
+            // Long leaders in a crowded frame would hide the figure.
+            let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || frame.placed.len() <= FEW_BLOCKS;
+            let names = others.filter_map(|id| name(pen, *id, view));
+            labels.extend(names.map(|label| {
+                let mut request = label.request;
+                if !any_distance {
+                    request.max_distance = request.max_distance.map(|far| far.min(MAX_DISTANCE));
+                }
+                Label { request, ..label }
+            }));
+        }
+    }
+    labels.extend(amounts(pen, few));
+    labels.retain(|label| label.lines.iter().any(|line| !line.is_empty()));
+    labels
+}
+
+/// Returns the blocks that the text below a frame mentions, in placing order.
+fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
+    let scene = &context.analysis.scene;
+    let stated = &context.statements[frame];
+    let placed = scene.frames[frame].placed.iter().copied();
+    placed
+        .filter(|id| names(stated, &scene.blocks[id.0].id))
+        .collect()
+}

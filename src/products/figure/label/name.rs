@@ -1,0 +1,118 @@
+//! Makes the labels with the names of blocks and robots.
+
+use super::super::pen::Pen;
+use super::super::view;
+use super::lettering::{Label, MIN_SIZE, broken, label};
+use crate::drawing::Face;
+use crate::drawing::placement::LabelRequest;
+use crate::geometry::{Bounds, Point, Polygon};
+use crate::scene::{BlockId, Hold};
+
+/// Number of positions tried along each axis of a block.
+const POSITIONS_PER_AXIS: usize = 13;
+/// Distances from a block's centroid are rounded to this share of the block's diagonal, so that rounding errors do not
+/// move a name.
+const DISTANCE_STEP: f64 = 1e-3;
+/// Distance of a broken name from the sides of its block, pixels.
+const INSET: f64 = 4.0;
+/// Length of a block's edge for the font size of its name, as a share of the square root of its area.
+const EDGE_SHARE: f64 = 0.6;
+/// The name of a block whose edge is longer than this, in unit edges, has a font size of its own.
+const LARGE_BLOCK: f64 = 3.0;
+
+/// Returns the font size of the name of a block with an edge of this length; both in pixels.
+fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
+    (0.25 * edge)
+        .max(MIN_SIZE)
+        .min(pen.context.options.theme.sizes.name)
+}
+
+/// Returns the name of a block; `None` if a zoomed picture does not show any part of the block.
+pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
+    let block = &pen.context.analysis.scene.blocks[id.0];
+    let zoomed = pen.context.options.zoom.is_some();
+    if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
+        return None;
+    }
+    // The name of a large block among small blocks is larger.
+    let own = pen
+        .camera
+        .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
+    let size = if own > LARGE_BLOCK * pen.unit() {
+        name_size(pen, own)
+    } else {
+        name_size(pen, pen.unit())
+    };
+    // The name of a small block is nearer to it.
+    let extent = block.body.polygon.bounds().diagonal();
+    let request = LabelRequest {
+        anchor: pen.camera.place(pen.moved(id, block.centroid)),
+        first_ring: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
+        size: (0.0, 0.0),
+        preferred: centres_inside(&block.body.polygon, block.centroid, zoomed.then_some(view))
+            .into_iter()
+            .map(|p| pen.camera.place(pen.moved(id, p)))
+            .collect(),
+        padding: 0.5 * size,
+        max_distance: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
+    };
+    let label = label(block.id.clone(), Face::SansBold, size, "name", request);
+    let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
+    Some(Label {
+        of: Some(id),
+        ..broken(label, across)
+    })
+}
+
+/// Returns the names of the robots that hold a block.
+pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
+    let scene = &pen.context.analysis.scene;
+    let size = name_size(pen, pen.unit());
+    // Names of robots are slightly smaller than names of blocks, but not below the least size.
+    let size = (0.9 * size).max(size.min(MIN_SIZE));
+    let named = |hold: &Hold| {
+        let request = LabelRequest {
+            anchor: pen.camera.place(pen.moved(hold.block, hold.at)),
+            first_ring: pen.disc() + 2.0,
+            size: (0.0, 0.0),
+            preferred: Vec::new(),
+            padding: 0.0,
+            max_distance: Some(f64::INFINITY),
+        };
+        let id = scene.robots[hold.robot.0].id.clone();
+        let block = scene.blocks[hold.block.0].body.polygon.bounds();
+        let across = pen.camera.length(block.width()) - 2.0 * INSET;
+        let label = label(id, Face::Sans, size, "robot-name", request);
+        Label {
+            of: Some(hold.block),
+            ..broken(label, across)
+        }
+    };
+    let zoomed = pen.context.options.zoom.is_some();
+    let holds = scene.frames[pen.number].holds.iter();
+    let shown = holds.filter(|hold| !zoomed || view::holds(view, hold.at));
+    shown.map(named).collect()
+}
+
+/// Returns preferred centres inside a polygon, those nearest to `middle` first. If a `view` is given, they are inside
+/// the visible part.
+fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
+    let whole = polygon.bounds();
+    let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
+    let share = |i: usize| (i as f64 + 0.5) / POSITIONS_PER_AXIS as f64;
+    let points: Vec<Point> = (0..POSITIONS_PER_AXIS * POSITIONS_PER_AXIS)
+        .map(|i| {
+            let x = bounds.min.x + bounds.width() * share(i % POSITIONS_PER_AXIS);
+            let y = bounds.min.y + bounds.height() * share(i / POSITIONS_PER_AXIS);
+            Point::new(x, y)
+        })
+        .filter(|p| polygon.contains(*p))
+        .collect();
+    // Rounded distances are equal if they only differ by rounding errors. The sort is stable, so the order of the grid
+    // then decides.
+    let step = DISTANCE_STEP * whole.diagonal();
+    let rank = |p: &Point| ((p - middle).norm() / step).round();
+    let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.into_iter().map(|(_, p)| p).collect()
+}
