@@ -5,6 +5,7 @@
 //! the same drawing gives the same bytes.
 
 mod paint;
+mod painter;
 mod structure;
 
 use std::borrow::Cow;
@@ -15,13 +16,12 @@ use krilla::destination::{Destination, XyzDestination};
 use krilla::geom::{Point, Rect, Transform};
 use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
-use krilla::paint::FillRule;
 use krilla::surface::Surface;
 use krilla::tagging::{Artifact, ArtifactType, ContentTag, Node, Tag, TagGroup, TagTree};
-use krilla::text::{Font, GlyphId, KrillaGlyph};
+use krilla::text::Font;
 use resvg::usvg;
 
-use paint::{fill, outline, outline_of, passes, share, stroke, transform};
+use painter::PdfPainter;
 
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
@@ -346,112 +346,4 @@ fn inset(
         }
     }
     Ok(())
-}
-
-struct PdfPainter<'s, 'd> {
-    surface: &'s mut Surface<'d>,
-    fonts: Vec<(Face, Font)>,
-}
-
-impl PdfPainter<'_, '_> {
-    fn group(&mut self, group: &usvg::Group) {
-        let mut pushed = 0;
-        if !group.transform().is_identity() {
-            self.surface.push_transform(&transform(group.transform()));
-            pushed += 1;
-        }
-        if let Some(clip) = group.clip_path().and_then(|c| outline_of(c.root())) {
-            self.surface.push_clip_path(&clip, &FillRule::NonZero);
-            pushed += 1;
-        }
-        if group.opacity().get() < 1.0 {
-            self.surface.push_opacity(share(group.opacity()));
-            pushed += 1;
-        }
-        for node in group.children() {
-            match node {
-                usvg::Node::Group(group) => self.group(group),
-                usvg::Node::Path(path) => self.path(path),
-                usvg::Node::Text(text) => self.text(text),
-                // A drawing contains no images.
-                usvg::Node::Image(_) => {}
-            }
-        }
-        for _ in 0..pushed {
-            self.surface.pop();
-        }
-    }
-
-    fn path(&mut self, path: &usvg::Path) {
-        let Some(outline) = outline(path.data()) else {
-            return;
-        };
-        let (fill, stroke) = (path.fill().and_then(fill), path.stroke().and_then(stroke));
-        // PDF draws the stroke above the fill, but most figures need it below, so draw them separately.
-        for (fill, stroke) in passes(fill, stroke, path.paint_order()) {
-            self.surface.set_fill(fill);
-            self.surface.set_stroke(stroke);
-            self.surface.draw_path(&outline);
-        }
-    }
-
-    fn text(&mut self, text: &usvg::Text) {
-        if tree::foreign(text) {
-            self.group(text.flattened());
-            return;
-        }
-        for span in text.layouted() {
-            let (fill, stroke) = (
-                span.fill.as_ref().and_then(fill),
-                span.stroke.as_ref().and_then(stroke),
-            );
-            for run in tree::runs(span) {
-                let Some(font) = self.font(run.face) else {
-                    continue;
-                };
-                for (fill, stroke) in passes(fill.clone(), stroke.clone(), span.paint_order) {
-                    // Draw the halo around letters as outlines. Otherwise the document would contain the text twice.
-                    let outlined = fill.is_none();
-                    self.surface.set_fill(fill);
-                    self.surface.set_stroke(stroke);
-                    self.run(&run, font.clone(), outlined);
-                }
-            }
-        }
-    }
-
-    fn run(&mut self, run: &tree::Run, font: Font, outlined: bool) {
-        let mut words = String::new();
-        let mut glyphs = Vec::with_capacity(run.glyphs.len());
-        let Some(first) = run.glyphs.first() else {
-            return;
-        };
-        for (number, placed) in run.glyphs.iter().enumerate() {
-            let begin = words.len();
-            words.push_str(&placed.characters);
-            let next = run.glyphs.get(number + 1).map(|n| n.at.0 - placed.at.0);
-            glyphs.push(KrillaGlyph::new(
-                GlyphId::new(u32::from(placed.glyph)),
-                (next.unwrap_or(0.0) / run.size) as f32,
-                0.0,
-                ((first.at.1 - placed.at.1) / run.size) as f32,
-                0.0,
-                begin..words.len(),
-                None,
-            ));
-        }
-        let at = Point::from_xy(first.at.0 as f32, first.at.1 as f32);
-        let size = run.size as f32;
-        self.surface
-            .draw_glyphs(at, &glyphs, font, &words, size, outlined);
-    }
-
-    fn font(&mut self, face: Face) -> Option<Font> {
-        if let Some((_, font)) = self.fonts.iter().find(|(of, _)| *of == face) {
-            return Some(font.clone());
-        }
-        let font = Font::new(face.data().into(), 0)?;
-        self.fonts.push((face, font.clone()));
-        Some(font)
-    }
 }

@@ -96,59 +96,24 @@ impl Layout {
             Some(width) => MAX_GAP.0.min(MAX_GAP.1 * width),
             None => MAX_GAP.0,
         };
-        let count = count.max(1);
-        let room = |columns| room(across, gap, columns);
-        let scale = |columns| Layout::scale(context, room(columns), columns, count);
-        let columns = match context.options.columns {
-            Some(columns) => columns.clamp(1, count),
-            None => {
-                // If the rows may fill several pages, panels may have a small scale, but they must not be narrow.
-                let fits = |columns: usize| {
-                    (fit == Fit::Rows || scale(columns) * context.unit >= MIN_UNIT_EDGE)
-                        && room(columns) >= MIN_PANEL_WIDTH.min(across)
-                };
-                let most = match count {
-                    1..=3 => count,
-                    4 => 2,
-                    _ => 3,
-                };
-                let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
-                let high = |columns: usize| {
-                    let words = words(context, count, room(columns)) + VERDICT_HEIGHT;
-                    let panel = context.view.height() * scale(columns) + words;
-                    count.div_ceil(columns) as f64 * panel
-                };
-                let page = if across < PRINT_COLUMN {
-                    MAX_COLUMN_RATIO
-                } else {
-                    MAX_PAGE_RATIO
-                };
-                // If the figure is too high for a page, use the least number of columns with which it fits. If there is
-                // none, use the number with the least height.
-                let narrow = roomy + 1..=count.min(MAX_COLUMNS);
-                let narrow = || {
-                    narrow
-                        .clone()
-                        .filter(|c| room(*c) >= MIN_NARROW_PANEL_WIDTH)
-                };
-                if fit == Fit::Rows || high(roomy) <= page * across {
-                    roomy
-                } else {
-                    let enough = narrow().find(|c| high(*c) <= page * across);
-                    let least = narrow().min_by(|a, b| high(*a).total_cmp(&high(*b)));
-                    let least = least.filter(|c| high(*c) < high(roomy));
-                    enough.or(least).unwrap_or(roomy)
-                }
-            }
+        let row = Row {
+            context,
+            count: count.max(1),
+            across,
+            gap,
         };
-        let scale = scale(columns);
-        let least = if count == 1 {
+        let columns = match context.options.columns {
+            Some(columns) => columns.clamp(1, row.count),
+            None => row.columns(fit),
+        };
+        let scale = row.scale(columns);
+        let least = if row.count == 1 {
             1.6 * MIN_PANEL_WIDTH
         } else {
             MIN_PANEL_WIDTH
         };
         let dimensions = dimensions(context);
-        let panel = (context.view.width() * scale + dimensions).max(least.min(room(columns)));
+        let panel = (context.view.width() * scale + dimensions).max(least.min(row.room(columns)));
         let between = (columns - 1) as f64 * gap;
         Layout {
             margin,
@@ -159,8 +124,70 @@ impl Layout {
             scale,
         }
     }
+}
 
-    fn scale(context: &FigureContext<'_>, room: f64, columns: usize, count: usize) -> f64 {
+/// A row of panels whose number of columns is not decided yet.
+struct Row<'a> {
+    context: &'a FigureContext<'a>,
+    /// The number of panels of the figure.
+    count: usize,
+    /// The width of the row, pixels.
+    across: f64,
+    /// The gap between columns, pixels.
+    gap: f64,
+}
+
+impl Row<'_> {
+    /// Returns the width available for each panel, pixels.
+    fn room(&self, columns: usize) -> f64 {
+        ((self.across - (columns - 1) as f64 * self.gap) / columns as f64).max(1.0)
+    }
+
+    /// Returns the number of columns. It is the largest at which panels are not too small. If the figure is then too
+    /// high for a page, it is the least number of columns with which the figure fits; if there is none, the number with
+    /// the least height.
+    fn columns(&self, fit: Fit) -> usize {
+        let (count, across) = (self.count, self.across);
+        // If the rows may fill several pages, panels may have a small scale, but they must not be narrow.
+        let fits = |columns: usize| {
+            (fit == Fit::Rows || self.scale(columns) * self.context.unit >= MIN_UNIT_EDGE)
+                && self.room(columns) >= MIN_PANEL_WIDTH.min(across)
+        };
+        let most = match count {
+            1..=3 => count,
+            4 => 2,
+            _ => 3,
+        };
+        let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
+        let page = if across < PRINT_COLUMN {
+            MAX_COLUMN_RATIO
+        } else {
+            MAX_PAGE_RATIO
+        };
+        if fit == Fit::Rows || self.height(roomy) <= page * across {
+            return roomy;
+        }
+        let more = roomy + 1..=count.min(MAX_COLUMNS);
+        let more = more.filter(|c| self.room(*c) >= MIN_NARROW_PANEL_WIDTH);
+        let more: Vec<usize> = more.collect();
+        let high = |columns: &usize| self.height(*columns);
+        let enough = more.iter().find(|c| high(c) <= page * across);
+        let least = more.iter().min_by(|a, b| high(a).total_cmp(&high(b)));
+        let least = least.filter(|c| high(c) < high(&roomy));
+        enough.or(least).copied().unwrap_or(roomy)
+    }
+
+    /// Returns the height of all rows of the figure, pixels.
+    fn height(&self, columns: usize) -> f64 {
+        let words = words(self.context, self.count, self.room(columns)) + VERDICT_HEIGHT;
+        let panel = self.context.view.height() * self.scale(columns) + words;
+        self.count.div_ceil(columns) as f64 * panel
+    }
+
+    /// Returns the scale of the panels, pixels per metre.
+    fn scale(&self, columns: usize) -> f64 {
+        let (context, count) = (self.context, self.count);
+        let room = self.room(columns);
         let rows = count.div_ceil(columns);
         let high = match (count, rows) {
             (1, _) => 640.0,
@@ -208,9 +235,4 @@ fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
 /// Returns the margin of a figure on a page of this width, pixels.
 fn margin(width: f64) -> f64 {
     (0.025 * width).min(MAX_MARGIN)
-}
-
-/// Returns the width available for each of several panels next to each other, pixels. `across` is the width of the row.
-fn room(across: f64, gap: f64, columns: usize) -> f64 {
-    ((across - (columns - 1) as f64 * gap) / columns as f64).max(1.0)
 }

@@ -104,7 +104,7 @@ impl PanelContent for CollapseMargin {
             }
             let ghosts = Group::with_class("ghosts").titled("How it would begin to fall");
             parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
-            parts.extend(mechanism::joint_marks(&pen, &ghost, &mut ink));
+            parts.extend(mechanism::joint_marks(pen, &ghost, &mut ink));
             if let Some(gravity) = gravity(context.analysis, frame, edge, toward) {
                 let [from, now, there] =
                     [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));

@@ -21,6 +21,7 @@ use super::view;
 use super::words::{letter, listed, round_below};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
+use crate::drawing::placement::Ink;
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::BodyId;
@@ -88,70 +89,27 @@ impl PanelContent for ForcePolygon {
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let marks = &context.marks[frame];
+        let scene = &pen.context.analysis.scene;
         let mut ink = label::ink(pen);
-        let mut polygon = Group::with_class("polygon").titled("Force polygon");
-        if let Some(chain) = chain(context.analysis, frame, marks) {
-            let theme = &context.options.theme;
-            for (arrow, ends) in outer(marks).zip(&chain.sides) {
-                let from = camera.place(ends[0]);
-                let along = camera.turn(ends[1] - ends[0]);
-                ink.arrow(from, along, pen.width(arrow));
-                let outline = straight(from, along, pen.width(arrow));
-                let path = if arrow.kind.is_failure() {
-                    missing(outline, arrow.colour, theme)
-                } else {
-                    Path::filled(outline, arrow.colour)
-                };
-                let title = description::arrow(context, arrow);
-                let drawn = Group::with_class("force").titled(title).with(path);
-                polygon.items.push(drawn.into());
-            }
-            let closed = closed(marks);
-            let ends = [
-                chain.sides.last().map(|s| s[1]),
-                chain.sides.first().map(|s| s[0]),
-            ];
-            // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open
-            // polygon the second join would look like the gap.
-            let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
-            for join in joins {
-                let line = Outline::line(join.map(|p| camera.place(p)));
-                let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
-                let drawn = Group::with_class("join").titled("One place, drawn as two");
-                polygon
-                    .items
-                    .push(drawn.with(Path::stroked(line, stroke)).into());
-            }
-            if let ([Some(last), Some(first)], false) = (ends, closed) {
-                let gap = Outline::line([last, first].map(|p| camera.place(p)));
-                let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
-                let drawn = Group::with_class("gap").titled("What is missing for a balance");
-                polygon
-                    .items
-                    .push(drawn.with(Path::stroked(gap, stroke)).into());
-            }
-        }
+        let polygon = drawn_polygon(pen, &mut ink);
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
         // Cut the ground before the polygon, so that the polygon does not seem to stand on it.
-        let shown =
-            view::ground_shown(&context.analysis.scene, unit(&context.analysis.scene, None));
-        if let Some(shown) = shown {
-            let mut beyond = camera.rect(shown);
-            let right = beyond.at.x + beyond.width;
-            let page = camera.rect(view);
-            beyond.at.x = right;
-            beyond.width = (page.at.x + page.width - right).max(0.0);
-            ink.rect(beyond);
-        }
+        let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {
+            return composed(pen, view, pen.blocks(), parts, ink);
+        };
+        let mut beyond = pen.camera.rect(shown);
+        let right = beyond.at.x + beyond.width;
+        let page = pen.camera.rect(view);
+        beyond.at.x = right;
+        beyond.width = (page.at.x + page.width - right).max(0.0);
+        ink.rect(beyond);
         let mut picture = composed(pen, view, pen.blocks(), parts, ink);
         for item in &mut picture.items {
-            if let (Item::Group(group), Some(shown)) = (item, shown)
+            if let Item::Group(group) = item
                 && group.class == "ground"
                 && let Some(clip) = &mut group.clip
             {
-                let right = camera.place(Point::new(shown.max.x, shown.max.y)).x;
+                let right = pen.camera.place(Point::new(shown.max.x, shown.max.y)).x;
                 clip.width = clip.width.min(right - clip.at.x).max(0.0);
             }
         }
@@ -201,6 +159,52 @@ impl PanelContent for ForcePolygon {
             format!("{how}; {why}")
         }
     }
+}
+
+/// Draws the polygon of a frame: its sides, and dashed lines between the ends that do not meet.
+fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
+    let (context, camera) = (pen.context, pen.camera);
+    let theme = &context.options.theme;
+    let marks = &context.marks[pen.number];
+    let mut polygon = Group::with_class("polygon").titled("Force polygon");
+    let Some(chain) = chain(context.analysis, pen.number, marks) else {
+        return polygon;
+    };
+    for (arrow, ends) in outer(marks).zip(&chain.sides) {
+        let from = camera.place(ends[0]);
+        let along = camera.turn(ends[1] - ends[0]);
+        ink.arrow(from, along, pen.width(arrow));
+        let outline = straight(from, along, pen.width(arrow));
+        let path = if arrow.kind.is_failure() {
+            missing(outline, arrow.colour, theme)
+        } else {
+            Path::filled(outline, arrow.colour)
+        };
+        let title = description::arrow(context, arrow);
+        let drawn = Group::with_class("force").titled(title).with(path);
+        polygon.items.push(drawn.into());
+    }
+    let dashed = |class, title, ends: [Point; 2], stroke| -> Item {
+        let line = Outline::line(ends.map(|p| camera.place(p)));
+        let drawn = Group::with_class(class).titled(title);
+        drawn.with(Path::stroked(line, stroke)).into()
+    };
+    // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open polygon the
+    // second join would look like the gap.
+    let closed = closed(marks);
+    for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
+        let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
+        let title = "One place, drawn as two";
+        polygon.items.push(dashed("join", title, *join, stroke));
+    }
+    let ends = (chain.sides.last(), chain.sides.first());
+    if let ((Some(last), Some(first)), false) = (ends, closed) {
+        let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
+        let title = "What is missing for a balance";
+        let gap = [last[1], first[0]];
+        polygon.items.push(dashed("gap", title, gap, stroke));
+    }
+    polygon
 }
 
 /// Reactions are drawn next to the actions if they are nearer to them than this share of the polygon's size.

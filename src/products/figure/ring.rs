@@ -5,7 +5,8 @@ use core::f64::consts::TAU;
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
-    Anchor, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text, Theme,
+    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text,
+    Theme,
 };
 
 /// Width of the page, pixels.
@@ -21,57 +22,20 @@ const WORDS: f64 = 14.0;
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {
     let centre = PagePoint::new(PAGE / 2.0, 30.0 + RING.1);
-    let count = theme.arrows.len().max(1);
-    let sweep = TAU / count as f64;
     let mut items: Vec<Item> = Vec::new();
-    for (entry, colour) in theme.arrows.iter().enumerate() {
-        let from = sweep * entry as f64;
-        // With n colours, block i has entry i mod n, so the first block has the second colour.
-        let first = if entry == 0 { count } else { entry };
-        let blocks = format!("{first}, {}, …", first + count);
-        let sector = Path::filled(sector(centre, from, sweep), *colour)
-            .with_stroke(Stroke::new(theme.page, 2.0));
-        let middle = from + sweep / 2.0;
-        let on = polar(centre, (RING.0 + RING.1) / 2.0, middle);
-        let ink = theme.letters_on(*colour, None);
-        let words = Text::new(
-            on.moved(0.0, 0.36 * WORDS),
-            blocks.as_str(),
-            Face::SansBold,
-            12.0,
-            ink,
-        );
-        items.push(
-            Group::with_class("sector")
-                .titled(format!("Blocks {blocks} wear {}", colour.css()))
-                .with(sector)
-                .with(words.anchored(Anchor::Middle))
-                .into(),
-        );
+    for entry in 0..theme.arrows.len() {
+        items.push(labelled_sector(centre, entry, theme).into());
     }
     let line = |y: f64, words: &str| -> Item {
-        Text::new(
-            PagePoint::new(centre.x, y),
-            words,
-            Face::Sans,
-            WORDS,
-            theme.faint,
-        )
-        .anchored(Anchor::Middle)
-        .into()
+        let at = PagePoint::new(centre.x, y);
+        Text::new(at, words, Face::Sans, WORDS, theme.faint)
+            .anchored(Anchor::Middle)
+            .into()
     };
     items.push(line(centre.y - 0.15 * WORDS, "forces on"));
     items.push(line(centre.y + 1.05 * WORDS, "blocks"));
     let mut y = centre.y + RING.1 + 40.0;
-    let robots = theme.robots.len();
-    for (number, colour) in theme.robots.iter().enumerate() {
-        let x = centre.x + (number as f64 - (robots as f64 - 1.0) / 2.0) * 40.0;
-        let disc = Path::filled(Outline::circle(PagePoint::new(x, y), 13.0), *colour)
-            .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
-        let robot =
-            Group::with_class("robot").titled(format!("Robot {number} wears {}", colour.css()));
-        items.push(robot.with(disc).into());
-    }
+    items.extend(robots(PagePoint::new(centre.x, y), theme));
     y += 32.0;
     items.push(line(y, "robots, over and over"));
     y += 30.0;
@@ -91,6 +55,41 @@ pub fn ring(theme: &Theme) -> Drawing {
         background: Some(theme.page),
         items,
     }
+}
+
+/// Draws the sector of a colour with the numbers of its first blocks.
+fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
+    let count = theme.arrows.len();
+    let colour = theme.arrows[entry];
+    let sweep = TAU / count as f64;
+    let from = sweep * entry as f64;
+    // With n colours, block i has entry i mod n, so the first block has the second colour.
+    let first = if entry == 0 { count } else { entry };
+    let blocks = format!("{first}, {}, …", first + count);
+    let sector = Path::filled(sector(centre, from, sweep), colour);
+    let middle = from + sweep / 2.0;
+    let at = polar(centre, (RING.0 + RING.1) / 2.0, middle).moved(0.0, 0.36 * WORDS);
+    let ink = theme.letters_on(colour, None);
+    let words = Text::new(at, blocks.as_str(), Face::SansBold, 12.0, ink);
+    Group::with_class("sector")
+        .titled(format!("Blocks {blocks} wear {}", colour.css()))
+        .with(sector.with_stroke(Stroke::new(theme.page, 2.0)))
+        .with(words.anchored(Anchor::Middle))
+}
+
+/// Draws the discs of robots in a row about `centre`.
+fn robots(centre: PagePoint, theme: &Theme) -> Vec<Item> {
+    let count = theme.robots.len() as f64;
+    let disc = |(number, colour): (usize, &Colour)| {
+        let x = (number as f64 - (count - 1.0) / 2.0) * 40.0;
+        let disc = Path::filled(Outline::circle(centre.moved(x, 0.0), 13.0), *colour)
+            .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
+        Group::with_class("robot")
+            .titled(format!("Robot {number} wears {}", colour.css()))
+            .with(disc)
+            .into()
+    };
+    theme.robots.iter().enumerate().map(disc).collect()
 }
 
 fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {

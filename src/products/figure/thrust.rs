@@ -6,16 +6,17 @@
 
 mod chain;
 mod fan;
+mod line;
+mod state;
 
 use fan::Fans;
+use line::{carried_colour, colour, dot_sign, dots, lines, schematic_colour, seams, widest, width};
+use state::{central, limit_entries, limits, one_of_many, other_figures};
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
-use super::bearing::bearings;
-use super::by_colour::ByColour;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
-use super::description;
-use super::funicular::{ForceOrigin, ThrustSegment, segments};
+use super::funicular::segments;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
@@ -23,27 +24,11 @@ use super::option::{ArrowScale, Options};
 use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
-use super::words::{force, quantity};
-use crate::analysis::{
-    Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict,
-};
-use crate::drawing::placement::Ink;
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use super::words::quantity;
+use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
+use crate::drawing::Group;
 use crate::geometry::Bounds;
-use crate::interface::ContactKind;
-use crate::scene::{BodyId, Frame, Scene};
-
-/// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
-const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
-/// Width of the line of a force of zero, as a share of the largest width.
-const MIN_WIDTH_SHARE: f64 = 0.22;
-/// Number of widths if lines of many blocks are joined into few paths.
-const WIDTH_STEPS: f64 = 8.0;
-
-/// Width of the lines of least and of greatest thrust, pixels, and their dashes.
-const THIN: f64 = 1.3;
-const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
-const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
+use crate::scene::{Frame, Scene};
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;
@@ -259,273 +244,4 @@ fn polygon_note(context: &FigureContext<'_>) -> &'static str {
         }
         false => "no force polygon: no chain of blocks that stands has a thrust",
     }
-}
-
-fn colour(theme: &Theme) -> Colour {
-    theme.motion
-}
-
-/// Returns the colour of schematic lines.
-fn schematic_colour(theme: &Theme) -> Colour {
-    theme.page.mixed(theme.motion, 0.45)
-}
-
-/// Returns the colour of what a frame that does not stand carries: weaker than a line of equilibrium, visible in print.
-fn carried_colour(theme: &Theme) -> Colour {
-    theme.block.mixed(theme.faint, 0.7)
-}
-
-fn widest(unit: f64) -> f64 {
-    let (width, least, most) = LARGEST_WIDTH;
-    (width * unit).clamp(least, most)
-}
-
-/// Returns the width of a segment, pixels.
-fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
-    let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
-    let share = share.min(1.0);
-    widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
-}
-
-/// Formats the horizontal thrust of a state (N): `, horizontal thrust 28.3 kN`. Empty for several frames, whose thrusts
-/// differ.
-fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
-    if context.analysis.frames.len() == 1 {
-        format!(", horizontal thrust {}", quantity(thrust, "N"))
-    } else {
-        String::new()
-    }
-}
-
-/// Returns the thrust states of all frames.
-fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
-    (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
-}
-
-/// Returns the text of the legend on the thrust of the most central line; `None` if no frame shows this line.
-fn central(context: &FigureContext<'_>) -> Option<String> {
-    let state = families(context).find_map(|family| family.central.as_ref())?;
-    Some(amount_in_words(context, state.thrust))
-}
-
-/// Returns the legend entries for the lines of least and greatest thrust.
-fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
-    let least = families(context).find_map(|family| family.least.as_ref());
-    let greatest = families(context).find_map(|family| family.greatest.as_ref());
-    let entry = |state: Option<&ThrustState>, sign: fn(PagePoint, &Theme) -> Vec<Item>, name| {
-        let words = amount_in_words(context, state?.thrust);
-        let words = words.replace(", horizontal thrust", "");
-        Some(Entry::Sign(sign, 26.0, format!("{name}{words}")))
-    };
-    [
-        entry(least, least_sign, "least thrust"),
-        entry(greatest, greatest_sign, "greatest thrust"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
-/// Returns a note that other figures show another state of the frame; `None` if no states of least thrust are known.
-fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
-    let family = context.thrust_states(frame);
-    family.least.as_ref()?;
-    let present = quantity(family.present, "N");
-    Some(format!(
-        "other figures show the forces of least sum, with a horizontal thrust of {present}"
-    ))
-}
-
-/// Names the state that a frame without a family of lines shows; `None` if balance alone fixes all forces.
-fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
-    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let unknowns = |contact: &Contact| match contact.interface.kind {
-        ContactKind::Corner => 2,
-        _ => 3,
-    };
-    let contacts: usize = found.contacts.iter().map(unknowns).sum();
-    let unknowns = contacts + 3 * found.robots.len();
-    (unknowns > 3 * scene.frames[frame].placed.len())
-        .then(|| "the line shown is that of the forces of least sum".to_owned())
-}
-
-/// Draws thin lines of least and of greatest thrust.
-fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Group; 2] {
-    let scene = &pen.context.analysis.scene;
-    let states = [
-        (&family.least, "thrust-least", "Least thrust", LEAST_DASHES),
-        (
-            &family.greatest,
-            "thrust-greatest",
-            "Greatest thrust",
-            GREATEST_DASHES,
-        ),
-    ];
-    states.map(|(state, class, name, dashes)| {
-        let Some(state) = state else {
-            return Group::default();
-        };
-        let mut outline = Outline::default();
-        for piece in segments(scene, &scene.frames[pen.number], &state.frame) {
-            let [from, to] = [piece.from, piece.to].map(|p| pen.camera.place(p));
-            ink.line(from, to, THIN);
-            outline.extend(Outline::line([from, to]));
-        }
-        let thrust = quantity(state.thrust, "N");
-        let title = format!("{name}: {thrust} horizontally");
-        let group = Group::with_class(class).titled(title);
-        group.with(thin(outline, dashes, &pen.context.options.theme))
-    })
-}
-
-fn thin(outline: Outline, dashes: [f64; 2], theme: &Theme) -> Path {
-    let colour = colour(theme).mixed(theme.ink, 0.45);
-    Path::stroked(outline, Stroke::new(colour, THIN).dashed(dashes))
-}
-
-fn least_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(26.0, 0.0)]);
-    vec![thin(line, LEAST_DASHES, theme).into()]
-}
-
-fn greatest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(26.0, 0.0)]);
-    vec![thin(line, GREATEST_DASHES, theme).into()]
-}
-
-/// Draws every interface as a line.
-fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let theme = &pen.context.options.theme;
-    let mut outline = Outline::default();
-    for contact in &found.contacts {
-        outline.extend(Outline::line(
-            contact.interface.ends.map(|p| pen.camera.place(p)),
-        ));
-    }
-    let stroke = Stroke::new(theme.outline.mixed(theme.ink, 0.4), 1.3 * pen.line);
-    let seams = Group::with_class("interfaces").titled("Interfaces");
-    if outline.segments.is_empty() {
-        return Group::default();
-    }
-    seams.with(Path::stroked(outline, stroke))
-}
-
-/// Draws the line of thrust: first its schematic parts, above them its true lines of action.
-fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[ThrustSegment]) -> Group {
-    let mut group = Group::with_class("thrust");
-    for through in [false, true] {
-        let mut alike = segments.iter().filter(|s| s.through == through).peekable();
-        if alike.peek().is_none() {
-            continue;
-        }
-        if pen.many() {
-            group.items.extend(joined_lines(pen, found, alike, through));
-            continue;
-        }
-        for segment in alike {
-            let class = if through { "force" } else { "schematic" };
-            let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
-            let drawn = Group::with_class(class)
-                .titled(title(scene, found, segment))
-                .with(stroked(pen, found, line, width(pen, segment), through));
-            group.items.push(drawn.into());
-        }
-    }
-    group
-}
-
-/// Returns a line of this width in pixels, grey if the frame does not stand. `through` is false for schematic lines.
-fn stroked(
-    pen: &Pen<'_>,
-    found: &FrameAnalysis,
-    outline: Outline,
-    width: f64,
-    through: bool,
-) -> Path {
-    let theme = &pen.context.options.theme;
-    let colour = match found.verdict {
-        Verdict::Stable if through => colour(theme),
-        Verdict::Stable => schematic_colour(theme),
-        _ => carried_colour(theme),
-    };
-    Path::stroked(outline, Stroke::new(colour, width))
-}
-
-/// Draws the segments of very many blocks as few paths: one for all segments of about the same width.
-fn joined_lines<'s>(
-    pen: &Pen<'_>,
-    found: &FrameAnalysis,
-    segments: impl Iterator<Item = &'s ThrustSegment>,
-    through: bool,
-) -> Vec<Item> {
-    let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
-    let most = widest(pen.unit());
-    for segment in segments {
-        let step = (WIDTH_STEPS * width(pen, segment) / most).round() as usize;
-        let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
-        steps[step.min(WIDTH_STEPS as usize)].extend(line);
-    }
-    let drawn = steps.into_iter().enumerate();
-    let drawn = drawn.filter(|(_, outline)| !outline.segments.is_empty());
-    drawn
-        .map(|(step, outline)| {
-            let width = most * step as f64 / WIDTH_STEPS;
-            stroked(pen, found, outline, width, through).into()
-        })
-        .collect()
-}
-
-/// Describes a segment of the line: the block, the origin of the force and its magnitude.
-fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
-    let on = &scene.blocks[segment.on.0].id;
-    let by = match segment.origin {
-        ForceOrigin::Contact(number) => {
-            let [a, b] = found.contacts[number].interface.bodies;
-            let other = if a == BodyId::Block(segment.on) { b } else { a };
-            description::named(scene, other)
-        }
-        ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
-        ForceOrigin::Load(_) => "a load".to_owned(),
-        ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
-    };
-    let force = force(segment.force);
-    if segment.through {
-        format!("Force on block {on} from {by}: {force}")
-    } else {
-        format!("Schematic path through block {on} of the force from {by}: {force}")
-    }
-}
-
-/// Draws a dot at the point of action of each interface's resultant. Calls `ink` with the position and the radius in
-/// pixels of each dot.
-fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
-    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
-    let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
-    let mut group = Group::with_class("resultants");
-    let mut joined = ByColour::default();
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
-        if bearing.is_none() {
-            continue;
-        }
-        let at = pen.camera.place(contact.resultant.at);
-        ink(at, radius);
-        if pen.many() {
-            joined.add(theme.ink, Outline::circle(at, radius));
-            continue;
-        }
-        let pair = description::pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.resultant.force.norm(), "N");
-        let dot = Group::with_class("resultant").titled(format!("Between {pair}: {amount}"));
-        group.items.push(dot.with(dot_at(at, radius, theme)).into());
-    }
-    group.items.extend(joined.paths(None));
-    group
-}
-
-fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
-}
-
-fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
 }

@@ -198,68 +198,107 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 
 /// Draws the lines of interfaces without force, and of interfaces with force.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
-    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
-    let bold = bold(pen.unit());
+    let scene = &pen.context.analysis.scene;
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
+    let bearings = found.contacts.iter().zip(bearings(scene, found));
+    if pen.many() {
+        joined_interfaces(pen, bearings, &mut idle, &mut used);
+        return (idle, used);
+    }
+    for (contact, bearing) in bearings {
+        match bearing {
+            Some(bearing) => used
+                .items
+                .push(used_interface(pen, contact, &bearing).into()),
+            None => idle.items.push(idle_interface(pen, contact).into()),
+        }
+    }
+    (idle, used)
+}
+
+/// Draws the interfaces of very many blocks as few paths: one for each colour, without titles.
+fn joined_interfaces<'c>(
+    pen: &Pen<'_>,
+    bearings: impl Iterator<Item = (&'c Contact, Option<Bearing>)>,
+    idle: &mut Group,
+    used: &mut Group,
+) {
+    let theme = &pen.context.options.theme;
+    let bold = bold(pen.unit());
     let mut lines = ByColour::default();
     let (mut edges, mut bars, mut dashes) =
         (Outline::default(), Outline::default(), Outline::default());
-    let rim = (0.16 * bold).clamp(0.4, 0.9);
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
-        let line = Outline::line(contact.interface.ends.map(|p| pen.camera.place(p)));
-        let pair = description::pair(scene, contact.interface.bodies);
+    for (contact, bearing) in bearings {
+        let line = line_of(pen, contact);
         let Some(bearing) = bearing else {
-            if pen.many() {
-                dashes.extend(line);
-            } else {
-                let drawn =
-                    Group::with_class("interface").titled(format!("Between {pair}: no force"));
-                let path = Path::stroked(line, idle_stroke(theme, bold));
-                idle.items.push(drawn.with(path).into());
-            }
+            dashes.extend(line);
             continue;
         };
-        let bar = full(&bearing).then(|| Outline::line(across(pen, contact)));
-        if pen.many() {
-            edges.extend(line.clone());
-            lines.add(colour(&bearing, theme), line);
-            bars.extend(bar.unwrap_or_default());
-            continue;
+        edges.extend(line.clone());
+        lines.add(colour(&bearing, theme), line);
+        if full(&bearing) {
+            bars.extend(Outline::line(across(pen, contact)));
         }
-        let pressed = quantity(bearing.pressed, "N");
-        let title = match bearing.friction {
-            Some(share) => format!(
-                "Between {pair}: {} of the friction available, {} under {pressed}",
-                percent(share),
-                quantity(contact.friction_force.abs(), "N"),
-            ),
-            None => format!("Between {pair}: {pressed}, no friction available"),
-        };
-        let mut drawn = Group::with_class("interface")
-            .titled(title)
-            .with(rimmed(line.clone(), bold, rim, theme))
-            .with(Path::stroked(
-                line,
-                Stroke::new(colour(&bearing, theme), bold),
-            ));
-        if let Some(bar) = bar {
-            drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))));
-        }
-        used.items.push(drawn.into());
     }
     if !dashes.segments.is_empty() {
         let path = Path::stroked(dashes, idle_stroke(theme, bold));
         idle.items.push(path.into());
     }
     if !edges.segments.is_empty() {
-        used.items.push(rimmed(edges, bold, rim, theme).into());
+        used.items
+            .push(rimmed(edges, bold, rim(bold), theme).into());
     }
     used.items.extend(lines.lines(bold));
     if !bars.segments.is_empty() {
         let path = Path::stroked(bars, Stroke::new(theme.ink, bar_width(bold)));
         used.items.push(path.into());
     }
-    (idle, used)
+}
+
+fn line_of(pen: &Pen<'_>, contact: &Contact) -> Outline {
+    Outline::line(contact.interface.ends.map(|p| pen.camera.place(p)))
+}
+
+/// Draws an interface without force.
+fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let pair = description::pair(scene, contact.interface.bodies);
+    let path = Path::stroked(line_of(pen, contact), idle_stroke(theme, bold(pen.unit())));
+    Group::with_class("interface")
+        .titled(format!("Between {pair}: no force"))
+        .with(path)
+}
+
+/// Draws an interface with force in the colour of its friction used.
+fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group {
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let bold = bold(pen.unit());
+    let pair = description::pair(scene, contact.interface.bodies);
+    let pressed = quantity(bearing.pressed, "N");
+    let title = match bearing.friction {
+        Some(share) => format!(
+            "Between {pair}: {} of the friction available, {} under {pressed}",
+            percent(share),
+            quantity(contact.friction_force.abs(), "N"),
+        ),
+        None => format!("Between {pair}: {pressed}, no friction available"),
+    };
+    let line = line_of(pen, contact);
+    let coloured = Stroke::new(colour(bearing, theme), bold);
+    let drawn = Group::with_class("interface")
+        .titled(title)
+        .with(rimmed(line.clone(), bold, rim(bold), theme))
+        .with(Path::stroked(line, coloured));
+    if !full(bearing) {
+        return drawn;
+    }
+    let bar = Outline::line(across(pen, contact));
+    drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))))
+}
+
+/// Returns the width of the border of a line, pixels.
+fn rim(bold: f64) -> f64 {
+    (0.16 * bold).clamp(0.4, 0.9)
 }
 
 fn bar_width(bold: f64) -> f64 {

@@ -1,0 +1,75 @@
+//! [`entries`]: the legend of force flow.
+
+use super::super::context::FigureContext;
+use super::super::legend::{self, Entry};
+use super::super::option::ArrowScale;
+use super::super::words::{quantity, round_below};
+use super::strand::{Strand, StrandKind, strands};
+use super::{LEAST_WIDTH, MANY_STRANDS, carried, colour, dot_sign, largest, widest};
+use crate::analysis::Verdict;
+
+/// Returns the entries of the legend. `unit` is the unit edge in pixels.
+pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+    let scene = &*context.analysis.scene;
+    let frames = || scene.frames.iter().zip(&context.analysis.frames);
+    let all: Vec<(Verdict, Strand)> = frames()
+        .flat_map(|(frame, found)| {
+            let strands = strands(scene, frame, found, 0.0).into_iter();
+            strands.map(|strand| (found.verdict, strand))
+        })
+        .collect();
+    let mut entries = Vec::new();
+    if context.options.scale == ArrowScale::Strip {
+        entries.extend(legend::shared_scale(context, unit));
+    }
+    entries.extend(bands(context, unit, &all));
+    let most = scene.frames.iter().map(|f| f.placed.len()).max();
+    if !all.is_empty() && most.unwrap_or(0) <= MANY_STRANDS {
+        let words = "resultant of a joint".to_owned();
+        entries.push(Entry::Sign(dot_sign, 8.0, words));
+    }
+    entries.extend(legend::limits(context));
+    entries.extend(legend::loads(context));
+    entries.extend(legend::robots(context));
+    if all.iter().any(|s| !s.1.exact) {
+        let words = "inside a block the lines are schematic; widths are exact".to_owned();
+        entries.push(Entry::Note(words));
+    }
+    entries
+}
+
+/// Returns the legend entries for the bands. `all` are the strands of the figure with the verdicts of their frames.
+/// `unit` is the unit edge in pixels.
+fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> Vec<Entry> {
+    let theme = &context.options.theme;
+    let mut entries = Vec::new();
+    let any = |kind: StrandKind| all.iter().find(|s| s.1.kind == kind).map(|s| s.0);
+    let largest = largest(context);
+    let amount = round_below(largest);
+    if let Some(verdict) = any(StrandKind::Carried).or(any(StrandKind::Weight)) {
+        let width = widest(unit) * amount / largest.max(f64::MIN_POSITIVE);
+        let what = match verdict {
+            Verdict::Stable => "force",
+            _ => "what is carried",
+        };
+        let thin = LEAST_WIDTH / widest(unit) * largest;
+        let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
+        let least = match all.iter().any(|s| thinner(&s.1)) {
+            true => format!(", equally thin under {}", quantity(thin, "N")),
+            false => String::new(),
+        };
+        let words = format!("{what}, this wide for {}{least}", quantity(amount, "N"));
+        entries.push(Entry::Line(carried(theme, verdict), width, words));
+    }
+    if let Some(verdict) = any(StrandKind::Weight) {
+        let light = colour(theme, verdict, StrandKind::Weight);
+        entries.push(Entry::Line(light, 2.5, "weight".into()));
+    }
+    if any(StrandKind::Missing).is_some() {
+        let red = colour(theme, Verdict::Unstable, StrandKind::Missing);
+        let words = "what cannot be carried".to_owned();
+        entries.push(Entry::Line(red, 4.0, words));
+        entries.push(Entry::Missing);
+    }
+    entries
+}

@@ -1,0 +1,194 @@
+//! Draws a line of thrust, the joints and the dots at the points of action of their forces.
+
+use super::super::bearing::bearings;
+use super::super::by_colour::ByColour;
+use super::super::description;
+use super::super::funicular::{ForceOrigin, ThrustSegment};
+use super::super::pen::Pen;
+use super::super::words::{force, quantity};
+use super::largest;
+use crate::analysis::{FrameAnalysis, Verdict};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::scene::{BodyId, Scene};
+
+/// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
+const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
+/// Width of the line of a force of zero, as a share of the largest width.
+const MIN_WIDTH_SHARE: f64 = 0.22;
+/// Number of widths if lines of many blocks are joined into few paths.
+const WIDTH_STEPS: f64 = 8.0;
+
+/// Returns the colour of the line.
+pub(super) fn colour(theme: &Theme) -> Colour {
+    theme.motion
+}
+
+/// Returns the colour of schematic lines.
+pub(super) fn schematic_colour(theme: &Theme) -> Colour {
+    theme.page.mixed(theme.motion, 0.45)
+}
+
+/// Returns the colour of what a frame that does not stand carries: weaker than a line of equilibrium, visible in print.
+pub(super) fn carried_colour(theme: &Theme) -> Colour {
+    theme.block.mixed(theme.faint, 0.7)
+}
+
+/// Returns the width of the line of the largest force, for a unit edge of this length; both in pixels.
+pub(super) fn widest(unit: f64) -> f64 {
+    let (width, least, most) = LARGEST_WIDTH;
+    (width * unit).clamp(least, most)
+}
+
+/// Returns the width of a segment, pixels.
+pub(super) fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
+    let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
+    let share = share.min(1.0);
+    widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
+}
+
+/// Draws every interface as a line.
+pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+    let theme = &pen.context.options.theme;
+    let mut outline = Outline::default();
+    for contact in &found.contacts {
+        outline.extend(Outline::line(
+            contact.interface.ends.map(|p| pen.camera.place(p)),
+        ));
+    }
+    let stroke = Stroke::new(theme.outline.mixed(theme.ink, 0.4), 1.3 * pen.line);
+    let seams = Group::with_class("interfaces").titled("Interfaces");
+    if outline.segments.is_empty() {
+        return Group::default();
+    }
+    seams.with(Path::stroked(outline, stroke))
+}
+
+/// Draws the line of thrust: first its schematic parts, above them its true lines of action.
+pub(super) fn lines(
+    pen: &Pen<'_>,
+    scene: &Scene,
+    found: &FrameAnalysis,
+    segments: &[ThrustSegment],
+) -> Group {
+    let mut group = Group::with_class("thrust");
+    for through in [false, true] {
+        let mut alike = segments.iter().filter(|s| s.through == through).peekable();
+        if alike.peek().is_none() {
+            continue;
+        }
+        if pen.many() {
+            group.items.extend(joined_lines(pen, found, alike, through));
+            continue;
+        }
+        for segment in alike {
+            let class = if through { "force" } else { "schematic" };
+            let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
+            let drawn = Group::with_class(class)
+                .titled(title(scene, found, segment))
+                .with(stroked(pen, found, line, width(pen, segment), through));
+            group.items.push(drawn.into());
+        }
+    }
+    group
+}
+
+/// Returns a line of this width in pixels, grey if the frame does not stand. `through` is false for schematic lines.
+fn stroked(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    outline: Outline,
+    width: f64,
+    through: bool,
+) -> Path {
+    let theme = &pen.context.options.theme;
+    let colour = match found.verdict {
+        Verdict::Stable if through => colour(theme),
+        Verdict::Stable => schematic_colour(theme),
+        _ => carried_colour(theme),
+    };
+    Path::stroked(outline, Stroke::new(colour, width))
+}
+
+/// Draws the segments of very many blocks as few paths: one for all segments of about the same width.
+fn joined_lines<'s>(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    segments: impl Iterator<Item = &'s ThrustSegment>,
+    through: bool,
+) -> Vec<Item> {
+    let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
+    let most = widest(pen.unit());
+    for segment in segments {
+        let step = (WIDTH_STEPS * width(pen, segment) / most).round() as usize;
+        let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
+        steps[step.min(WIDTH_STEPS as usize)].extend(line);
+    }
+    let drawn = steps.into_iter().enumerate();
+    let drawn = drawn.filter(|(_, outline)| !outline.segments.is_empty());
+    drawn
+        .map(|(step, outline)| {
+            let width = most * step as f64 / WIDTH_STEPS;
+            stroked(pen, found, outline, width, through).into()
+        })
+        .collect()
+}
+
+/// Describes a segment of the line: the block, the origin of the force and its magnitude.
+fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
+    let on = &scene.blocks[segment.on.0].id;
+    let by = match segment.origin {
+        ForceOrigin::Contact(number) => {
+            let [a, b] = found.contacts[number].interface.bodies;
+            let other = if a == BodyId::Block(segment.on) { b } else { a };
+            description::named(scene, other)
+        }
+        ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        ForceOrigin::Load(_) => "a load".to_owned(),
+        ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
+    };
+    let force = force(segment.force);
+    if segment.through {
+        format!("Force on block {on} from {by}: {force}")
+    } else {
+        format!("Schematic path through block {on} of the force from {by}: {force}")
+    }
+}
+
+/// Draws a dot at the point of action of each interface's resultant. Calls `ink` with the position and the radius in
+/// pixels of each dot.
+pub(super) fn dots(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    ink: &mut dyn FnMut(PagePoint, f64),
+) -> Group {
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
+    let mut group = Group::with_class("resultants");
+    let mut joined = ByColour::default();
+    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+        if bearing.is_none() {
+            continue;
+        }
+        let at = pen.camera.place(contact.resultant.at);
+        ink(at, radius);
+        if pen.many() {
+            joined.add(theme.ink, Outline::circle(at, radius));
+            continue;
+        }
+        let pair = description::pair(scene, contact.interface.bodies);
+        let amount = quantity(contact.resultant.force.norm(), "N");
+        let dot = Group::with_class("resultant").titled(format!("Between {pair}: {amount}"));
+        group.items.push(dot.with(dot_at(at, radius, theme)).into());
+    }
+    group.items.extend(joined.paths(None));
+    group
+}
+
+fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
+}
+
+/// Draws the dot of a joint for the legend.
+pub(super) fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
+}

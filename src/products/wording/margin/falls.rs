@@ -1,0 +1,63 @@
+//! [`falls_headline`]: how far a falling frame is from standing.
+
+use super::super::number::NO_BREAK;
+use super::confirmed;
+use super::list::friction;
+use crate::analysis::{FrameAnalysis, Interval, Verdict};
+use crate::scene::Scene;
+
+/// Describes how far a falling frame is from standing: `falls: carries 33 % of its load`. `None` if the frame does
+/// not fall, or if no computed margin says more than the verdict.
+pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+    if found.verdict != Verdict::Unstable {
+        return None;
+    }
+    let intervals = &found.margins.as_ref()?.intervals;
+    let loads = intervals.load_factor.as_ref();
+    let lack = loads
+        .and_then(|interval| load_lack(scene, interval))
+        .or_else(|| friction_lack(found, intervals.friction.as_ref()?))?;
+    Some(format!("falls: {lack}"))
+}
+
+/// Describes which share of its loads a frame carries, or which factor on its loads it needs. `None` if neither is
+/// known.
+fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
+    let loads = match scene.loads.len() {
+        1 => "load",
+        _ => "loads",
+    };
+    let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
+    match (low, high) {
+        // Round down: the frame carries at least this share.
+        (_, Some(high)) if high < 1.0 => {
+            let share = libm::floor(100.0 * high + 1e-4);
+            Some(match share >= 1.0 {
+                true => format!("carries {share}{NO_BREAK}% of its {loads}"),
+                false => format!("carries less than 1{NO_BREAK}% of its {loads}"),
+            })
+        }
+        (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", above(low))),
+        _ => None,
+    }
+}
+
+/// Describes the friction coefficient with which a frame would stand. `None` if its own friction is large enough, or
+/// if no value is known.
+fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    let (least, most) = friction(found)?;
+    match interval {
+        Interval::Empty(_) => Some("no friction would hold it".to_owned()),
+        Interval::Undecided => None,
+        Interval::Between { low, .. } => {
+            let low = confirmed(low).filter(|low| *low > least)?;
+            let everywhere = if least < most { " at every joint" } else { "" };
+            Some(format!("would need friction {}{everywhere}", above(low)))
+        }
+    }
+}
+
+/// Writes a positive number with two decimals, rounded up, so that the frame stands with it.
+fn above(value: f64) -> String {
+    format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
+}

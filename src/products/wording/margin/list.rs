@@ -1,0 +1,139 @@
+//! [`stated`]: the margins of a frame, with their present values.
+
+use super::{Parameter, Position, StatedMargin};
+use crate::analysis::{FrameAnalysis, Interval, Intervals, Verdict};
+use crate::scene::Scene;
+use crate::text;
+
+/// Returns all computed margins of a frame. The headline margin comes first.
+pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
+    let Some(margins) = &found.margins else {
+        return Vec::new();
+    };
+    let intervals = &margins.intervals;
+    let position = match found.verdict {
+        Verdict::Stable => Position::Inside,
+        Verdict::Unstable => Position::Outside,
+        Verdict::Undecided => Position::Unknown,
+    };
+    let mut list = whole_frame(scene, found, intervals, position);
+    list.extend(robot_limits(scene, intervals, position));
+    if let Some(first) = headline(&list) {
+        list[..=first].rotate_right(1);
+    }
+    list
+}
+
+/// Returns the margins of the whole frame.
+fn whole_frame<'a>(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    intervals: &'a Intervals,
+    position: Position,
+) -> Vec<StatedMargin<'a>> {
+    use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
+    let share = "horizontal share of the weights";
+    let all = [
+        (
+            LoadFactor,
+            "factor on the loads",
+            &intervals.load_factor,
+            1.0,
+        ),
+        (Friction, "friction coefficient", &intervals.friction, 0.0),
+        (Tilt, "tilt of gravity", &intervals.tilt, 0.0),
+        (HorizontalLoad, share, &intervals.horizontal_load, 0.0),
+        (Kernel, "safety kernel", &intervals.kernel, scene.kernel),
+    ];
+    let mut list = Vec::new();
+    for (parameter, name, interval, present) in all {
+        let Some(interval) = interval else {
+            continue;
+        };
+        let mut margin = StatedMargin {
+            parameter,
+            name: name.to_owned(),
+            interval,
+            present: Some((present, present)),
+            position,
+        };
+        if parameter == Friction {
+            margin.present = friction(found);
+            margin.position = friction_position(interval, margin.present, position);
+        }
+        list.push(margin);
+    }
+    list
+}
+
+/// Returns the margins of the limits of each robot.
+fn robot_limits<'a>(
+    scene: &Scene,
+    intervals: &'a Intervals,
+    position: Position,
+) -> Vec<StatedMargin<'a>> {
+    use Parameter::{RobotForce, RobotTorque};
+    let mut list = Vec::new();
+    for robot in &intervals.robots {
+        let arm = &scene.robots[robot.robot.0];
+        let (id, limits) = (text::line(&arm.id), arm.limits);
+        let all = [
+            (RobotForce, "horizontal force", &robot.fx, limits.fx),
+            (RobotForce, "vertical force", &robot.fy, limits.fy),
+            (RobotTorque, "torque", &robot.torque, limits.torque),
+        ];
+        list.extend(all.map(|(parameter, name, interval, limit)| StatedMargin {
+            parameter,
+            name: format!("limit of the {name} of robot {id}"),
+            interval,
+            present: Some((limit, limit)),
+            position,
+        }));
+    }
+    list
+}
+
+/// Returns the index of the most important margin: the load factor if there is one and it has a limit, otherwise the
+/// margin with the least reserve.
+fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
+    let loads = list
+        .iter()
+        .position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
+    let reserves = list.iter().map(StatedMargin::reserve).enumerate();
+    loads.or_else(|| {
+        reserves
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(first, _)| first)
+    })
+}
+
+/// Returns the least and the largest friction coefficient of the frame's interfaces; `None` without interfaces.
+pub(super) fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
+    let all = found
+        .contacts
+        .iter()
+        .map(|contact| contact.interface.friction);
+    all.fold(None, |range, friction| match range {
+        None => Some((friction, friction)),
+        Some((low, high)) => Some((friction.min(low), friction.max(high))),
+    })
+}
+
+/// Returns the position of the friction coefficients relative to an interval for one common coefficient. `alike` is
+/// the position if all coefficients are equal.
+fn friction_position(
+    interval: &Interval,
+    present: Option<(f64, f64)>,
+    alike: Position,
+) -> Position {
+    match present {
+        Some((low, high)) if low < high => {
+            match (interval.contains(low), interval.contains(high)) {
+                (true, true) => Position::Inside,
+                (false, false) if !matches!(interval, Interval::Undecided) => Position::Outside,
+                _ => Position::Unknown,
+            }
+        }
+        _ => alike,
+    }
+}

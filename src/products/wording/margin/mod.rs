@@ -1,0 +1,186 @@
+//! Describes margins in words: the values of a parameter at which a frame stands, and the present value.
+//!
+//! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
+
+mod falls;
+mod list;
+mod range;
+
+pub use falls::falls_headline;
+pub use list::stated;
+pub use range::stands;
+
+use super::number::digits;
+use crate::analysis::{End, FrameAnalysis, Interval};
+use crate::scene::Scene;
+
+/// The parameter that a margin varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// One friction coefficient for every interface.
+    Friction,
+    /// The rotation of gravity, degrees.
+    Tilt,
+    /// The horizontal force on each block, relative to its weight.
+    HorizontalLoad,
+    /// The safety kernel.
+    Kernel,
+    /// The factor on the listed loads.
+    LoadFactor,
+    /// The limit of a robot's force, N.
+    RobotForce,
+    /// The limit of a robot's torque, N·m.
+    RobotTorque,
+}
+
+impl Parameter {
+    /// Returns the unit of a value, with a space before it if needed.
+    fn unit(self) -> &'static str {
+        match self {
+            Parameter::Tilt => "°",
+            Parameter::RobotForce => " N",
+            Parameter::RobotTorque => " N·m",
+            _ => "",
+        }
+    }
+
+    /// True if the values of the parameter may be negative.
+    pub fn is_signed(self) -> bool {
+        matches!(self, Parameter::Tilt | Parameter::HorizontalLoad)
+    }
+
+    /// Writes a value with its unit and, for a signed parameter, its side: `5° left`.
+    fn value(self, value: f64) -> String {
+        let unit = self.unit();
+        if !self.is_signed() {
+            return format!("{}{unit}", digits(value));
+        }
+        let side = match value {
+            v if v < 0.0 => " left",
+            v if v > 0.0 => " right",
+            _ => "",
+        };
+        format!("{}{unit}{side}", digits(value.abs()))
+    }
+}
+
+/// The position of the present value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Position {
+    /// The frame stands at this value.
+    Inside,
+    /// The frame falls at this value.
+    Outside,
+    /// It is undecided whether the frame stands at this value.
+    Unknown,
+}
+
+/// One margin of a frame: its interval and its present value.
+#[derive(Clone, Debug)]
+pub struct StatedMargin<'a> {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// The name of the parameter in words.
+    pub name: String,
+    /// The values at which the frame stands.
+    pub interval: &'a Interval,
+    /// The least and the largest present value. They differ if interfaces have different friction, and are infinite
+    /// if a robot has no limit. `None` for the friction of a frame without interfaces.
+    pub present: Option<(f64, f64)>,
+    /// The position of the present value.
+    pub position: Position,
+}
+
+impl StatedMargin<'_> {
+    /// Describes the interval and the present value: `stands from 0.3 to 2.4; now 1`.
+    pub fn sentence(&self) -> String {
+        match self.present_words() {
+            None => self.stands(),
+            Some(present) => format!("{}; {present}", self.stands()),
+        }
+    }
+
+    /// Describes the interval without the present value.
+    pub fn stands(&self) -> String {
+        stands(self.parameter, self.interval)
+    }
+
+    /// Describes the present value, and its position if it is not inside the interval.
+    fn present_words(&self) -> Option<String> {
+        let (low, high) = self.present?;
+        let value = |value: f64| self.parameter.value(value);
+        let now = match (low, high) {
+            (_, high) if high.is_infinite() && low.is_infinite() => "now without limit".to_owned(),
+            (low, high) if low == high => format!("now {}", value(low)),
+            _ => format!("now {} to {}", value(low), value(high)),
+        };
+        let is_interval = matches!(self.interval, Interval::Between { .. });
+        Some(match self.position {
+            Position::Outside if is_interval => format!("{now}, outside"),
+            Position::Unknown if is_interval && low == high => format!("{now}, undecided"),
+            _ => now,
+        })
+    }
+
+    /// Returns true if it stands at the present value and however much the parameter grows or shrinks.
+    pub fn has_no_limit(&self) -> bool {
+        let free = |end: Option<&End>| matches!(end, Some(End::Unbounded));
+        let from_zero = self.interval.low().and_then(confirmed) == Some(0.0);
+        self.position == Position::Inside
+            && free(self.interval.high())
+            && (from_zero || free(self.interval.low()))
+    }
+
+    /// Returns the relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is
+    /// no end.
+    ///
+    /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the
+    /// present value. The distance of a tilt is divided by 90°. A horizontal force is a fraction of the weight already.
+    pub fn reserve(&self) -> f64 {
+        if self.position != Position::Inside {
+            return 0.0;
+        }
+        let (Some(low), Some(high)) = (self.interval.low(), self.interval.high()) else {
+            return 0.0;
+        };
+        let [low, high] = [low, high].map(confirmed);
+        let Some((least, most)) = self.present else {
+            return 1.0;
+        };
+        let room = match self.parameter {
+            Parameter::Tilt => [low.map(|v| -v / 90.0), high.map(|v| v / 90.0)],
+            Parameter::HorizontalLoad => [low.map(|v| -v), high],
+            Parameter::Kernel => [None, high.map(|v| (v - most) / (1.0 - most))],
+            _ => [
+                low.filter(|v| *v > 0.0 && least.is_finite())
+                    .map(|v| 1.0 - v / least),
+                high.map(|v| 1.0 - most / v),
+            ],
+        };
+        let room = room.into_iter().flatten().filter(|share| !share.is_nan());
+        room.fold(1.0, f64::min).max(0.0)
+    }
+}
+
+/// Returns the end of the interval, or, if it is not confirmed, the farthest value at which the frame is known to
+/// stand. `None` if there is no end.
+pub fn confirmed(end: &End) -> Option<f64> {
+    match end {
+        End::At { value, .. } => Some(*value),
+        End::Unconfirmed { stands, .. } => Some(*stands),
+        End::Unbounded => None,
+    }
+}
+
+/// Describes the margins of a frame, one line each, the headline margin first. Notes follow.
+pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
+    let stated = stated(scene, found);
+    let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());
+    let mut lines: Vec<String> = stated.iter().map(line).collect();
+    let notes = found
+        .margins
+        .iter()
+        .flat_map(|margins| &margins.intervals.notes);
+    lines.extend(notes.map(|note| format!("note: {note}")));
+    lines
+}
