@@ -19,6 +19,9 @@ use sources::SOURCES;
 
 const PAGE: &str = "src/doc/validation.md";
 
+/// Sources whose friction has no dilatancy: compared with them, our values are not safe.
+const UNSAFE: [&str; 3] = ["Ferris01", "Goodman76", "RS2"];
+
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
@@ -137,6 +140,8 @@ fn table(values: &[f64]) -> String {
             if case.seen { "" } else { " †" },
             match case.unit {
                 Unit::Answer => "–".to_owned(),
+                _ if UNSAFE.contains(&case.source) =>
+                    format!("**{}**", difference(percent(case, *value))),
                 _ => difference(percent(case, *value)),
             },
             case.source,

@@ -10,14 +10,14 @@ use crate::structure::scene;
 
 /// The first frame with all its forces.
 pub fn frame(file: &Value) -> FrameAnalysis {
-    Analysis::new(&scene(file)).frames.remove(0)
+    Analysis::new(scene(file)).frames.remove(0)
 }
 
 fn margins(file: &Value, kind: MarginKind) -> Margins {
     let asked = Options::default()
         .margins(true)
         .margin_kinds(MarginKinds::new(&[kind]));
-    let mut frames = Analysis::with(&scene(file), &asked).frames;
+    let mut frames = Analysis::with(scene(file), &asked).frames;
     frames.remove(0).margins.expect("margins were asked for")
 }
 
@@ -45,14 +45,14 @@ pub fn horizontal(file: &Value) -> f64 {
 /// 1 if the first frame stands only by wedging, otherwise 0.
 pub fn only_by_wedging(file: &Value) -> f64 {
     let asked = Options::default().wedging(true);
-    let frame = Analysis::with(&scene(file), &asked).frames.remove(0);
+    let frame = Analysis::with(scene(file), &asked).frames.remove(0);
     f64::from(u8::from(frame.only_by_wedging == Some(true)))
 }
 
 /// Whether the first frame stands; neither forces nor failures are computed.
 pub fn stands(file: &Value) -> bool {
     let asked = Options::default().verdict_only(true);
-    let frame = Analysis::with(&scene(file), &asked).frames.remove(0);
+    let frame = Analysis::with(scene(file), &asked).frames.remove(0);
     assert_ne!(frame.verdict, Verdict::Undecided, "{}", frame.doubt());
     frame.verdict == Verdict::Stable
 }

@@ -12,11 +12,11 @@ fn file(name: &str) -> Value {
 }
 
 fn total_force(name: &str, frame: usize) -> f64 {
-    Analysis::new(&scene(&file(name))).frames[frame].total_force
+    Analysis::new(scene(&file(name))).frames[frame].total_force
 }
 
 fn sticking(name: &str) -> f64 {
-    Analysis::new(&scene(&file(name))).frames[0].total_sticking
+    Analysis::new(scene(&file(name))).frames[0].total_sticking
 }
 
 pub fn figure_3b() -> f64 {

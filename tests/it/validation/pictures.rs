@@ -49,7 +49,7 @@ pub const PICTURES: &[Picture] = &[
 ];
 
 pub fn drawn(name: &str, kind: Kind, file: &Value) -> String {
-    let analysis = Analysis::new(&scene(file));
+    let analysis = Analysis::new(scene(file));
     let mut options = Options::default();
     (options.titles, options.captions, options.verdicts) = (false, false, false);
     (options.keys, options.labels) = (false, false);
