@@ -1,7 +1,8 @@
 // Arrows on the stage: forces between blocks, missing forces, loads; and the grips of robots.
 
-import { add, length, scale, subtract } from "./geometry.js";
+import { add, dot, length, scale, subtract } from "./geometry.js";
 import { legible, newtons, set, svg } from "./dom.js";
+import { gravityOf } from "./edit.js";
 import { isPoint, list } from "./scene.js";
 
 /** @typedef {import("./geometry.js").Point} Point */
@@ -40,8 +41,8 @@ function inPixels(force, factor) {
 /** @param {Stage} stage */
 const longest = (stage) => LONGEST * Math.min(stage.view.width, stage.view.height);
 
-/** The forces between blocks: each acts on the first body of its interface. @param {Stage} stage @param {Picture} picture */
-export function drawForces(stage, { result, forces, stale }) {
+/** The forces between blocks, in the direction in which the weight runs down. @param {Stage} stage @param {Picture} picture */
+export function drawForces(stage, { scene, result, forces, stale }) {
   const layer = stage.layers.forces;
   if (!forces || !result || stale) return layer.replaceChildren();
   const shown = result.interfaces.filter((/** @type {any} */ i) => length(i.resultant.force) > 0);
@@ -49,7 +50,8 @@ export function drawForces(stage, { result, forces, stale }) {
   const factor = longest(stage) / most;
   layer.replaceChildren(...shown.filter((/** @type {any} */ i) => length(i.resultant.force) > most * 0.01).map((/** @type {any} */ face) => {
     const at = stage.view.toPixels(face.resultant.at);
-    const half = scale(inPixels(face.resultant.force, factor), 0.5);
+    const down = dot(face.resultant.force, gravityOf(scene)) < 0 ? -0.5 : 0.5;
+    const half = scale(inPixels(face.resultant.force, factor), down);
     return svg("path", { class: "force", d: arrowPath(subtract(at, half), add(at, half), 2.5) });
   }));
 }
@@ -62,11 +64,11 @@ export function drawMissing(stage, { result, stale }) {
   const factor = longest(stage) / most;
   layer.replaceChildren(...failures.flatMap((failure) => {
     const at = stage.view.toPixels(failure.at);
-    const dot = svg("circle", { class: "missing", cx: at[0], cy: at[1], r: 4.5 });
-    if (!failure.force) return [dot];
+    const point = svg("circle", { class: "missing", cx: at[0], cy: at[1], r: 4.5 });
+    if (!failure.force) return [point];
     const tip = add(at, inPixels(failure.force, factor));
     const label = svg("text", { class: "amount missing", x: tip[0], y: tip[1], dy: tip[1] < at[1] ? -6 : 16 }, newtons(failure.amount));
-    return [svg("path", { class: "missing", d: arrowPath(at, tip, 5) }), dot, ...(failures.length <= 6 ? [label] : [])];
+    return [svg("path", { class: "missing", d: arrowPath(at, tip, 5) }), point, ...(failures.length <= 6 ? [label] : [])];
   }));
 }
 

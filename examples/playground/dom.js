@@ -42,11 +42,11 @@ export function html(name, attributes = {}, ...children) {
 /**
  * A name from a scene, made safe to read: marks that turn the direction of text or hide are shown as their code
  * points, and long names are cut.
- * @param {string} name
+ * @param {string} name @param {number} [most] characters
  */
-export function legible(name) {
+export function legible(name, most = 60) {
   const shown = name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}\p{Co}\p{Cs}]/gu, (c) => `[U+${/** @type {number} */ (c.codePointAt(0)).toString(16).toUpperCase().padStart(4, "0")}]`);
-  return shown.length > 60 ? `${[...shown].slice(0, 59).join("")}…` : shown;
+  return shown.length > most ? `${[...shown].slice(0, most - 1).join("")}…` : shown;
 }
 
 /** @param {number} newtons "2.3 kN" */

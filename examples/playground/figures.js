@@ -73,11 +73,19 @@ export class Figures {
   /** Asks for the figure anew. The old one stays, paler, until the new one is there. */
   async refresh() {
     this.parts.image.classList.add("stale");
-    const answer = await this.ask({ kind: this.kind, ...this.options(this.kind) });
+    const options = this.options(this.kind);
+    let answer = await this.ask({ kind: this.kind, ...options });
+    let note = KINDS.find((entry) => entry.kind === this.kind)?.help ?? "";
+    // A library that cannot be told the block draws that of its own choice.
+    if (answer?.error && options.capacity) answer = await this.ask({ kind: this.kind, ...options, capacity: undefined });
+    if (answer?.problems) {
+      // Where outlines can be read, the library draws them with the problems marked.
+      note = "The figure follows once the scene is valid.";
+      answer = await this.ask({ broken: true, theme: options.theme });
+    }
     if (!answer) return;
     if (typeof answer.value !== "string") {
-      const why = answer.error ?? "The figure follows once the scene is valid.";
-      this.parts.note.textContent = why;
+      this.parts.note.textContent = answer.error ?? note;
       return;
     }
     this.svg = answer.value;
@@ -87,7 +95,7 @@ export class Figures {
     this.parts.image.alt = description(answer.value);
     this.parts.image.hidden = false;
     this.parts.image.classList.remove("stale");
-    this.parts.note.textContent = KINDS.find((entry) => entry.kind === this.kind)?.help ?? "";
+    this.parts.note.textContent = note;
   }
 }
 

@@ -1,6 +1,6 @@
 // Puts the page together: the workbench in the middle, and around it everything that shows or changes the scene.
 
-import { afterPause, byId } from "./dom.js";
+import { afterPause, byId, legible } from "./dom.js";
 import { fillExamples, loadExample } from "./examples.js";
 import { Figures } from "./figures.js";
 import { Frame } from "./frame.js";
@@ -70,6 +70,7 @@ bench.addEventListener("drawn", () => drawPlumb(byId("plumb"), store.scene));
 
 store.addEventListener("scene", (event) => {
   sliders.refresh();
+  byId("title").textContent = legible(typeof store.scene.title === "string" ? store.scene.title : "", 120);
   if (/** @type {CustomEvent} */ (event).detail?.from === "drag") return;
   source.refresh();
   toolbar.refresh();

@@ -65,7 +65,7 @@ export class OutlineTool {
     const last = this.corners.at(-1);
     if (last && length(subtract(last, this.cursor)) === 0) return;
     this.corners.push(this.cursor);
-    this.page.say(`Corner ${this.corners.length} set.`);
+    this.page.say(`Corner ${this.corners.length} set.${this.corners.length > 2 ? " Click the first corner again, or press Enter, to close the block." : ""}`);
     this.draw();
   }
 

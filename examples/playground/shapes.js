@@ -9,12 +9,10 @@ import { BUILT_IN_NAMES, gridOf, nearestNode } from "./lattice.js";
 /** @param {Point[]} points @param {number} decimals */
 const rounded = (points, decimals) => points.map(([x, y]) => [round(x, decimals), round(y, decimals)]);
 
-/** @param {number} corners @param {number} radius @returns {Point[]} */
-function regular(corners, radius) {
-  return Array.from({ length: corners }, (_, i) => {
-    const angle = (2 * Math.PI * i) / corners - Math.PI / 2 + Math.PI / corners;
-    return /** @type {Point} */ ([radius * Math.cos(angle), radius * Math.sin(angle)]);
-  });
+/** On one of its sides. @param {number} radius @returns {Point[]} */
+function standingHexagon(radius) {
+  const height = (radius * Math.sqrt(3)) / 2;
+  return [[-radius / 2, 0], [radius / 2, 0], [radius, height], [radius / 2, 2 * height], [-radius / 2, 2 * height], [-radius, height]];
 }
 
 /**
@@ -40,7 +38,7 @@ export function choices(scene) {
     { id: "square", label: "Square", make: (s) => ({ polygon: [[-s / 2, 0], [s / 2, 0], [s / 2, s], [-s / 2, s]] }) },
     { id: "voussoir", label: "Voussoir (arch stone)", make: (s) => ({ polygon: voussoir(s) }) },
     { id: "triangle", label: "Triangle", make: (s) => ({ polygon: [[-s / 2, 0], [s / 2, 0], [0, s * 0.866]] }) },
-    { id: "hexagonal", label: "Hexagon", make: (s) => ({ polygon: regular(6, s * 0.6) }) },
+    { id: "hexagonal", label: "Hexagon", make: (s) => ({ polygon: standingHexagon(s * 0.6) }) },
   ];
   const grid = gridOf(scene);
   if (!grid) return all;

@@ -182,15 +182,15 @@ export class Store extends EventTarget {
   }
 
   undo() {
-    const entry = this.past.pop();
-    if (!entry || this.dragging) return;
+    const entry = this.dragging ? null : this.past.pop();
+    if (!entry) return;
     this.future.push(this.entry());
     this.restore(entry);
   }
 
   redo() {
-    const entry = this.future.pop();
-    if (!entry || this.dragging) return;
+    const entry = this.dragging ? null : this.future.pop();
+    if (!entry) return;
     this.past.push(this.entry());
     this.restore(entry);
   }

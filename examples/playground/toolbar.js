@@ -77,11 +77,12 @@ export class Toolbar {
   add() {
     const { store, stage } = this;
     const choice = choices(store.scene).find(({ id }) => id === this.shape.value) ?? choices(store.scene)[0];
-    // Above everything, where it overlaps nothing; it is then dragged to its place.
-    const box = bounds(standing(store.resolved, store.frame).flatMap((body) => body.outline));
+    // On top of the highest body, where it overlaps nothing; it is then dragged to its place.
     const size = this.size();
+    const grid = gridOf(store.scene);
+    const top = standing(store.resolved, store.frame).reduce((/** @type {import("./scene.js").Body | null} */ best, body) => (!best || body.box.top > best.box.top ? body : best), null);
     /** @type {Point} */
-    const at = [(box.left + box.right) / 2, box.top + size * 0.35 + (gridOf(store.scene)?.side ?? 0)];
+    const at = top ? [top.centre[0], top.box.top + (grid ? 1.35 * grid.side : 0)] : [0, 0];
     const block = shapeAt(store.scene, choice, at, size * (choice.id === "rectangle" ? 0.75 : 1), this.decimals);
     this.insert(block);
     if (!stage.view.shows(bounds(store.resolved.bodies.flatMap((b) => b.outline)))) stage.fit(store.resolved);

@@ -12,8 +12,8 @@ import { list } from "./scene.js";
 
 /** @param {string[]} names */
 function names(names) {
-  const shown = names.slice(0, 6).map(legible).join(", ");
-  return names.length > 6 ? `${shown} and ${names.length - 6} more` : shown;
+  const shown = names.slice(0, 4).map((name) => legible(name)).join(", ");
+  return names.length > 4 ? `${shown} and ${names.length - 4} more` : shown;
 }
 
 /** @param {number} count @param {string} noun */
@@ -32,7 +32,7 @@ export function inWords(answer, blocks) {
   if (!frame) return { state: "waiting", title: "…", detail: "" };
   const total = `${count(blocks, "block")}, ${newtons(frame.weight)} in all.`;
   if (frame.verdict === "stable") {
-    return { state: "stands", title: "It stands", detail: blocks === 0 ? "There is nothing that could fall. Add a block." : `${total} The blocks can carry each other down to the ground.` };
+    return { state: "stands", title: "It stands", detail: blocks === 0 ? "There is nothing that could fall. Add a block." : `${total} Every block is held.` };
   }
   if (frame.verdict === "unstable") return { state: "falls", title: "It falls", detail: falling(frame, blocks) };
   return { state: "undecided", title: "Undecided", detail: sentence(legiblePart(frame.doubt ?? "Neither verdict could be proved")) };
@@ -42,7 +42,7 @@ export function inWords(answer, blocks) {
 function falling(frame, blocks) {
   const moving = frame.mechanism.map((/** @type {any} */ motion) => motion.block);
   const hanging = list(frame.unsupported);
-  const parts = hanging.length === moving.length ? [] : [moving.length === blocks && blocks > 1 ? "All blocks move." : `${moving.length === 1 ? "Block" : "Blocks"} ${names(moving)} ${moving.length === 1 ? "moves" : "move"}.`];
+  const parts = hanging.length === moving.length ? [] : [moves(moving, blocks)];
   const missing = list(frame.failures);
   if (hanging.length > 0) parts.push(`Nothing supports ${hanging.length === 1 ? "block" : "blocks"} ${names(hanging)}.`);
   if (missing.length > 0) {
@@ -50,6 +50,13 @@ function falling(frame, blocks) {
     parts.push(largest.kind.startsWith("robot") ? `Robot ${legible(largest.robot)} would have to give ${newtons(largest.amount)} more${largest.kind === "robot_torque" ? "·m" : ""}.` : `${sentence(joint(largest))}`);
   }
   return parts.join(" ");
+}
+
+/** @param {string[]} moving @param {number} blocks */
+function moves(moving, blocks) {
+  if (moving.length === blocks && blocks > 1) return "All blocks move.";
+  if (moving.length > 4) return `${moving.length} of ${blocks} blocks move.`;
+  return moving.length === 1 ? `Block ${names(moving)} moves.` : `Blocks ${names(moving)} move.`;
 }
 
 /** @param {any} failure */

@@ -34,7 +34,7 @@ self.onmessage = async ({ data }) => {
   } catch (thrown) {
     const error = /** @type {any} */ (thrown);
     // An invalid scene is an answer too: its problems, each with its line.
-    if (Array.isArray(error?.problems)) self.postMessage({ id: data.id, problems: error.problems });
+    if (error?.problems?.length > 0) self.postMessage({ id: data.id, problems: error.problems });
     else self.postMessage({ id: data.id, error: String(error?.message ?? error) });
   }
 };
