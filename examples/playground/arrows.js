@@ -61,14 +61,22 @@ export function drawMissing(stage, { result, stale }) {
   const layer = stage.layers.missing;
   const failures = stale ? [] : list(result?.failures).filter((f) => isPoint(f.at));
   const most = Math.max(...failures.map((f) => (f.force ? length(f.force) : 0)), 1e-300);
-  const factor = longest(stage) / most;
+  const factor = (0.6 * longest(stage)) / most;
   layer.replaceChildren(...failures.flatMap((failure) => {
     const at = stage.view.toPixels(failure.at);
     const point = svg("circle", { class: "missing", cx: at[0], cy: at[1], r: 4.5 });
     if (!failure.force) return [point];
-    const tip = add(at, inPixels(failure.force, factor));
-    const label = svg("text", { class: "amount missing", x: tip[0], y: tip[1], dy: tip[1] < at[1] ? -6 : 16 }, newtons(failure.amount));
-    return [svg("path", { class: "missing", d: arrowPath(at, tip, 5) }), point, ...(failures.length <= 6 ? [label] : [])];
+    const force = inPixels(failure.force, factor);
+    const size = length(force) || 1;
+    // The amount stands next to the arrow, on the upper side.
+    const up = force[0] > 0 ? -1 : 1;
+    const side = /** @type {Point} */ ([(-force[1] / size) * up * -18, (force[0] / size) * up * 18]);
+    const pull = failure.kind === "tension";
+    const [x, y] = add(pull ? at : add(at, scale(force, 0.6)), side);
+    const label = svg("text", { class: "amount missing", x, y, dy: "0.35em" }, newtons(failure.amount));
+    // Where a joint opens, both blocks would have to be pulled to it; else the force acts on the first body.
+    const arrows = pull ? [arrowPath(subtract(at, force), at, 4), arrowPath(add(at, force), at, 4)] : [arrowPath(at, add(at, force), 5)];
+    return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point]), ...(failures.length <= 6 ? [label] : [])];
   }));
 }
 

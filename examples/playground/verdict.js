@@ -47,7 +47,7 @@ function falling(frame, blocks) {
   if (hanging.length > 0) parts.push(`Nothing supports ${hanging.length === 1 ? "block" : "blocks"} ${names(hanging)}.`);
   if (missing.length > 0) {
     const largest = missing.reduce((a, b) => (b.amount > a.amount ? b : a));
-    parts.push(largest.kind.startsWith("robot") ? `Robot ${legible(largest.robot)} would have to give ${newtons(largest.amount)} more${largest.kind === "robot_torque" ? "·m" : ""}.` : `${sentence(joint(largest))}`);
+    parts.push(sentence(largest.kind.startsWith("robot") ? grip(largest) : joint(largest)));
   }
   return parts.join(" ");
 }
@@ -57,6 +57,11 @@ function moves(moving, blocks) {
   if (moving.length === blocks && blocks > 1) return "All blocks move.";
   if (moving.length > 4) return `${moving.length} of ${blocks} blocks move.`;
   return moving.length === 1 ? `Block ${names(moving)} moves.` : `Blocks ${names(moving)} move.`;
+}
+
+/** @param {any} failure */
+function grip({ robot, kind, amount }) {
+  return `robot ${legible(robot)} would have to give ${newtons(amount)}${kind === "robot_torque" ? "·m" : ""} more`;
 }
 
 /** @param {any} failure */

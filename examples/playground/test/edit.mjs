@@ -181,3 +181,20 @@ test("the figures change with their tabs", async () => {
   assert.ok(seen.size >= 5, `${seen.size} different figures`);
   await close();
 });
+
+test("the workbench can be used alone, in another page", async () => {
+  const { page, close } = await open();
+  const state = await page.evaluate(async () => {
+    const [{ Workbench }, { Solver }] = await Promise.all([import(/** @type {any} */ ("./workbench.js")), import(/** @type {any} */ ("./solver.js"))]);
+    const root = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    root.style.width = "400px";
+    root.style.height = "300px";
+    document.body.append(root);
+    const bench = new Workbench(root, { solver: new Solver() });
+    const answer = new Promise((resolve) => bench.addEventListener("answer", (/** @type {any} */ event) => resolve(event.detail.words.state)));
+    bench.store.open('{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [1, 1]] }] }');
+    return answer;
+  });
+  assert.equal(state, "falls");
+  await close();
+});

@@ -72,7 +72,7 @@ test("figure and scene are saved as SVG, PNG and JSON", async () => {
   for (const [format, magic] of [["svg", "<svg"], ["png", "\u0089PNG"], ["json", "{"]]) {
     await page.click("#save-menu summary");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#save-${format}`)]);
-    assert.match(download.suggestedFilename(), new RegExp(`^overhang.*\\.${format}$`));
+    assert.match(download.suggestedFilename(), new RegExp(`^an-overhang.*\\.${format}$`));
     const bytes = await readFile(await download.path());
     assert.equal(bytes.toString("latin1").slice(0, magic.length), magic);
     if (format === "json") await page.keyboard.press("Escape");
