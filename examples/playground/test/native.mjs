@@ -98,6 +98,15 @@ test("a session gives what the functions give", () => {
   assert.equal(session.verdict(), "unstable");
 });
 
+test("the example in the documentation runs", () => {
+  const page = read("src/doc/library.md");
+  const example = page.split("```js\n")[1].split("```")[0].replace(/^import.*\nawait init.*\n/m, "");
+  const said = [];
+  new Function("drystone", "console", example)(module, { log: (/** @type {any[]} */ ...words) => said.push(words) });
+  assert.equal(said[0][0], "stable");
+  assert.ok(said[0][1] > 1000);
+});
+
 test("options that are not valid are refused by name", () => {
   const scene = read("assets/starter.json");
   const refused = (/** @type {() => unknown} */ work) => assert.throws(work, (error) => error instanceof Error && /** @type {any} */ (error).problems.length === 0);
