@@ -10,10 +10,16 @@ import { root } from "./lib/root.mjs";
 
 const top = path.resolve(root, "../..");
 const program = process.env.DRYSTONE ?? path.join(top, "target/debug/drystone");
-const before = performance.now();
+const before = process.cpuUsage();
 const module = await import(path.join(root, "pkg/drystone.js"));
 await module.default({ module_or_path: readFileSync(path.join(root, "pkg/drystone_bg.wasm")) });
-const started = performance.now() - before;
+const started = seconds(before);
+
+/** Processor time since a moment: unlike the time on the clock, it does not grow while others use the machine. */
+function seconds(/** @type {NodeJS.CpuUsage} */ since) {
+  const { user, system } = process.cpuUsage(since);
+  return (user + system) / 1e6;
+}
 
 /** All scene files below a folder, sorted. @param {string} folder @returns {string[]} */
 function scenes(folder) {
@@ -36,14 +42,28 @@ function printed(...words) {
 const files = ["assets", "examples", "tests/scenes"].flatMap(scenes);
 const read = (/** @type {string} */ name) => readFileSync(path.join(top, name), "utf8");
 // Large scenes take long and show nothing more.
-const valid = files.filter((name) => read(name).length < 20_000 && module.problems(read(name)) === "[]");
+/** @type {string[]} */
+let valid = [];
+
+test("the first answer on the lintel takes half a second at most", () => {
+  // A browser also downloads the file; here it is read from the disk.
+  const scene = read("tests/scenes/lintel.json");
+  const begin = process.cpuUsage();
+  module.check(scene);
+  const whole = started + seconds(begin);
+  console.log(`processor time: ${started.toFixed(2)} s to start, ${whole.toFixed(2)} s with the answer`);
+  assert.ok(whole < 0.5, `${whole} s`);
+});
 
 test("the program and the module have the same version", () => {
   assert.ok(existsSync(program), `${program} is missing: run cargo build`);
   assert.equal(execFileSync(program, ["--version"], { encoding: "utf8" }).trim().split(" ").at(-1), module.version());
 });
 
-test("at least 60 scenes are compared", () => assert.ok(valid.length >= 60, `${valid.length} scenes`));
+test("at least 60 scenes are compared", () => {
+  valid = files.filter((name) => read(name).length < 20_000 && module.problems(read(name)) === "[]");
+  assert.ok(valid.length >= 60, `${valid.length} scenes`);
+});
 
 test("results have the same bytes", () => {
   for (const name of files.filter((name) => read(name).length < 20_000)) {
@@ -115,14 +135,4 @@ test("options that are not valid are refused by name", () => {
   refused(() => module.figure(scene, '{"kind": "picture"}'));
   refused(() => module.figure(scene, '{"zoom": "no such block"}'));
   refused(() => module.importDrawing("", "dwg"));
-});
-
-test("the first answer on the lintel comes within half a second", () => {
-  // In a browser of its own it also takes the download; here the file is read from the disk.
-  const scene = read("tests/scenes/lintel.json");
-  const begin = performance.now();
-  module.check(scene);
-  const seconds = (started + performance.now() - begin) / 1000;
-  console.log(`started in ${started.toFixed(0)} ms`);
-  assert.ok(seconds < 0.5, `${seconds} s`);
 });
