@@ -127,9 +127,9 @@ fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
 fn the_least_friction_beside_robots_is_the_least() {
     for name in ["friction-margin-300084", "friction-margin-300297"] {
         let (file, margins) = known(name);
-        let mut problems = Vec::new();
+        let mut problems = Problems::default();
         check_friction(&file, &margins.intervals, &mut problems);
-        assert!(problems.is_empty(), "{name}: {problems:?}");
+        assert!(problems.list.is_empty(), "{name}: {:?}", problems.list);
     }
 }
 
@@ -193,17 +193,21 @@ fn check_linear(
     file: &Value,
     growing: Growing,
     found: &Option<Interval>,
-    problems: &mut Vec<String>,
+    problems: &mut Problems,
 ) {
-    compare(name, found, exact_interval(file, growing), problems);
+    compare(name, found, exact_interval(file, growing), NONE, problems);
 }
 
-/// An interval against the exact one.
+/// Up to which an end counts as 0: the band within which verdicts are true.
+const NONE: f64 = 1e-7;
+
+/// An interval against the exact one. `none` is the size up to which an end counts as 0.
 fn compare(
     name: &str,
     found: &Option<Interval>,
     exact: Option<[f64; 2]>,
-    problems: &mut Vec<String>,
+    none: f64,
+    problems: &mut Problems,
 ) {
     let Some(found) = found else {
         problems.push(format!("{name} is absent"));
@@ -216,23 +220,53 @@ fn compare(
         (Ok(None), None) => {}
         (Ok(Some(found)), Some(exact)) => {
             for (a, b) in found.into_iter().zip(exact) {
-                // A value of 0 is met to the band within which verdicts are true.
-                if a != b && !((a - b).abs() <= 1e-6 * b.abs().max(0.1)) {
+                if a != b && !((a - b).abs() <= (1e-6 * b.abs()).max(none)) {
                     problems.push(format!("{name} {found:?}, exactly {exact:?}"));
                     return;
                 }
             }
         }
         // Within the band of the proofs a point that is left over is one or none.
-        (Ok(Some([low, high])), None) if high - low <= 1e-6 * high.abs().max(0.1) => {}
-        (Ok(None), Some([low, high])) if high - low <= 1e-6 * high.abs().max(0.1) => {}
+        (Ok(Some([low, high])), None) if high - low <= (1e-6 * high.abs()).max(none) => {}
+        (Ok(None), Some([low, high])) if high - low <= (1e-6 * high.abs()).max(none) => {}
         (found, exact) => problems.push(format!("{name} {found:?}, exactly {exact:?}")),
     }
 }
 
+/// What is wrong with the intervals of a scene.
+#[derive(Default)]
+struct Problems {
+    list: Vec<String>,
+    /// Whether verdicts are true within their band only, as where a load is as slight as the band.
+    has_band: bool,
+}
+
+impl Problems {
+    fn push(&mut self, problem: String) {
+        self.list.push(problem);
+    }
+
+    /// All of them with the number of the scene, and the scene.
+    fn of(mut self, number: u64, file: &Value) -> Vec<String> {
+        if !self.list.is_empty() {
+            self.push(file.to_string());
+        }
+        let list = self.list.iter();
+        list.map(|problem| format!("{number}: {problem}")).collect()
+    }
+}
+
+/// Whether a changed file stands or falls by less than the band of the verdicts.
+fn is_borderline(file: &Value) -> bool {
+    let scene = exact_scene(file);
+    let touches = touches(&scene);
+    let groups = Balance::groups(&scene, &touches);
+    groups.iter().any(Balance::is_borderline)
+}
+
 /// What must stand or fall, and does not.
-fn expect(name: &str, file: &Value, standing: bool, problems: &mut Vec<String>) {
-    if stands(file) != standing {
+fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
+    if stands(file) != standing && !(problems.has_band && is_borderline(file)) {
         let word = if standing { "falls" } else { "stands" };
         problems.push(format!("{name}: the exact program {word}"));
     }
@@ -243,7 +277,7 @@ const BESIDE: f64 = 1e-6;
 /// And absolutely: friction and kernel act in parts of the loads, of which verdicts tell no more than this apart.
 const SOLVED: f64 = 1e-7;
 
-fn check_friction(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
+fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {
     let at = |mu: f64| with(file, "friction", mu);
     let interval = found.friction.as_ref().expect("requested");
     match read(interval) {
@@ -264,7 +298,7 @@ fn check_friction(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
     }
 }
 
-fn check_kernel(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
+fn check_kernel(file: &Value, found: &Intervals, problems: &mut Problems) {
     let at = |kernel: f64| with(file, "kernel", kernel);
     match read(found.kernel.as_ref().expect("requested")) {
         Err(withheld) => problems.push(format!("kernel withheld: {withheld}")),
@@ -285,7 +319,7 @@ fn check_kernel(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
     }
 }
 
-fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &mut Vec<String>) {
+fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &mut Problems) {
     const OFF: f64 = 1e-4;
     match read(found.tilt.as_ref().expect("requested")) {
         Err(withheld) => problems.push(format!("tilt withheld: {withheld}")),
@@ -360,7 +394,7 @@ fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &m
     }
 }
 
-fn check_robots(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
+fn check_robots(file: &Value, found: &Intervals, problems: &mut Problems) {
     for robot in &found.robots {
         for (key, interval) in [
             ("fx", &robot.fx),
@@ -521,18 +555,30 @@ fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<Str
 /// What is wrong with the intervals of one scene.
 fn problems(number: u64) -> Vec<String> {
     let file = random_scene(number);
+    let found = problems_of(number, &file, false);
+    // A frame that stands today within the band of the verdicts, and falls exactly, has ends within the band only.
+    match found.is_empty() || !is_borderline(&file) {
+        true => found,
+        false => problems_of(number, &file, true),
+    }
+}
+
+fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
     let scene = match Scene::from_json(&file.to_string()) {
         Ok(scene) => scene,
         Err(error) => return vec![format!("{number}: {error}")],
     };
     let margins = analysed(&scene);
     let found = &margins.intervals;
-    let mut problems = Vec::new();
+    let mut problems = Problems {
+        has_band,
+        ..Problems::default()
+    };
     let is_loaded = !scene.loads().is_empty();
     if is_loaded {
         check_linear(
             "load factor",
-            &file,
+            file,
             Growing::ListedLoads,
             &found.load_factor,
             &mut problems,
@@ -542,22 +588,16 @@ fn problems(number: u64) -> Vec<String> {
     }
     check_linear(
         "horizontal",
-        &file,
+        file,
         Growing::AcrossGravity,
         &found.horizontal_load,
         &mut problems,
     );
-    check_friction(&file, found, &mut problems);
-    check_kernel(&file, found, &mut problems);
-    check_tilt(&file, found, &mut Random::new(number), &mut problems);
-    check_robots(&file, found, &mut problems);
-    if !problems.is_empty() {
-        problems.push(file.to_string());
-    }
-    problems
-        .iter()
-        .map(|problem| format!("{number}: {problem}"))
-        .collect()
+    check_friction(file, found, &mut problems);
+    check_kernel(file, found, &mut problems);
+    check_tilt(file, found, &mut Random::new(number), &mut problems);
+    check_robots(file, found, &mut problems);
+    problems.of(number, file)
 }
 
 /// Parts that are independent, loads of both signs, counterweights, limited robots, and frames that fall as they are.

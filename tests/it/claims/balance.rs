@@ -1,6 +1,8 @@
 //! Forces against the outlines: where they act, that they balance, and what the proof says of them. Everything is summed again
 //! from the scene's outlines and the JSON of the result, in plain arithmetic.
 
+use drystone::Analysis;
+use drystone::analysis::Proof;
 use serde_json::Value;
 
 use super::{Told, cross, dot, less, list, number, pair, structures};
@@ -191,6 +193,11 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
             told.file
         );
         let imbalance = number(&proof["worst_imbalance"]);
+        let own = Analysis::new(scene(&told.file)).frames.remove(0).proof;
+        assert!(
+            matches!(own, Proof::Forces { worst_imbalance, .. } if worst_imbalance == imbalance),
+            "{imbalance}: {own:?}"
+        );
         assert!(
             imbalance + 1e-12 >= least_change && imbalance <= 1e-7,
             "{imbalance} {least_change}: {}",

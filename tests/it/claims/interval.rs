@@ -92,7 +92,13 @@ fn scenes() -> Vec<Statements> {
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
     held["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
+    // It slides at 0.7 · 6 / 1.1 times its load.
+    let pushed = json!({ "drystone": 1, "friction": 0.7,
+        "ground": [{ "polygon": [[0, -1], [9, -1], [9, 0], [0, 0]] }],
+        "blocks": [{ "id": "block", "polygon": [[3, 0], [6, 0], [6, 1], [3, 1]], "weight": 6 }],
+        "loads": [{ "block": "block", "force": [1.1, 0], "at": [3, 0.25] }] });
     let files = [
+        pushed,
         plank,
         read(include_str!("../intervals/plank.json")),
         read(include_str!("../intervals/archmech.json")),
@@ -453,6 +459,7 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
 #[test]
 fn what_it_would_take_lies_on_the_right_side_of_the_end() {
     for (told, sentence) in scenes().iter().zip([
+        "It would fall at 3.82 times its loads.",
         "It would stand at 1.34 times its loads.",
         "It would fall below 0.301 times its loads.",
         "It would stand at 0.327 of its loads.",
@@ -468,10 +475,54 @@ fn what_it_would_take_lies_on_the_right_side_of_the_end() {
         );
     }
     // The plank falls below its least factor, and is drawn so.
-    let plank = &scenes()[1];
+    let plank = &scenes()[2];
     assert!(
         plank
             .page
             .contains("Below 0.302 times its loads, 1 block moves")
     );
+}
+
+/// What follows `start` in a page as a number.
+fn number_after(page: &str, start: &str) -> Option<f64> {
+    let (_, rest) = page.split_once(start)?;
+    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.')?;
+    rest[..end].parse().ok()
+}
+
+/// A friction said to be too small is no more than the least one, and a tilt said to be too large no less than the end.
+#[test]
+fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
+    let (mut frictions, mut tilts) = (0, 0);
+    for told in scenes() {
+        let intervals = &told.frame["margins"]["intervals"];
+        let start = "It would fall with a friction coefficient below ";
+        if let Some(found) = number_after(&told.page, start) {
+            let low = number(&intervals["friction"][0]);
+            let is_below = found <= low * (1.0 + 1e-6) && found >= 0.99 * low;
+            assert!(is_below, "{found}: {low}");
+            frictions += 1;
+        }
+        let Some((_, turned)) = told.page.split_once("It would fall if gravity turned ") else {
+            continue;
+        };
+        let turned = &turned[..turned.find(". ").unwrap_or(turned.len())];
+        let mut sides = turned.split(" or ").take(2);
+        for (side, end) in [("left", -1.0), ("right", 1.0)] {
+            let end = end
+                * intervals["tilt"][usize::from(end > 0.0)]
+                    .as_f64()
+                    .unwrap_or(f64::NAN);
+            if end.is_nan() {
+                continue;
+            }
+            let words = sides.next().expect("a side");
+            let found = number_after(words, "").expect("an angle");
+            assert!(words.contains(side), "{words}");
+            let is_beyond = found >= end * (1.0 - 1e-6) && found <= 1.01 * end;
+            assert!(is_beyond, "{found}: {end}");
+            tilts += 1;
+        }
+    }
+    assert!(frictions > 0 && tilts > 3, "{frictions} {tilts}");
 }

@@ -33,7 +33,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
             let Some(at) = margin.as_f64().filter(|at| *at > 1e-6) else {
                 return;
             };
-            for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
+            for (share, inside) in [(1.0 - 1e-5, more_is_worse), (1.0 + 1e-5, !more_is_worse)] {
                 let changed = change(at * share);
                 let verdict = Analysis::new(scene(&changed)).frames[0].verdict;
                 let expected = if inside {
@@ -48,6 +48,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
                 asked += 1;
             }
         };
+        assert_margins_are_ends(margins);
         let with = |key: &str, value: Value| {
             let mut changed = file.clone();
             changed[key] = value;
@@ -99,6 +100,30 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
         }
     }
     assert!(asked >= 20, "{asked}");
+}
+
+/// A margin is the end of its interval on its own side.
+fn assert_margins_are_ends(margins: &Value) {
+    let intervals = &margins["intervals"];
+    let assert_is_end = |margin: &Value, interval: &Value, end: usize, sign: f64| {
+        let Some(at) = margin.as_f64() else {
+            assert!(margin == "unbounded" || interval.is_null(), "{margins}");
+            return;
+        };
+        assert_eq!(at, sign * number(&interval[end]) + 0.0, "{margins}");
+    };
+    assert_is_end(&margins["friction"], &intervals["friction"], 0, 1.0);
+    assert_is_end(&margins["kernel"], &intervals["kernel"], 1, 1.0);
+    assert_is_end(&margins["load_factor"], &intervals["load_factor"], 1, 1.0);
+    for key in ["tilt", "horizontal_load"] {
+        assert_is_end(&margins[key]["left"], &intervals[key], 0, -1.0);
+        assert_is_end(&margins[key]["right"], &intervals[key], 1, 1.0);
+    }
+    for (robot, limits) in margins["robots"].as_object().into_iter().flatten() {
+        for key in ["fx", "fy", "torque"] {
+            assert_is_end(&limits[key], &intervals["robots"][robot][key], 0, 1.0);
+        }
+    }
 }
 
 /// The words of `--kind margin` are those of the result's interval, whether the frame stands today or not.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::{
-    analysed, check_friction, check_kernel, check_linear, check_tilt, compare, exact_interval,
+    NONE, Problems, analysed, check_friction, check_kernel, check_tilt, compare, exact_interval,
     known, near, random_scene,
 };
 use crate::oracle::factor::Growing;
@@ -38,24 +38,38 @@ fn problems(number: u64) -> Vec<String> {
     let file = scaled(&given, by);
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let found = analysed(&scene).intervals;
-    let mut problems = Vec::new();
+    let mut problems = Problems {
+        has_band: true,
+        ..Problems::default()
+    };
     if !scene.loads().is_empty() {
         // In units of the ordinary loads.
         let ordinary = |end: f64| end / by;
         let exact = exact_interval(&given, Growing::ListedLoads);
         let exact = exact.map(|ends| ends.map(ordinary));
-        compare("load factor", &found.load_factor, exact, &mut problems);
+        let none = NONE / by;
+        compare(
+            "load factor",
+            &found.load_factor,
+            exact,
+            none,
+            &mut problems,
+        );
     }
     let (across, share) = (Growing::AcrossGravity, &found.horizontal_load);
-    check_linear("horizontal", &file, across, share, &mut problems);
+    // Weights far below the loads are balanced to the digits of the loads.
+    let exact = exact_interval(&file, across);
+    compare(
+        "horizontal",
+        share,
+        exact,
+        NONE * by.max(1.0),
+        &mut problems,
+    );
     check_friction(&file, &found, &mut problems);
     check_kernel(&file, &found, &mut problems);
     check_tilt(&file, &found, &mut Random::new(number), &mut problems);
-    if !problems.is_empty() {
-        problems.push(file.to_string());
-    }
-    let told = problems.iter();
-    told.map(|problem| format!("{number}: {problem}")).collect()
+    problems.of(number, &file)
 }
 
 /// `DRYSTONE_INTERVAL_SLIGHT=600` looks at more of them.
@@ -71,6 +85,16 @@ fn loads_far_smaller_and_larger_than_weights_have_exact_intervals() {
         found.len(),
         found.join("\n")
     );
+}
+
+/// A factor that must be 0 was 10⁻⁶ or withheld, since a verdict may be stable just beyond it. The exact program knew no end beyond
+/// 10⁷, and no band.
+#[test]
+fn slight_loads_that_nothing_may_carry_have_a_factor_of_zero() {
+    for number in [50069, 50118, 50214, 50274, 50293, 50297] {
+        let found = problems(number);
+        assert!(found.is_empty(), "{found:?}");
+    }
 }
 
 /// The counterweight of the plank in units of a micronewton: a factor of 9·10⁹ once counted as none.

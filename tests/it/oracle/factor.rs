@@ -15,7 +15,7 @@ pub enum Growing {
 }
 
 /// Values beyond this count as no end.
-pub const ENDLESS: i64 = 10_000_000;
+pub const ENDLESS: i64 = 10_000_000_000_000;
 
 impl Balance<'_> {
     /// The least and the largest value at which the group stands, each within ±[`ENDLESS`]; `None` where it stands at none.

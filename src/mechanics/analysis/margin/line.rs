@@ -43,6 +43,8 @@ enum Cut {
 const NEAR: f64 = 1e-6;
 /// The end from a linear program is accepted if verdicts within this relative distance, on both sides, agree with it.
 const AGREES: f64 = 256e-6;
+/// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.
+const STABLE_BEYOND: f64 = 4e-6;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const WIDER: f64 = 16.0;
 /// The largest number of steps of one search.
@@ -62,7 +64,7 @@ impl Line<'_> {
     pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
         let hint = hint
             .map(|hint| self.rounded(hint))
-            .filter(|hint| (hint - from) * outward >= 0.0);
+            .filter(|hint| (hint - from) * outward >= -STABLE_BEYOND * self.size(*hint));
         // The least meaningful value may itself be the end.
         let is_natural = outward < 0.0 && self.least.is_finite();
         if is_natural
@@ -88,8 +90,10 @@ impl Line<'_> {
                 }
             };
             if (beyond - bracket.inside) * outward <= NEAR * self.size(*beyond) {
+                // A verdict may be stable a little beyond the end, within the tolerance of the proofs.
                 let within = hint.filter(|hint| {
-                    (hint - bracket.inside) * outward >= 0.0 && (beyond - hint) * outward >= 0.0
+                    (hint - bracket.inside) * outward >= -NEAR * self.size(*hint)
+                        && (beyond - hint) * outward >= 0.0
                 });
                 return End::At {
                     value: self.rounded(within.unwrap_or(*beyond)),
@@ -146,10 +150,10 @@ impl Line<'_> {
         };
         // The linear program gives the value, and the verdicts on both sides are close enough to confirm it.
         let agrees = |hint: &f64| {
-            let apart = [(hint - inside) * outward, (beyond - hint) * outward];
-            apart
-                .iter()
-                .all(|d| (-NEAR..=AGREES).contains(&(d / self.size(*hint))))
+            let [from_inside, to_beyond] =
+                [hint - inside, beyond - hint].map(|apart| apart * outward / self.size(*hint));
+            (-STABLE_BEYOND..=AGREES).contains(&from_inside)
+                && (-NEAR..=AGREES).contains(&to_beyond)
         };
         match hint.filter(agrees) {
             Some(value) => End::At { value, mechanism },
