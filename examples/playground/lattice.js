@@ -91,21 +91,20 @@ export function outlineOfCells(grid, cells, angle) {
       if (!edges.delete(key(b, a))) edges.set(key(a, b), [a, b]);
     });
   }
+  /** @type {Map<string, [Point, Point][]>} edges by the node where they begin */
+  const from = new Map();
+  for (const edge of edges.values()) from.set(String(edge[0]), [...(from.get(String(edge[0])) ?? []), edge]);
   /** @type {Point[][]} */
   const loops = [];
-  while (edges.size > 0) {
-    const [first] = edges.values();
+  for (const first of edges.values()) {
     /** @type {Point[]} */
     const loop = [];
-    let [from, to] = first;
-    for (;;) {
-      edges.delete(key(from, to));
-      loop.push(from);
-      const next = [...edges.values()].find(([a]) => a[0] === to[0] && a[1] === to[1]);
-      if (!next) break;
-      [from, to] = next;
+    let edge = from.get(String(first[0]))?.pop();
+    while (edge) {
+      loop.push(edge[0]);
+      edge = from.get(String(edge[1]))?.pop();
     }
-    loops.push(straightened(loop));
+    if (loop.length > 0) loops.push(straightened(loop));
   }
   // The outline runs anticlockwise, holes clockwise.
   return loops.sort((a, b) => signedArea(b) - signedArea(a));

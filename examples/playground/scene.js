@@ -34,12 +34,16 @@ export const blockId = (block, index) => (typeof block?.id === "string" ? block.
 /** @param {any} robot @param {number} index */
 export const robotId = (robot, index) => (typeof robot?.id === "string" ? robot.id : `r${index}`);
 
+/** What the stage shows at most: a link from somebody must not stop the browser. The library sees the whole scene. */
+const MOST_BODIES = 5000;
+const MOST_PLACED = 1_000_000;
+
 /** @param {any} scene @returns {Resolved} */
 export function resolve(scene) {
   /** @type {Body[]} */
   const bodies = [];
   for (const kind of /** @type {const} */ (["ground", "blocks"])) {
-    list(scene?.[kind]).forEach((entity, index) => {
+    list(scene?.[kind]).slice(0, MOST_BODIES).forEach((entity, index) => {
       const body = resolveBody(scene, entity, kind, index);
       if (body) bodies.push(body);
     });
@@ -103,7 +107,7 @@ export function outlineOf(scene, entity) {
 /** What stands in each step. @param {any} scene @returns {Frame[]} */
 function framesOf(scene) {
   const robots = list(scene?.robots).map((robot, i) => ({ id: robotId(robot, i), at: isPoint(robot?.at) ? robot.at : null, holds: robot?.holds }));
-  const everything = list(scene?.blocks).map(blockId);
+  const everything = list(scene?.blocks).slice(0, MOST_BODIES).map(blockId);
   if (!Array.isArray(scene?.steps) || scene.steps.length === 0) {
     const holds = robots.filter((r) => typeof r.holds === "string").map((r) => ({ robot: r.id, block: r.holds, at: r.at, step: -1 }));
     return [{ title: "", placed: new Set(everything), holds, planned: new Set() }];
@@ -111,7 +115,7 @@ function framesOf(scene) {
   const placed = new Set();
   /** @type {Map<string, Hold>} */
   const holds = new Map();
-  return scene.steps.slice(0, 1000).map((/** @type {any} */ step, /** @type {number} */ number) => {
+  return scene.steps.slice(0, Math.ceil(MOST_PLACED / Math.max(1000, everything.length))).map((/** @type {any} */ step, /** @type {number} */ number) => {
     for (const robot of list(step?.release)) holds.delete(robot);
     for (const block of list(step?.remove)) placed.delete(block);
     for (const block of list(step?.place)) placed.add(block);

@@ -5,6 +5,9 @@
 /** @typedef {{ value?: any, problems?: any[], error?: string, milliseconds?: number }} Answer */
 /** @typedef {{ topic: string, message: any, resolve: (answer: Answer | null) => void }} Question */
 
+/** After so many seconds the library gives up and calls a step undecided. */
+const PATIENCE = 10;
+
 class Lane {
   /** @param {() => Worker} start */
   constructor(start) {
@@ -80,17 +83,17 @@ export class Solver {
 
   /** The verdict on one step, from 0. @param {string} scene @param {number} frame */
   verdict(scene, frame) {
-    return this.fast.ask("verdict", { task: "check", scene, options: { frame: frame + 1 } });
+    return this.fast.ask("verdict", { task: "check", scene, options: { frame: frame + 1, time_limit: PATIENCE } });
   }
 
   /** The same with margins. @param {string} scene @param {number} frame */
   margins(scene, frame) {
-    return this.slow.ask("margins", { task: "check", scene, options: { frame: frame + 1, margins: true } });
+    return this.slow.ask("margins", { task: "check", scene, options: { frame: frame + 1, margins: true, time_limit: PATIENCE } });
   }
 
   /** @param {string} scene @param {any} options */
   figure(scene, options) {
-    return this.slow.ask("figure", { task: "figure", scene, options });
+    return this.slow.ask("figure", { task: "figure", scene, options: { ...options, time_limit: PATIENCE } });
   }
 
   /** @param {string} text @param {string} format */

@@ -35,6 +35,16 @@ test("hexagons of the lattice have their outline", async () => {
   for (const p of hexagon?.outline ?? []) assert.ok(Math.abs(Math.hypot(p[0] - hexagon.centre[0], p[1] - hexagon.centre[1]) - 1) < 1e-12);
 });
 
+test("cells with a hole have an outline and a hole, and many cells take no time", () => {
+  const ring = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [0, 2], [1, 2], [2, 2]];
+  const [body] = resolve({ grid: { kind: "square" }, blocks: [{ cells: ring }] }).bodies;
+  assert.deepEqual([body.outline.length, body.holes.map((hole) => hole.length)], [4, [4]]);
+  const many = Array.from({ length: 5000 }, (_, i) => [2 * (i % 70), 2 * Math.floor(i / 70)]);
+  const before = performance.now();
+  resolve({ grid: { kind: "square" }, blocks: [{ cells: many }] });
+  assert.ok(performance.now() - before < 2000);
+});
+
 test("steps place, hold, release and plan", async () => {
   const { frames } = resolve(await read("scenes/figure-4.json"));
   assert.equal(frames.length, 6);
