@@ -93,7 +93,7 @@ impl PanelContent for Mechanism {
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
+        let (context, camera) = (pen.context, pen.camera);
         let mut ink = label::ink(pen);
         let mut blocks = pen.blocks();
         blocks.items.extend(ghosts(pen));

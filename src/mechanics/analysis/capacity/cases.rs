@@ -185,7 +185,7 @@ fn intersection(all: &[Capacity]) -> Capacity {
 }
 
 /// Keeps the first and the last of some directions within a half-plane, anticlockwise.
-fn widest(directions: &mut Vec<Vector>) -> Vec<Vector> {
+fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     let mean: Vector = directions.iter().sum();
     let turn = |d: &Vector| libm::atan2(mean.x * d.y - mean.y * d.x, mean.dot(d));
     directions.sort_by(|a, b| turn(a).total_cmp(&turn(b)));
