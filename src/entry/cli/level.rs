@@ -80,7 +80,7 @@ fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
 fn length(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(metres) if (0.0..=1e12).contains(&metres) => Ok(metres),
-        _ => Err("give a length in metres, at least 0".into()),
+        _ => Err("give a length in metres, from 0 to 1e12".into()),
     }
 }
 

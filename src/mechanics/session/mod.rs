@@ -145,7 +145,7 @@ impl Session {
     /// Removes a block and the loads on it.
     ///
     /// # Errors
-    /// If no such block is placed, or a robot holds it. Nothing is removed then.
+    /// If no such block is placed, a robot holds it, or the scene without it is not valid. Nothing is removed then.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
@@ -156,10 +156,8 @@ impl Session {
             let robot = self.scene.robots[hold.robot.0].id.clone();
             return Err(SessionError::Held(block.into(), robot));
         }
-        self.file.loads.retain(|load| load.block != block);
-        let named = |entry: &BlockEntry| entry.id.as_deref() == Some(block);
-        self.file.blocks.retain(|entry| !named(entry));
         if self.is_incremental() {
+            self.remove_from_file(block);
             let id = BodyId::Block(number);
             let cells = self.scene.blocks[number.0].body.cells.clone();
             self.lookup.remove(block, id, &cells.unwrap_or_default());
@@ -167,12 +165,23 @@ impl Session {
             self.scene.loads.retain(|load| load.block != number);
             self.scene.frames[0].placed.retain(|b| *b != number);
         } else {
+            let kept = self.file.clone();
+            self.remove_from_file(block);
+            if let Err(problems) = self.read_again() {
+                self.file = kept;
+                return Err(problems.into());
+            }
             // Reading the scene again changes block numbers and the tolerance, so the last solution is no longer a
             // valid warm start.
             self.guess = WarmStart::default();
-            self.read_again()?;
         }
         Ok(self.update_verdict())
+    }
+
+    fn remove_from_file(&mut self, block: &str) {
+        self.file.loads.retain(|load| load.block != block);
+        let named = |entry: &BlockEntry| entry.id.as_deref() == Some(block);
+        self.file.blocks.retain(|entry| !named(entry));
     }
 
     /// Makes a robot hold a block. The grip point `at` is in metres; without it, it is the block's centroid.

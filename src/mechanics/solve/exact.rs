@@ -141,7 +141,8 @@ fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Ve
     gram
 }
 
-/// Returns the amounts of the columns in use if they meet the conditions of an optimum, otherwise `None`.
+/// Returns the amounts of all columns, 0 for columns that are not in use. `None` if the columns in use do not meet the
+/// conditions of an optimum.
 fn proved_optimum(
     loads: &[f64],
     columns: &[Column],

@@ -55,7 +55,8 @@ pub fn write(drawing: &Drawing) -> String {
 }
 
 /// Like [`write()`], for a drawing that is converted to pixels. All ids begin with `d`, because no other figure is on
-/// the same page. Invisible titles and groups are left out to save time.
+/// the same page. To save time, titles and descriptions are left out, and groups are written without their `<g>`
+/// element unless it clips.
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)

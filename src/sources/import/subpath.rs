@@ -54,7 +54,8 @@ impl Subpath {
         })
     }
 
-    /// Makes an ellipse with axes parallel to x and y. It starts at the end of `rx` in the direction of x.
+    /// Makes an ellipse with axes parallel to x and y. It starts at `centre` + (`rx`, 0) and
+    /// turns from x towards y.
     pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Subpath {
         let start = centre + Vector::new(rx, 0.0);
         let arc = Arc {

@@ -1,5 +1,5 @@
-//! Route 3a: corrects forces that balance the structure as a whole, until they balance each body or some bodies are proved
-//! to fall.
+//! Route 3a: corrects forces that balance the structure as a whole, so that they balance each body. Otherwise it tries to
+//! prove that some bodies fall. If both fail, the frame stays open.
 //!
 //! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
 //! and hide that it falls. Each round does the first of these steps that helps:

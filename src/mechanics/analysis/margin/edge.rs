@@ -241,7 +241,7 @@ impl Threshold {
         std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
             .take_while(move |step| *step <= far)
             .map(move |step| (at + sign * step).clamp(0.0, most))
-            // If there is no farther value, try the last one once.
+            // Values beyond 0 or `most` are clamped to it. Try such an end once, then stop.
             .take_while(move |value| {
                 let last = *value == 0.0 || *value == most;
                 !std::mem::replace(&mut ended, last)

@@ -1,4 +1,4 @@
-//! [`Closeness`]: the distance at which edges touch, and what healing moved.
+//! [`Closeness`]: the contact tolerance of a scene, and the result of healing.
 
 use super::Resolution;
 use crate::geometry::{Bounds, Polygon, Tolerance};

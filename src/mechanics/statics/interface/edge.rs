@@ -231,7 +231,7 @@ impl Collection {
     /// Adds an interface whose edges are at most `distance` metres apart. `smallest` is the size of the smallest stone,
     /// metres.
     fn add_touching(&mut self, interface: Interface, distance: f64, smallest: f64) {
-        // A gap that is too narrow for every stone of the scene cannot be kept open by a stone.
+        // A gap counts as an open joint only if it is wide enough for the smallest stone, which may keep it open.
         if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
             self.open_joints.push(NearMiss {
                 bodies: interface.bodies,

@@ -206,7 +206,7 @@ impl ForceSource<'_> {
         self.ends(contact).map(force).collect()
     }
 
-    /// Returns the sum of the forces of an interface, at its resultant.
+    /// Returns the sum of the forces of an interface on the block, N. It acts at the point of the interface's resultant.
     fn resultant(&self, number: usize, contact: &Contact) -> Force {
         let ends = corners(contact, self.block);
         let normal = inward(contact, self.block);

@@ -41,7 +41,7 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
         }
         (_, Interval::Empty(_)) => format!("falls at every {}", parameter(toward)),
         (_, Interval::Undecided) => {
-            format!("at which {} it stands was not confirmed", parameter(toward))
+            format!("no {} was confirmed at which it stands", parameter(toward))
         }
     }
 }

@@ -132,7 +132,8 @@ impl Strip<'_> {
         (items, below)
     }
 
-    /// Returns the scale of the arrows of a panel; `None` if it has none of its own.
+    /// Returns the legend entry with the arrow scale of a panel. `None` if all panels share one scale, if there is no
+    /// legend, or if the panel shows no arrows.
     fn scale_of_panel(&self, frame: usize) -> Option<Entry> {
         let (context, options) = (self.context, self.context.options);
         let too_small = context.arrows_too_small(self.layout.scale);

@@ -49,7 +49,7 @@ impl<'t> Groups<'_, 't> {
         Some(*first)
     }
 
-    /// Skips to the next group with a code, without reading this group. `None` if there is none.
+    /// Skips to the next group with this code, which is read next. `None` if there is none; nothing is skipped then.
     fn skip_to(&mut self, code: i32) -> Option<()> {
         let skipped = self.rest.iter().position(|(c, _)| *c == code)?;
         self.rest = &self.rest[skipped..];
