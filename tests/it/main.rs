@@ -48,6 +48,7 @@ mod program;
 mod random;
 mod report;
 mod scenes;
+mod sensitivity;
 mod session;
 mod sinks;
 mod small;

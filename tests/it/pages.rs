@@ -8,7 +8,7 @@ mod result;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use drystone::analysis::{Analysis, Options};
+use drystone::analysis::{Analysis, MarginKind, Options};
 use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
 use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
 use drystone::scene::{Code, NoteCode, Scene};
@@ -264,6 +264,11 @@ fn fits(kind: Type, value: &Value) -> bool {
         Type::Place => value.is_null() || value.as_u64().is_some_and(|n| n > 0),
         Type::Number => number(value),
         Type::Bound | Type::Margin => number(value) || value == "unbounded",
+        Type::Slope => number(value) || pair(value) || value == "at_kink",
+        Type::SlopePair => {
+            let both = |v: &Value| two(v) && list(v, &pair);
+            pair(value) || both(value) || value == "at_kink" || value.is_null()
+        }
         Type::Pair => pair(value),
         Type::Pairs => two(value) && list(value, &pair),
         Type::Points => list(value, &pair),
@@ -379,7 +384,10 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
                 .map(|p| std::fs::read_to_string(p).expect("readable")),
         );
     }
-    let options = Options::default().margins(true).wedging(true);
+    let options = Options::default()
+        .margins(true)
+        .wedging(true)
+        .sensitivity(MarginKind::LoadFactor);
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);

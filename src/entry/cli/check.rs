@@ -9,7 +9,7 @@ use crate::analysis::{Analysis, Options, Verdict};
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
-use crate::cli::margins::MarginArgs;
+use crate::cli::margins::{MarginArgs, Varied};
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
@@ -17,6 +17,8 @@ use crate::cli::table::{self, Detail};
 use crate::cli::terminal::Terminal;
 use crate::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::scene::Note;
+use crate::wording::number::letter;
+use crate::wording::sensitivity;
 use crate::wording::verdict::counted;
 
 /// Decide whether scenes stand, show what fails, and prove it
@@ -37,6 +39,10 @@ pub(crate) struct Check {
     no_timing: bool,
     #[command(flatten)]
     margins: MarginArgs,
+    /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the largest
+    /// effect; --json has them all
+    #[arg(long, value_enum, value_name = "MARGIN")]
+    sensitivity: Option<Varied>,
     /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
     #[arg(long)]
     verdict_only: bool,
@@ -133,6 +139,7 @@ impl Check {
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
             verdict_only: self.verdict_only,
+            sensitivity: self.sensitivity.map(Varied::kind),
             ..self.margins.add_to(self.level.options())
         };
         sources
@@ -176,6 +183,7 @@ impl Check {
             return (ending, verdicts, json, Page::default());
         }
         let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
+        page.append(&sensitivities(&analysis));
         page.append(&noted(&analysis.notes));
         page.end();
         (ending, verdicts, String::new(), page)
@@ -243,6 +251,24 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
         words += &format!("; {} frames: {}", by_frame.len(), counts(&by_frame));
     }
     words
+}
+
+/// Writes the most effective changes of each frame below a table.
+fn sensitivities(analysis: &Analysis) -> Page {
+    let mut page = Page::default();
+    let scene = &analysis.scene;
+    for (number, frame) in analysis.frames.iter().enumerate() {
+        let Some(found) = &frame.sensitivity else {
+            continue;
+        };
+        if analysis.frames.len() > 1 {
+            page.line(&format!("  frame {}", letter(number)));
+        }
+        for line in sensitivity::lines(scene, frame, found) {
+            page.line(&format!("  {line}"));
+        }
+    }
+    page
 }
 
 /// Writes the notes below a table. Each has two lines: the note, and the remedy.

@@ -36,6 +36,31 @@ enum Name {
     Robots,
 }
 
+/// A margin with one parameter, whose sensitivity can be computed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Varied {
+    #[value(alias = "load_factor")]
+    LoadFactor,
+    Tilt,
+    #[value(alias = "horizontal_load")]
+    HorizontalLoad,
+    Friction,
+    Kernel,
+}
+
+impl Varied {
+    /// Returns the margin.
+    pub(crate) fn kind(self) -> MarginKind {
+        match self {
+            Varied::LoadFactor => MarginKind::LoadFactor,
+            Varied::Tilt => MarginKind::Tilt,
+            Varied::HorizontalLoad => MarginKind::HorizontalLoad,
+            Varied::Friction => MarginKind::Friction,
+            Varied::Kernel => MarginKind::Kernel,
+        }
+    }
+}
+
 impl Name {
     fn kind(self) -> MarginKind {
         match self {

@@ -14,6 +14,7 @@ use super::frame::settle;
 use super::gather::{add, gathered};
 use super::key::{Key, key};
 use super::margin::{self, ComponentIntervals, Part};
+use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::assembly::Assembly;
 use crate::clock::Instant;
@@ -126,9 +127,10 @@ pub(super) fn analyse_frame(
         options,
         &mut known.intervals,
     );
-    if options.margins {
+    if judged.is_some() {
         analysis.solve.stages.margins = seconds() - after;
     }
+    analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.intervals);
     analysis.effects.push(effect::margin::report(judged));
     analysis.effects.push(wedging::report(wedging));
     analysis.solve.seconds = seconds();
@@ -223,18 +225,34 @@ fn find_margins(
     options: Options,
     known: &mut BTreeMap<Key, ComponentIntervals>,
 ) -> Option<usize> {
-    if !options.margins {
-        return None;
-    }
+    let kinds = options.wanted_margins()?;
     let parts = solved.iter().map(|s| Part {
         component: s.component,
         key: s.key,
         found: s.found,
     });
     let parts: Vec<Part> = parts.collect();
-    let (margins, judged) = margin::find_margins(&parts, options.margin_kinds, known);
+    let (margins, judged) = margin::find_margins(&parts, kinds, known);
     let name = |robot: RobotId| scene.robots[robot.0].id.clone();
     analysis.notices.extend(margins.intervals.withheld(name));
     analysis.margins = Some(margins);
     Some(judged)
+}
+
+/// Finds how a margin of a frame changes with its geometry, weights, friction and loads, if this is requested.
+fn find_sensitivity(
+    context: &FrameContext,
+    analysis: &FrameAnalysis,
+    solved: &[Solved],
+    options: Options,
+    known: &BTreeMap<Key, ComponentIntervals>,
+) -> Option<Sensitivity> {
+    let kind = options.sensitivity?;
+    let intervals = &analysis.margins.as_ref()?.intervals;
+    let parts = solved.iter().map(|s| sensitivity::Part {
+        component: s.component,
+        interval: known.get(s.key).and_then(|found| found.of(kind)),
+    });
+    let parts: Vec<sensitivity::Part> = parts.collect();
+    Some(sensitivity::find(context, &parts, intervals, kind))
 }

@@ -35,6 +35,7 @@ pub(super) fn gathered(
         unsupported: Vec::new(),
         mechanism: Vec::new(),
         margins: None,
+        sensitivity: None,
         only_by_wedging: None,
         wedged: None,
         effects,

@@ -22,6 +22,7 @@ mod option;
 mod pair;
 mod wedged;
 mod thrust_states;
+mod sensitivity;
 
 use std::fmt;
 use std::sync::Arc;
@@ -51,6 +52,9 @@ pub use margin::{
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
+pub use sensitivity::{
+    CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope,
+};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
 pub use warm_start::{Source, verdicts};
@@ -135,6 +139,8 @@ pub struct FrameAnalysis {
     pub mechanism: Vec<Motion>,
     /// How far the frame is from its limit of stability, if requested.
     pub margins: Option<Margins>,
+    /// How a margin changes with corners, weights, friction and loads, if requested.
+    pub sensitivity: Option<Sensitivity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not requested,
     /// if the frame does not stand, or if no answer was found.
     pub only_by_wedging: Option<bool>,

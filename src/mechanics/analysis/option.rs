@@ -3,7 +3,7 @@
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
 
-use super::margin::MarginKinds;
+use super::margin::{MarginKind, MarginKinds};
 use crate::clock::Instant;
 use crate::proof::ProofThreshold;
 use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
@@ -20,6 +20,8 @@ pub struct Options {
     pub margins: bool,
     /// The margins to compute, if margins are requested; by default all.
     pub margin_kinds: MarginKinds,
+    /// The margin whose derivatives are computed, if any. The margin itself is computed too.
+    pub sensitivity: Option<MarginKind>,
     /// Whether to check if a stable frame stands only by wedging.
     pub wedging: bool,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
@@ -62,6 +64,7 @@ impl Options {
     }
 
     optional_setters! {
+        sensitivity: MarginKind, "The margin whose derivatives are computed.";
         tolerance: f64, "A solver tolerance that replaces that of the accuracy, to measure its cost.";
         deadline: Instant, "The time at which the analysis stops.";
     }
@@ -72,10 +75,22 @@ impl Options {
         tolerance: None,
         margins: false,
         margin_kinds: MarginKinds::ALL,
+        sensitivity: None,
         wedging: false,
         verdict_only: false,
         deadline: None,
     };
+
+    /// Returns the margins to compute: the requested ones, and the one whose derivatives are requested. `None` without
+    /// either.
+    pub(super) fn wanted_margins(self) -> Option<MarginKinds> {
+        let requested = self.margins.then_some(self.margin_kinds);
+        match (requested, self.sensitivity) {
+            (kinds, None) => kinds,
+            (None, Some(kind)) => Some(MarginKinds::new(&[kind])),
+            (Some(kinds), Some(kind)) => Some(kinds.with(kind)),
+        }
+    }
 
     /// Whether the deadline has passed.
     pub(super) fn is_late(self) -> bool {

@@ -64,6 +64,8 @@ pub struct Block {
     pub centroid: Point,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
+    /// Whether the weight is that of the area: the file gives neither weight nor mass.
+    pub(crate) weighs_by_area: bool,
 }
 
 /// The largest force components and torque of a robot, in either direction; infinite if there is no limit.
@@ -121,6 +123,8 @@ pub struct Load {
     pub at: Point,
     /// Torque in N·m, anticlockwise positive.
     pub torque: f64,
+    /// Whether it acts at the centroid because the file gives no point.
+    pub(crate) at_centroid: bool,
 }
 
 /// A material by name.

@@ -159,7 +159,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
 
 /// Tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain conditioning is
 /// first.
-fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
+pub(super) fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
     let finest = usize::from(has_many_blocks);

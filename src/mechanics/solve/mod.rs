@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
-//! | `balance`, `least_residual`, `least_adhesion`, `limit`, `support`, `tangent` | the programs of limit analysis |
+//! | `balance`, `least_residual`, `least_adhesion`, `limit`, `limit_state`, `support`, `tangent` | the programs of limit analysis |
 //! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
 //! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
@@ -32,6 +32,7 @@ mod least_residual;
 mod least_adhesion;
 mod level;
 mod limit;
+mod limit_state;
 mod normal;
 #[cfg(test)]
 mod numbers;
@@ -58,6 +59,7 @@ pub use dual::{Dual, dual};
 pub use least_adhesion::{least_adhesion, least_adhesion_in};
 pub use least_residual::{Residual, any_balance, least_residual};
 pub use limit::{Extreme, Limit, largest_factor, least_grip_limit, nearest_factor};
+pub use limit_state::{LimitState, limit_state};
 pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;
 pub use settings::{

@@ -24,6 +24,7 @@ mod note;
 mod refusal;
 mod page;
 mod proof;
+mod sensitivity;
 mod solve;
 mod value_type;
 mod wedging;
@@ -47,6 +48,7 @@ use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
+use sensitivity::Sensitivity;
 use solve::Solve;
 use wedging::Wedging;
 
@@ -188,6 +190,8 @@ struct Frame<'a> {
     mechanism: Vec<Motion<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margins: Option<Margins<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<Sensitivity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
@@ -314,6 +318,7 @@ impl<'a> Frame<'a> {
                 .map(|m| Motion::new(scene, m))
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
+            sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
             only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
             effects: frame

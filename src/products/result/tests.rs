@@ -29,6 +29,7 @@ fn scene() -> Scene {
         body: body.clone(),
         centroid: Point::new(1.0, 0.7),
         weight: 5.0,
+        weighs_by_area: false,
     };
     Scene {
         title: "A \"wedge\"".into(),
@@ -142,6 +143,7 @@ fn frame() -> FrameAnalysis {
             spin: f64::NAN,
         }],
         margins: None,
+        sensitivity: None,
         only_by_wedging: None,
         wedged: None,
         effects: vec![EffectReport {

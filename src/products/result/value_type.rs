@@ -25,6 +25,11 @@ pub enum Type {
     Margin,
     /// Two ends, `[low, high]`: each a number, `null` for no limit, or `"withheld"`; `null` for an empty interval.
     Interval,
+    /// A derivative: a number; `[backward, forward]` at a kink; or `"at_kink"`.
+    Slope,
+    /// Derivatives along x and y, `[x, y]`; `[backward, forward]`, each such a pair, at a kink; or `"at_kink"`; `null`
+    /// for a vertex that cannot move.
+    SlopePair,
     /// Two lists of motions, beyond the lower and beyond the upper end.
     MotionPairs,
     /// A point or vector, `[x, y]`.
@@ -68,6 +73,8 @@ impl Type {
             Type::Bound => "number or `\"unbounded\"`",
             Type::Margin => "number, null or `\"unbounded\"`",
             Type::Interval => "[low, high] or null",
+            Type::Slope => "number, [backward, forward] or `\"at_kink\"`",
+            Type::SlopePair => "[x, y], [backward, forward], `\"at_kink\"` or null",
             Type::MotionPairs => "two lists of motions",
             Type::Pair => "[x, y]",
             Type::Pairs => "[[x, y], [x, y]]",
@@ -103,6 +110,11 @@ impl Type {
                 let end = json!({ "anyOf": [number, withheld] });
                 let both = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
                 json!({ "anyOf": [both, { "type": "null" }, withheld] })
+            }
+            Type::Slope => json!({ "anyOf": [number, pair, { "const": "at_kink" }] }),
+            Type::SlopePair => {
+                let both = json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 });
+                json!({ "anyOf": [pair, both, { "const": "at_kink" }, { "type": "null" }] })
             }
             Type::MotionPairs => {
                 let motions = json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } });

@@ -11,4 +11,5 @@ pub mod headline;
 pub mod margin;
 pub mod number;
 pub mod proof;
+pub mod sensitivity;
 pub mod verdict;

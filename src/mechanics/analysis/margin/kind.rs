@@ -18,6 +18,20 @@ pub enum MarginKind {
     Robots,
 }
 
+impl MarginKind {
+    /// Returns its name in results.
+    pub fn word(self) -> &'static str {
+        match self {
+            MarginKind::Friction => "friction",
+            MarginKind::Tilt => "tilt",
+            MarginKind::HorizontalLoad => "horizontal_load",
+            MarginKind::Kernel => "kernel",
+            MarginKind::LoadFactor => "load_factor",
+            MarginKind::Robots => "robots",
+        }
+    }
+}
+
 /// A set of margins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MarginKinds {
@@ -32,6 +46,14 @@ impl MarginKinds {
     pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }
+    }
+
+    /// Returns the set with one more margin.
+    #[must_use]
+    pub fn with(self, kind: MarginKind) -> MarginKinds {
+        MarginKinds {
+            bits: self.bits | bit(kind),
+        }
     }
 
     /// Whether the set contains a margin.

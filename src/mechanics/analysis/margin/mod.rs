@@ -81,6 +81,20 @@ pub(super) struct ComponentIntervals {
     robots: Vec<RobotIntervals>,
 }
 
+impl ComponentIntervals {
+    /// Returns the interval of a margin with one parameter; `None` if it was not computed.
+    pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
+        match kind {
+            MarginKind::Friction => self.friction.as_ref(),
+            MarginKind::Tilt => self.tilt.as_ref(),
+            MarginKind::HorizontalLoad => self.horizontal_load.as_ref(),
+            MarginKind::Kernel => self.kernel.as_ref(),
+            MarginKind::LoadFactor => self.load_factor.as_ref(),
+            MarginKind::Robots => None,
+        }
+    }
+}
+
 /// Computes the margins of a frame from its components, and the number of changed components that were decided for
 /// them.
 ///

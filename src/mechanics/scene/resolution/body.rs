@@ -172,6 +172,7 @@ impl Resolution<'_> {
         let density = density
             .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
             .unwrap_or(self.density);
+        let weighs_by_area = weight.is_none() && mass.is_none();
         let weight = weight.unwrap_or_else(|| {
             mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
         });
@@ -184,6 +185,7 @@ impl Resolution<'_> {
             centroid: body.polygon.centroid(),
             body,
             weight,
+            weighs_by_area,
         })
     }
 }

@@ -78,6 +78,7 @@ impl Resolution<'_> {
                 force: Vector::new(force[0], force[1]),
                 at: point,
                 torque,
+                at_centroid: entry.at.is_none(),
             });
         }
         loads

@@ -1,0 +1,129 @@
+//! [`Case`]: one component at one end of the interval of a parameter.
+
+use crate::analysis::margin::MarginKind;
+use crate::assembly::{Assembly, LoadVector};
+use crate::geometry::{cross, quarter_turn, sin_cos_degrees};
+use crate::program::{Program, Scale};
+use crate::proof::Motion;
+use crate::solve::{LimitState, limit_state};
+
+/// One component at one end of the interval of a parameter.
+pub(super) struct Case<'a> {
+    /// The component as it is at present.
+    pub component: &'a Assembly,
+    /// The parameter.
+    pub kind: MarginKind,
+    /// Its value at the end.
+    pub value: f64,
+    /// 1 at the upper end, −1 at the lower one.
+    pub outward: f64,
+    /// How the blocks begin to move just beyond the end.
+    pub mechanism: &'a [Motion],
+}
+
+/// How far inside the end the program of the state begins, as a share of the loads there.
+///
+/// The state at the end is the same for every share; a share that is too large may begin where the component does not
+/// stand, and a share that is too small loses digits.
+const SHARES: [f64; 3] = [0.05, 2e-3, 1e-4];
+
+/// The state is that of the end if the program ends this close to it, as a share of the loads.
+const SAME_END: f64 = 1e-3;
+
+impl Case<'_> {
+    /// Returns the component with another value of the parameter.
+    pub fn at(&self, value: f64) -> Assembly {
+        let given = self.component.clone();
+        let down = given.pull;
+        match self.kind {
+            MarginKind::Friction => given.with_friction(value),
+            MarginKind::Kernel => given.with_kernel(value),
+            MarginKind::LoadFactor => given.with_load_factor(value),
+            MarginKind::HorizontalLoad => given.with_gravity(down + quarter_turn(down) * value),
+            MarginKind::Tilt => {
+                let (sin, cos) = sin_cos_degrees(value);
+                given.with_gravity(down * cos + quarter_turn(down) * sin)
+            }
+            MarginKind::Robots => given,
+        }
+    }
+
+    /// Returns the change of the load of each body per unit of the parameter; `None` if the parameter does not change
+    /// loads.
+    pub fn growth(&self, value: f64) -> Option<Vec<LoadVector>> {
+        let down = self.component.pull;
+        let along = match self.kind {
+            MarginKind::LoadFactor => {
+                let bodies = self.component.bodies.iter();
+                return Some(bodies.map(|body| body.listed).collect());
+            }
+            MarginKind::HorizontalLoad => quarter_turn(down),
+            MarginKind::Tilt => {
+                let (sin, cos) = sin_cos_degrees(value);
+                (quarter_turn(down) * cos - down * sin) * (std::f64::consts::PI / 180.0)
+            }
+            MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => return None,
+        };
+        let bodies = self.component.bodies.iter();
+        let growth = bodies.map(|body| LoadVector {
+            force: along * body.weight,
+            moment: 0.0,
+        });
+        Some(growth.collect())
+    }
+
+    /// Returns the loads that push the component outward: the growth of its loads, or forces along the mechanism if the
+    /// parameter does not change loads.
+    pub fn push(&self, value: f64) -> Vec<LoadVector> {
+        if let Some(growth) = self.growth(value) {
+            let outward = growth.into_iter().map(|load| load.times(self.outward));
+            return outward.collect();
+        }
+        let length = self.component.length;
+        let bodies = self.component.bodies.iter();
+        let along = bodies.map(|body| {
+            let motion = self.mechanism.iter().find(|m| m.block == body.block);
+            motion.map_or(LoadVector::NONE, |motion| LoadVector {
+                force: motion.velocity,
+                moment: motion.spin * length * length,
+            })
+        });
+        along.collect()
+    }
+
+    /// Solves for forces and mechanism at the end. Returns the program and its state; `None` if the end cannot be
+    /// reached.
+    pub fn solved(&self, changed: &Assembly) -> Option<(Program, LimitState)> {
+        let program = Program::new(changed, Scale::from_assembly(changed));
+        let scale = program.scale;
+        let mut direction = Vec::with_capacity(program.loads.len());
+        for load in self.push(self.value) {
+            direction.extend([-load.force.x, -load.force.y, -load.moment / scale.length]);
+        }
+        let size = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let (loads, push) = (size(&program.loads), size(&direction));
+        if loads == 0.0 || push == 0.0 {
+            return None;
+        }
+        direction.iter_mut().for_each(|v| *v *= loads / push);
+        SHARES.iter().find_map(|share| {
+            let mut inside = program.clone();
+            for (load, push) in inside.loads.iter_mut().zip(&direction) {
+                *load -= share * push;
+            }
+            let state = limit_state(&inside, &direction)?;
+            let is_same = (state.factor - share).abs() <= SAME_END.max(0.1 * share);
+            is_same.then_some((program.clone(), state))
+        })
+    }
+}
+
+/// Returns a load as (x, y, moment about a point).
+pub(super) fn load_at(
+    load: &LoadVector,
+    centroid: crate::geometry::Point,
+    origin: crate::geometry::Point,
+) -> [f64; 3] {
+    let moment = load.moment + cross(centroid - origin, load.force);
+    [load.force.x, load.force.y, moment]
+}

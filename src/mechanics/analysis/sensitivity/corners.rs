@@ -1,0 +1,234 @@
+//! [`Corners`]: which corners move together if contacts are kept, and how.
+//!
+//! Corners of two bodies at the end of their common stretch are one *joined corner*: they move together, and both
+//! bodies change. A corner of one body inside an edge of another body is guided by this edge. It can only move along
+//! the edge, and if the edge moves, it moves with it at right angles to the edge. A corner that is guided by two edges
+//! of different directions cannot move.
+
+use super::elimination::Elimination;
+use super::joints::{Corner, Finder, Found, Guide};
+use crate::assembly::DisjointSets;
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::interface::{ContactKind, Interface};
+use crate::scene::{BodyId, Frame, Scene};
+
+/// Two directions that differ by less than this sine are one.
+const PARALLEL: f64 = 1e-3;
+/// A motion that violates an edge by more than this, relative to the corner's, does not keep the contacts.
+const KEPT: f64 = 1e-7;
+/// More corners than this that depend on each other are not solved for.
+const MOST_DEPENDENT: usize = 400;
+
+/// One way in which a joined corner can move, per metre.
+#[derive(Clone, Debug)]
+pub(super) struct Move {
+    pub direction: Vector,
+    /// The joined corners that move, and how far.
+    pub field: Vec<(usize, Vector)>,
+}
+
+/// The lines of a contact that change with corners.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactCorners {
+    /// The joined corner at each end of the stretch.
+    pub ends: [usize; 2],
+    /// The joined corners of the edge that gives the normal, if the contact is a corner on an edge.
+    pub edge: Option<[usize; 2]>,
+}
+
+/// All corners of a frame.
+pub(super) struct Corners {
+    pub all: Vec<Corner>,
+    /// The joined corner of each corner.
+    pub joined: Vec<usize>,
+    /// The number of joined corners.
+    pub count: usize,
+    /// The position of one corner of each joined corner, metres.
+    pub positions: Vec<Point>,
+    /// For each interface of the frame its corners; `None` if they are unknown.
+    pub contacts: Vec<Option<ContactCorners>>,
+    /// The moves of each joined corner: two along the axes, one along an edge, or none.
+    pub moves: Vec<Vec<Move>>,
+}
+
+impl Corners {
+    /// Finds the corners of a frame and their moves.
+    pub fn new(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Corners {
+        let mut finder = Finder::new(scene, frame);
+        for interface in interfaces {
+            finder.join(interface);
+        }
+        let contacts: Vec<Found> = interfaces.iter().map(|i| finder.contact(i)).collect();
+        let (joined, count) = finder.joined();
+        let guides = finder.guides(&joined);
+        let mut corners = Corners {
+            contacts: contacts
+                .iter()
+                .map(|found| {
+                    found.ends.map(|ends| ContactCorners {
+                        ends: ends.map(|corner| joined[corner]),
+                        edge: found.edge.map(|edge| edge.map(|corner| joined[corner])),
+                    })
+                })
+                .collect(),
+            moves: vec![Vec::new(); count],
+            positions: positions(&finder.all, &joined, count),
+            all: finder.all,
+            joined,
+            count,
+        };
+        corners.find_moves(&guides);
+        corners.freeze(&contacts, interfaces);
+        corners
+    }
+
+    /// The positions of the corners before and behind a corner in its ring.
+    pub fn around(&self, place: usize) -> [Point; 2] {
+        self.all[place].neighbours.map(|place| self.all[place].at)
+    }
+
+    /// Finds the moves of every joined corner with a corner of a block.
+    fn find_moves(&mut self, guides: &[Guide]) {
+        let mut has_block = vec![false; self.count];
+        for (corner, joined) in self.all.iter().zip(&self.joined) {
+            has_block[*joined] |= matches!(corner.body, BodyId::Block(_));
+        }
+        let mut normals: Vec<Vec<Vector>> = vec![Vec::new(); self.count];
+        for guide in guides {
+            let known = &mut normals[guide.of];
+            let is_new = |n: &Vector| cross(*n, guide.normal).abs() > PARALLEL;
+            if known.is_empty() || (known.len() == 1 && known.iter().all(is_new)) {
+                known.push(guide.normal);
+            }
+        }
+        for corner in (0..self.count).filter(|corner| has_block[*corner]) {
+            let directions = match normals[corner].as_slice() {
+                [] => vec![Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)],
+                [normal] => vec![quarter_turn(*normal)],
+                _ => Vec::new(),
+            };
+            let moves = directions.into_iter().map(|direction| Move {
+                direction,
+                field: vec![(corner, direction)],
+            });
+            self.moves[corner] = moves.collect();
+        }
+        for part in parts(guides, self.count) {
+            self.follow(&part, &normals);
+        }
+    }
+
+    /// Adds to the moves of corners how the guided corners of one part follow them. Removes the moves that they cannot
+    /// follow.
+    fn follow(&mut self, guides: &[Guide], normals: &[Vec<Vector>]) {
+        // The displacements of guided corners along their normals, or in both directions, are unknown.
+        let mut guided: Vec<usize> = guides.iter().map(|guide| guide.of).collect();
+        guided.sort_unstable();
+        guided.dedup();
+        let mut unknowns: Vec<(usize, Vector)> = Vec::new();
+        for corner in guided {
+            match normals[corner].as_slice() {
+                [normal] => unknowns.push((corner, *normal)),
+                _ => unknowns.extend([
+                    (corner, Vector::new(1.0, 0.0)),
+                    (corner, Vector::new(0.0, 1.0)),
+                ]),
+            }
+        }
+        let mut involved: Vec<usize> = guides.iter().flat_map(|g| [g.of, g.from, g.to]).collect();
+        involved.sort_unstable();
+        involved.dedup();
+        if unknowns.len() > MOST_DEPENDENT {
+            involved.iter().for_each(|c| self.moves[*c].clear());
+            return;
+        }
+        let row = |guide: &Guide| -> Vec<f64> {
+            let entry =
+                |(corner, along): &(usize, Vector)| guide.factor(*corner) * guide.normal.dot(along);
+            unknowns.iter().map(entry).collect()
+        };
+        let rows: Vec<Vec<f64>> = guides.iter().map(row).collect();
+        let moved: Vec<(usize, usize)> = involved
+            .iter()
+            .flat_map(|c| (0..self.moves[*c].len()).map(|k| (*c, k)))
+            .collect();
+        let side = |(corner, k): &(usize, usize)| -> Vec<f64> {
+            let direction = self.moves[*corner][*k].direction;
+            let violation = |g: &Guide| -g.factor(*corner) * g.normal.dot(&direction);
+            guides.iter().map(violation).collect()
+        };
+        let sides: Vec<Vec<f64>> = moved.iter().map(side).collect();
+        let solved = Elimination::new(&rows, unknowns.len(), &sides);
+        for ((corner, k), (solution, rest)) in moved.into_iter().zip(solved.solutions) {
+            let of = &mut self.moves[corner][k];
+            if rest > KEPT {
+                of.field.clear();
+                continue;
+            }
+            for ((follower, along), share) in unknowns.iter().zip(&solution) {
+                if share.abs() > KEPT {
+                    of.field.push((*follower, along * *share));
+                }
+            }
+        }
+        for corner in involved {
+            if self.moves[corner].iter().any(|m| m.field.is_empty()) {
+                self.moves[corner].clear();
+            }
+        }
+    }
+
+    /// Removes the moves that change the normal of two touching corners: its change is not computed.
+    fn freeze(&mut self, contacts: &[Found], interfaces: &[&Interface]) {
+        let mut is_frozen = vec![false; self.count];
+        for (found, interface) in contacts.iter().zip(interfaces) {
+            let is_known = found.ends.is_some()
+                && (interface.kind == ContactKind::Edge || found.edge.is_some());
+            if is_known {
+                continue;
+            }
+            for (place, corner) in self.all.iter().enumerate() {
+                let is_tip = found.tips.contains(&place)
+                    || corner.neighbours.iter().any(|n| found.tips.contains(n));
+                if is_tip || (found.ends.is_none() && interface.bodies.contains(&corner.body)) {
+                    is_frozen[self.joined[place]] = true;
+                }
+            }
+        }
+        for moves in &mut self.moves {
+            let stops = |m: &Move| m.field.iter().any(|(corner, _)| is_frozen[*corner]);
+            if moves.iter().any(stops) {
+                moves.clear();
+            }
+        }
+    }
+}
+
+/// The position of one corner of each joined corner.
+fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
+    let mut positions = vec![Point::origin(); count];
+    for (corner, joined) in all.iter().zip(joined) {
+        positions[*joined] = corner.at;
+    }
+    positions
+}
+
+/// Groups the guides that depend on each other.
+fn parts(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
+    let mut is_guided = vec![false; count];
+    guides.iter().for_each(|guide| is_guided[guide.of] = true);
+    let mut sets = DisjointSets::new(count);
+    for guide in guides {
+        for end in [guide.from, guide.to] {
+            if is_guided[end] {
+                sets.union(guide.of, end);
+            }
+        }
+    }
+    let mut by_root: Vec<(usize, Guide)> = guides.iter().map(|g| (sets.find(g.of), *g)).collect();
+    by_root.sort_by_key(|(root, _)| *root);
+    let parts = by_root.chunk_by(|a, b| a.0 == b.0);
+    parts
+        .map(|part| part.iter().map(|(_, guide)| *guide).collect())
+        .collect()
+}

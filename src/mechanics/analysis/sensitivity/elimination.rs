@@ -1,0 +1,121 @@
+//! [`Elimination`]: solves small dense systems of equations, and finds all their solutions if there are several.
+//!
+//! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
+
+/// A pivot up to this fraction of the largest entry counts as 0: the row depends on the rows before it.
+///
+/// The entries are near 1, and rounding reaches about 1e-13. With a value a hundred times larger, an arch with very
+/// flat hinges would count as not unique. With a value a hundred times smaller, rounding would count as a pivot.
+const PIVOT_TOL: f64 = 1e-8;
+
+/// All solutions of a system of equations with several right-hand sides.
+pub(super) struct Elimination {
+    /// For each right-hand side the solution whose free unknowns are 0, and the largest remaining error of a row.
+    pub solutions: Vec<(Vec<f64>, f64)>,
+    /// A basis of the solutions of the system with the right-hand side 0.
+    pub null_space: Vec<Vec<f64>>,
+}
+
+impl Elimination {
+    /// Solves a system. `rows` are its equations, one number for each of `unknowns`; each list of `sides` has one
+    /// number for each row.
+    pub fn new(rows: &[Vec<f64>], unknowns: usize, sides: &[Vec<f64>]) -> Elimination {
+        let mut table: Vec<Vec<f64>> = rows.to_vec();
+        for (k, row) in table.iter_mut().enumerate() {
+            row.extend(sides.iter().map(|side| side[k]));
+        }
+        let entries = rows.iter().flatten();
+        let largest = entries.fold(0.0, |most: f64, v| most.max(v.abs()));
+        // The unknown that each finished row determines.
+        let mut pivots: Vec<usize> = Vec::new();
+        let mut is_free = vec![true; unknowns];
+        while pivots.len() < table.len() {
+            let first = pivots.len();
+            let Some((row, column, size)) = largest_entry(&table[first..], &is_free) else {
+                break;
+            };
+            if size <= PIVOT_TOL * largest {
+                break;
+            }
+            table.swap(first, first + row);
+            clear_column(&mut table, first, column);
+            is_free[column] = false;
+            pivots.push(column);
+        }
+        let rank = pivots.len();
+        let solution = |side: usize| {
+            let mut solution = vec![0.0; unknowns];
+            for (row, column) in table.iter().zip(&pivots) {
+                solution[*column] = row[unknowns + side];
+            }
+            let rest = table[rank..].iter().map(|row| row[unknowns + side].abs());
+            (solution, rest.fold(0.0, f64::max))
+        };
+        let null_vector = |free: usize| {
+            let mut vector = vec![0.0; unknowns];
+            vector[free] = 1.0;
+            for (row, column) in table.iter().zip(&pivots) {
+                vector[*column] = -row[free];
+            }
+            vector
+        };
+        Elimination {
+            solutions: (0..sides.len()).map(solution).collect(),
+            null_space: (0..unknowns)
+                .filter(|k| is_free[*k])
+                .map(null_vector)
+                .collect(),
+        }
+    }
+}
+
+/// Returns row, column and size of the largest entry among the free columns.
+fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f64)> {
+    let mut best: Option<(usize, usize, f64)> = None;
+    for (number, row) in rows.iter().enumerate() {
+        for (column, value) in row.iter().take(is_free.len()).enumerate() {
+            let size = value.abs();
+            if is_free[column] && best.is_none_or(|(.., most)| size > most) {
+                best = Some((number, column, size));
+            }
+        }
+    }
+    best
+}
+
+/// Scales the pivot row to 1 in the given column, and subtracts it from all other rows so that they are 0 there.
+fn clear_column(table: &mut [Vec<f64>], pivot: usize, column: usize) {
+    let by = table[pivot][column];
+    for value in &mut table[pivot] {
+        *value /= by;
+    }
+    let own = table[pivot].clone();
+    for (number, row) in table.iter_mut().enumerate() {
+        let share = row[column];
+        if number != pivot && share != 0.0 {
+            for (value, own) in row.iter_mut().zip(&own) {
+                *value -= share * own;
+            }
+            row[column] = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Elimination;
+
+    #[test]
+    fn a_regular_system_has_one_solution_and_a_singular_one_a_line_of_them() {
+        let rows = [vec![2.0, 1.0], vec![1.0, 3.0]];
+        let found = Elimination::new(&rows, 2, &[vec![3.0, 5.0]]);
+        let (solution, rest) = &found.solutions[0];
+        assert!((solution[0] - 0.8).abs() < 1e-14 && (solution[1] - 1.4).abs() < 1e-14);
+        assert!(*rest == 0.0 && found.null_space.is_empty());
+        let rows = [vec![1.0, 2.0], vec![2.0, 4.0]];
+        let found = Elimination::new(&rows, 2, &[vec![1.0, 2.0], vec![1.0, 0.0]]);
+        assert!(found.solutions[0].1 < 1e-14 && found.solutions[1].1 > 0.1);
+        let null = &found.null_space[0];
+        assert!((null[0] + 2.0 * null[1]).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,251 @@
+//! Finds the sensitivity of a frame from its components.
+
+use super::case::Case;
+use super::corners::Corners;
+use super::rates::Rates;
+use super::slope::{Branch, Slope};
+use super::state::EndState;
+use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
+use crate::analysis::margin::{End, Interval, Intervals, MarginKind};
+use crate::assembly::Assembly;
+use crate::effect::FrameContext;
+use crate::scene::BodyId;
+
+/// A component of a frame, and its own interval of the parameter if it is known.
+pub(in crate::mechanics::analysis) struct Part<'a> {
+    pub component: &'a Assembly,
+    pub interval: Option<&'a Interval>,
+}
+
+/// Two ends closer than this, relative to their values, are one: every component with this end falls.
+const SAME_END: f64 = 1e-6;
+
+/// Finds how both ends of a margin of a frame change.
+pub(in crate::mechanics::analysis) fn find(
+    context: &FrameContext,
+    parts: &[Part],
+    intervals: &Intervals,
+    kind: MarginKind,
+) -> Sensitivity {
+    let interval = match kind {
+        MarginKind::Friction => &intervals.friction,
+        MarginKind::Tilt => &intervals.tilt,
+        MarginKind::HorizontalLoad => &intervals.horizontal_load,
+        MarginKind::Kernel => &intervals.kernel,
+        MarginKind::LoadFactor => &intervals.load_factor,
+        MarginKind::Robots => &None,
+    };
+    let (low, high) = match interval {
+        None => (
+            Err(NoSensitivity::NotApplicable),
+            Err(NoSensitivity::NotApplicable),
+        ),
+        Some(Interval::Empty(_)) => (Err(NoSensitivity::Empty), Err(NoSensitivity::Empty)),
+        Some(Interval::Undecided) => (
+            Err(NoSensitivity::Unconfirmed),
+            Err(NoSensitivity::Unconfirmed),
+        ),
+        Some(Interval::Between { low, high }) => {
+            let corners = Corners::new(context.scene, context.frame, context.interfaces);
+            let frame = Search {
+                context,
+                parts,
+                kind,
+                corners: &corners,
+            };
+            (frame.end(low, -1.0), frame.end(high, 1.0))
+        }
+    };
+    Sensitivity { kind, low, high }
+}
+
+struct Search<'a> {
+    context: &'a FrameContext<'a>,
+    parts: &'a [Part<'a>],
+    kind: MarginKind,
+    corners: &'a Corners,
+}
+
+impl Search<'_> {
+    fn end(&self, end: &End, outward: f64) -> Result<EndSensitivity, NoSensitivity> {
+        let (value, mechanism) = match end {
+            End::Unbounded => return Err(NoSensitivity::Unbounded),
+            End::Unconfirmed { .. } => return Err(NoSensitivity::Unconfirmed),
+            End::At { mechanism, .. } if mechanism.is_empty() => {
+                return Err(NoSensitivity::RangeEnds);
+            }
+            End::At { value, mechanism } => (*value, mechanism),
+        };
+        let mut branches = Vec::new();
+        let mut exact = value;
+        for part in self.parts {
+            let Some(mechanism) = self.mechanism_of(part, value, mechanism, outward) else {
+                continue;
+            };
+            let case = Case {
+                component: part.component,
+                kind: self.kind,
+                value,
+                outward,
+                mechanism,
+            };
+            let state = EndState::new(&case).ok_or(NoSensitivity::Unsolved)?;
+            let rates = state.states.iter().map(|one| {
+                let count = self.context.interfaces.len();
+                Rates::new(self.context.scene, self.corners, &state.changed, one, count)
+            });
+            let rates: Option<Vec<Rates>> = rates.collect();
+            exact = state.value;
+            branches.push(Branch {
+                rates: rates.ok_or(NoSensitivity::Unsolved)?,
+                freedom: state.freedom,
+                outward,
+            });
+        }
+        if branches.is_empty() {
+            return Err(NoSensitivity::Unsolved);
+        }
+        let is_same = (exact - value).abs() <= 1e3 * SAME_END * value.abs().max(1e-3);
+        if !is_same {
+            return Err(NoSensitivity::Unsolved);
+        }
+        Ok(self.slopes(exact, &branches, outward))
+    }
+
+    /// Returns the mechanism with which a component falls at the end of the frame; `None` if it does not fall there.
+    fn mechanism_of<'m>(
+        &self,
+        part: &'m Part,
+        value: f64,
+        mechanism: &'m [crate::proof::Motion],
+        outward: f64,
+    ) -> Option<&'m [crate::proof::Motion]> {
+        let own = match part.interval {
+            Some(interval) if outward > 0.0 => interval.high(),
+            Some(interval) => interval.low(),
+            None => {
+                let moves = |m: &crate::proof::Motion| {
+                    part.component.bodies.iter().any(|b| b.block == m.block)
+                };
+                return mechanism.iter().any(moves).then_some(mechanism);
+            }
+        };
+        match own? {
+            End::At {
+                value: at,
+                mechanism,
+            } if !mechanism.is_empty() => {
+                let is_same = (at - value).abs() <= SAME_END * at.abs().max(value.abs()).max(1e-3);
+                is_same.then_some(mechanism)
+            }
+            _ => None,
+        }
+    }
+
+    /// Combines the derivatives of all components that fall at the end.
+    fn slopes(&self, value: f64, branches: &[Branch], outward: f64) -> EndSensitivity {
+        let (scene, frame) = (self.context.scene, self.context.frame);
+        let slope = |largest: f64, read: &dyn Fn(&Rates) -> f64| {
+            let each = branches.iter().map(|branch| branch.slope(largest, read));
+            let all = each.reduce(|a, b| a.with(b, outward));
+            all.unwrap_or(Slope::ZERO)
+        };
+        let first = || branches.iter().filter_map(|branch| branch.rates.first());
+        let most =
+            |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
+        let corners = self.corners(
+            &slope,
+            most(&mut first().flat_map(|r| r.corners.iter().flat_map(|v| [v.x, v.y]))),
+        );
+        let weight = most(&mut first().flat_map(|r| r.weights.iter().copied()));
+        let friction = most(&mut first().flat_map(|r| r.friction.iter().copied()));
+        let load = most(&mut first().flat_map(|r| r.loads.iter().flat_map(|v| [v.x, v.y])));
+        let mut placed = frame.placed.clone();
+        placed.sort();
+        let weights = placed
+            .iter()
+            .map(|b| (*b, slope(weight, &|r| r.weights[b.0])));
+        let loads = scene.loads().iter().enumerate();
+        let loads = loads.filter(|(_, l)| placed.binary_search(&l.block).is_ok());
+        let loads = loads.map(|(k, _)| {
+            let along = [
+                slope(load, &|r| r.loads[k].x),
+                slope(load, &|r| r.loads[k].y),
+            ];
+            (k, along)
+        });
+        let sets_friction = self.kind == MarginKind::Friction;
+        let interfaces = 0..if sets_friction {
+            0
+        } else {
+            self.context.interfaces.len()
+        };
+        EndSensitivity {
+            value,
+            corners,
+            weights: weights.collect(),
+            friction: interfaces
+                .map(|k| (k, slope(friction, &|r| r.friction[k])))
+                .collect(),
+            friction_of_all: (!sets_friction)
+                .then(|| slope(friction, &|r| r.friction.iter().sum())),
+            loads: loads.collect(),
+        }
+    }
+
+    /// The slopes of all corners of blocks. `largest` is the largest derivative with respect to a corner.
+    fn corners(
+        &self,
+        slope: &dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope,
+        largest: f64,
+    ) -> Vec<CornerSlope> {
+        let corners = self.corners;
+        let mut members: Vec<Vec<usize>> = vec![Vec::new(); corners.count];
+        for (place, joined) in corners.joined.iter().enumerate() {
+            members[*joined].push(place);
+        }
+        let moves: Vec<CornerMoves> = corners
+            .moves
+            .iter()
+            .map(|moves| {
+                let along = |k: usize| {
+                    let field = &moves[k].field;
+                    slope(largest, &|rates| {
+                        let each = field
+                            .iter()
+                            .map(|(corner, by)| rates.corners[*corner].dot(by));
+                        each.sum()
+                    })
+                };
+                match moves.len() {
+                    0 => CornerMoves::Not,
+                    1 => CornerMoves::Along {
+                        direction: moves[0].direction,
+                        slope: along(0),
+                    },
+                    _ => CornerMoves::Freely([along(0), along(1)]),
+                }
+            })
+            .collect();
+        let of_blocks = corners.all.iter().zip(&corners.joined);
+        let slopes = of_blocks.filter_map(|(corner, joined)| {
+            let BodyId::Block(block) = corner.body else {
+                return None;
+            };
+            let others = members[*joined]
+                .iter()
+                .map(|place| corners.all[*place].body);
+            let mut with: Vec<BodyId> = others.filter(|body| *body != corner.body).collect();
+            with.sort();
+            with.dedup();
+            Some(CornerSlope {
+                block,
+                corner: corner.number,
+                at: corner.at,
+                with,
+                moves: moves[*joined],
+            })
+        });
+        slopes.collect()
+    }
+}

@@ -1,0 +1,241 @@
+//! [`Finder`]: the corners at the ends of joints, and the corners that lie on edges.
+
+use crate::assembly::DisjointSets;
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::interface::{ContactKind, Interface};
+use crate::scene::{BodyId, Frame, Scene};
+
+/// A corner lies at the end of a stretch if it is within this many gaps of it: both are off by a gap each.
+const REACH: f64 = 4.0;
+/// The same as a fraction of the coordinates, for scenes without tolerance.
+const ROUNDING: f64 = 1e-9;
+/// A corner of a body, with its number in the outline; holes follow.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub body: BodyId,
+    pub number: usize,
+    pub at: Point,
+    /// The corners before and behind it in its ring, by their places in [`Finder::all`].
+    pub neighbours: [usize; 2],
+}
+
+/// The corner `of` lies on the edge from `from` to `to`, at `share` of its length. Joined corners.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guide {
+    pub of: usize,
+    pub from: usize,
+    pub to: usize,
+    share: f64,
+    pub normal: Vector,
+}
+
+impl Guide {
+    /// The factor of a corner's normal displacement in the condition that the corner stays on the edge.
+    pub fn factor(&self, corner: usize) -> f64 {
+        let mut factor = 0.0;
+        for (place, value) in [
+            (self.of, 1.0),
+            (self.from, self.share - 1.0),
+            (self.to, -self.share),
+        ] {
+            if place == corner {
+                factor += value;
+            }
+        }
+        factor
+    }
+}
+
+/// The corners of an interface.
+pub(super) struct Found {
+    pub ends: Option<[usize; 2]>,
+    /// The two corners of the edge on which it lies, if it is a corner on an edge.
+    pub edge: Option<[usize; 2]>,
+    /// The corners at its ends.
+    pub tips: Vec<usize>,
+}
+
+/// Finds corners at interfaces.
+pub(super) struct Finder<'s> {
+    scene: &'s Scene,
+    pub all: Vec<Corner>,
+    /// The first corner of each body, in the order of the bodies.
+    first: Vec<(BodyId, usize)>,
+    sets: DisjointSets,
+    /// Corners on edges: the corner, and the two corners of the edge.
+    on_edges: Vec<(usize, [usize; 2])>,
+}
+
+impl<'s> Finder<'s> {
+    pub fn new(scene: &'s Scene, frame: &Frame) -> Finder<'s> {
+        let ground = (0..scene.ground().len()).map(BodyId::Ground);
+        let mut bodies: Vec<BodyId> = ground
+            .chain(frame.placed.iter().map(|b| BodyId::Block(*b)))
+            .collect();
+        bodies.sort();
+        let (mut all, mut first) = (Vec::new(), Vec::new());
+        for body in bodies {
+            first.push((body, all.len()));
+            let mut number = 0;
+            for ring in scene.body(body).polygon.rings() {
+                let start = all.len();
+                for (k, at) in ring.iter().enumerate() {
+                    let next = [(k + ring.len() - 1) % ring.len(), (k + 1) % ring.len()];
+                    all.push(Corner {
+                        body,
+                        number,
+                        at: *at,
+                        neighbours: next.map(|k| start + k),
+                    });
+                    number += 1;
+                }
+            }
+        }
+        Finder {
+            scene,
+            sets: DisjointSets::new(all.len()),
+            all,
+            first,
+            on_edges: Vec::new(),
+        }
+    }
+
+    /// The places of a body's corners.
+    fn corners_of(&self, body: BodyId) -> std::ops::Range<usize> {
+        let place = self.first.partition_point(|(other, _)| *other < body);
+        let from = self.first.get(place).map_or(0, |(_, first)| *first);
+        let to = self.first.get(place + 1);
+        from..to.map_or(self.all.len(), |(_, first)| *first)
+    }
+
+    fn reach(&self, interface: &Interface) -> f64 {
+        let [a, b] = interface.bodies;
+        let gap = self.scene.tolerance_between(a, b).gap;
+        let size = interface.ends[0].coords.norm().max(interface.length());
+        (REACH * gap).max(ROUNDING * size)
+    }
+
+    /// The nearest corner of a body within reach of a point.
+    fn corner_at(&self, body: BodyId, at: Point, reach: f64) -> Option<usize> {
+        let near = self
+            .corners_of(body)
+            .map(|place| (place, (self.all[place].at - at).norm()));
+        let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest
+            .filter(|(_, distance)| *distance <= reach)
+            .map(|(place, _)| place)
+    }
+
+    /// The edge of a body, by its corners, that contains a point and runs along a direction.
+    fn edge_at(&self, body: BodyId, at: Point, along: Option<Vector>) -> Option<[usize; 2]> {
+        let edges = self.corners_of(body).filter_map(|place| {
+            let next = self.all[place].neighbours[1];
+            let (from, to) = (self.all[place].at, self.all[next].at);
+            let edge = to - from;
+            let share = (edge.dot(&(at - from)) / edge.norm_squared()).clamp(0.0, 1.0);
+            let is_along = along.is_none_or(|d| cross(d, edge).abs() <= 0.02 * edge.norm());
+            is_along.then(|| ([place, next], (from + edge * share - at).norm()))
+        });
+        let nearest = edges.min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(edge, _)| edge)
+    }
+
+    /// Joins the corners at the ends of an interface.
+    pub fn join(&mut self, interface: &Interface) {
+        let reach = self.reach(interface);
+        for end in interface.ends {
+            let both = interface
+                .bodies
+                .map(|body| self.corner_at(body, end, reach));
+            if let [Some(a), Some(b)] = both {
+                self.sets.union(a, b);
+            }
+        }
+    }
+
+    /// Finds the corners at the ends of an interface, and the corners that its edges guide.
+    pub fn contact(&mut self, interface: &Interface) -> Found {
+        let reach = self.reach(interface);
+        let is_corner = interface.kind == ContactKind::Corner;
+        let mut found = Found {
+            ends: None,
+            edge: None,
+            tips: Vec::new(),
+        };
+        let mut ends = [None; 2];
+        for (end, at) in ends.iter_mut().zip(interface.ends) {
+            let both = interface.bodies.map(|body| self.corner_at(body, at, reach));
+            found.tips.extend(both.into_iter().flatten());
+            *end = both[0].or(both[1]);
+            let along = (!is_corner).then(|| interface.tangent());
+            if let ([Some(corner), None], body) | ([None, Some(corner)], body) =
+                (both, interface.bodies[usize::from(both[0].is_some())])
+                && let Some(edge) = self.edge_at(body, at, along)
+            {
+                self.on_edges.push((corner, edge));
+                found.edge = is_corner.then_some(edge);
+            }
+        }
+        if let [Some(a), Some(b)] = ends {
+            found.ends = Some([a, b]);
+            if !is_corner {
+                self.guide_inside(interface, [a, b], reach);
+            }
+        }
+        found
+    }
+
+    /// Corners inside a straight joint stay on the line through its ends.
+    fn guide_inside(&mut self, interface: &Interface, ends: [usize; 2], reach: f64) {
+        let along = interface.tangent();
+        for body in interface.bodies {
+            for place in self.corners_of(body) {
+                let offset = self.all[place].at - interface.ends[0];
+                let distance = along.dot(&offset);
+                if distance > reach
+                    && distance < interface.length() - reach
+                    && cross(along, offset).abs() <= reach
+                {
+                    self.on_edges.push((place, ends));
+                }
+            }
+        }
+    }
+
+    /// The joined corner of each corner, and their number.
+    pub fn joined(&mut self) -> (Vec<usize>, usize) {
+        let mut number = vec![usize::MAX; self.all.len()];
+        let mut count = 0;
+        let joined = (0..self.all.len()).map(|place| {
+            let root = self.sets.find(place);
+            if number[root] == usize::MAX {
+                number[root] = count;
+                count += 1;
+            }
+            number[root]
+        });
+        let joined = joined.collect();
+        (joined, count)
+    }
+
+    /// The guides between joined corners, each once.
+    pub fn guides(&self, joined: &[usize]) -> Vec<Guide> {
+        let guides = self.on_edges.iter().filter_map(|(corner, edge)| {
+            let [from, to] = edge.map(|place| self.all[place].at);
+            let along = to - from;
+            let share = along.dot(&(self.all[*corner].at - from)) / along.norm_squared();
+            let [of, from, to] = [*corner, edge[0], edge[1]].map(|place| joined[place]);
+            (of != from && of != to).then(|| Guide {
+                of,
+                from,
+                to,
+                share,
+                normal: quarter_turn(along.normalize()),
+            })
+        });
+        let mut guides: Vec<Guide> = guides.collect();
+        guides.sort_by_key(|g| (g.of, g.from, g.to));
+        guides.dedup_by_key(|g| (g.of, g.from, g.to));
+        guides
+    }
+}

@@ -1,0 +1,200 @@
+//! [`Sensitivity`]: how an end of a margin changes with corners, weights, friction and loads.
+//!
+//! At the end of a margin the forces x and the mechanism u balance: the power of all forces along u is 0. If something
+//! changes, the value λ of the margin changes such that the power stays 0. So dλ/dp = −(u·∂r/∂p) / (u·∂r/∂λ), where r
+//! is the sum of the forces on each body. The derivative is exact. It needs one linear program for each end, and none
+//! for each corner.
+//!
+//! | file | content |
+//! |---|---|
+//! | `elimination` | small dense systems of equations, with all their solutions |
+//! | `joints`, `corners` | corners that move together if contacts are kept |
+//! | `motion`, `case`, `unknown`, `reduced`, `state` | forces and mechanism at an end, and whether they are unique |
+//! | `rates` | the derivatives for one state |
+//! | `slope` | the derivative from all states: unique, one-sided, or at a kink |
+//! | `find` | the sensitivity of a frame |
+//!
+//! Reference: Nocedal and Wright, Numerical Optimization, 2006, section 12.8 (multipliers and sensitivity).
+
+mod elimination;
+mod joints;
+mod corners;
+mod motion;
+mod case;
+mod unknown;
+mod reduced;
+mod state;
+mod rates;
+mod slope;
+mod find;
+
+use super::margin::MarginKind;
+use super::{Analysis, Options};
+use crate::geometry::{Point, Vector};
+use crate::scene::{BlockId, BodyId, Scene};
+pub(super) use find::{Part, find};
+pub use slope::Slope;
+
+impl Analysis {
+    /// Returns how a margin of a frame (numbered from 0) changes with corners, weights, friction and loads.
+    ///
+    /// Units: per metre, per newton and per unit of friction, in the unit of the margin: degrees for the tilt. The
+    /// frame is analysed again unless [`Options::sensitivity`] requested this margin.
+    ///
+    /// # Errors
+    /// Why neither end of the margin has derivatives. A limit of a robot has none, and neither has a frame that does not
+    /// exist: [`NoSensitivity::NotApplicable`].
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::MarginKind};
+    /// // A block 3 m wide and 2 m high would topple at a horizontal share of 1.5, but slides at its friction of 0.5.
+    /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
+    ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+    ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
+    /// let analysis = Analysis::new(&scene);
+    /// let found = analysis.sensitivity(0, MarginKind::HorizontalLoad).expect("it slides");
+    /// let right = found.high.expect("it slides to the right");
+    /// let friction = right.friction_of_all.and_then(|slope| slope.unique()).expect("unique");
+    /// assert!((friction - 1.0).abs() < 1e-9);
+    /// # Ok::<(), drystone::scene::SceneError>(())
+    /// ```
+    pub fn sensitivity(
+        &self,
+        frame: usize,
+        kind: MarginKind,
+    ) -> Result<Sensitivity, NoSensitivity> {
+        let known = self.frames.get(frame).and_then(|f| f.sensitivity.as_ref());
+        let found = match known.filter(|known| known.kind == kind) {
+            Some(known) => known.clone(),
+            None => {
+                let mut scene = Scene::clone(&self.scene);
+                let own = scene.frames.get(frame).cloned();
+                scene.frames = vec![own.ok_or(NoSensitivity::NotApplicable)?];
+                let analysis = Analysis::with(scene, &Options::default().sensitivity(kind));
+                let mut frames = analysis.frames.into_iter();
+                let first = frames.next().and_then(|frame| frame.sensitivity);
+                first.ok_or(NoSensitivity::NotApplicable)?
+            }
+        };
+        match found.reason() {
+            Some(reason) => Err(reason),
+            None => Ok(found),
+        }
+    }
+}
+
+/// How the ends of a margin change with corners, weights, friction and loads.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sensitivity {
+    /// The margin.
+    pub kind: MarginKind,
+    /// The lower end of its interval. The error is the reason why there is none.
+    pub low: Result<EndSensitivity, NoSensitivity>,
+    /// The upper end of its interval. The error is the reason why there is none.
+    pub high: Result<EndSensitivity, NoSensitivity>,
+}
+
+impl Sensitivity {
+    /// Returns the ends that have a value: the lower one first. The flag is true for the upper end.
+    pub fn ends(&self) -> impl Iterator<Item = (bool, &EndSensitivity)> {
+        let both = [(false, &self.low), (true, &self.high)];
+        both.into_iter()
+            .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
+    }
+
+    /// Returns why no end has a value; `None` if one has. The reason of the upper end comes first.
+    pub fn reason(&self) -> Option<NoSensitivity> {
+        match (&self.low, &self.high) {
+            (Err(_), Err(reason)) => Some(*reason),
+            _ => None,
+        }
+    }
+}
+
+/// Why an end of a margin has no sensitivity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoSensitivity {
+    /// The margin has no meaning in the frame: it has no loads.
+    NotApplicable,
+    /// The frame falls at every value.
+    Empty,
+    /// The frame stands at every value in this direction.
+    Unbounded,
+    /// The range of the parameter ends here, not the structure.
+    RangeEnds,
+    /// No verdict confirms the end.
+    Unconfirmed,
+    /// Forces and mechanism at the end could not be computed.
+    Unsolved,
+}
+
+/// The derivatives of one end of a margin.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct EndSensitivity {
+    /// The value of the end, in the unit of the margin.
+    pub value: f64,
+    /// The corners of all placed blocks, in the order of the blocks.
+    pub corners: Vec<CornerSlope>,
+    /// Each placed block, per newton of its weight. Its centroid stays.
+    pub weights: Vec<(BlockId, Slope)>,
+    /// Each interface of the frame, by its index, per unit of its friction coefficient. Empty for the margin of
+    /// friction, which sets all coefficients.
+    pub friction: Vec<(usize, Slope)>,
+    /// All friction coefficients together, per unit; `None` for the margin of friction.
+    pub friction_of_all: Option<Slope>,
+    /// Each load on a placed block, by its index in the scene, per metre that its point moves along x and along y.
+    pub loads: Vec<(usize, [Slope; 2])>,
+}
+
+/// How an end changes if a corner moves and the contacts are kept.
+///
+/// Corners at one end of a joint move together. A corner on an edge of another body moves along it, and follows it if
+/// the edge moves. Weights that follow from a density change with the area. Points of loads and grips stay, except those
+/// of loads without `at`, which are centroids.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CornerSlope {
+    /// The block.
+    pub block: BlockId,
+    /// The corner, from 0, anticlockwise in the outline; the corners of holes follow.
+    pub corner: usize,
+    /// Its position, metres.
+    pub at: Point,
+    /// The other bodies whose corners move with it.
+    pub with: Vec<BodyId>,
+    /// How it can move, with the derivatives per metre.
+    pub moves: CornerMoves,
+}
+
+/// How a corner can move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CornerMoves {
+    /// In every direction: the derivatives along x and along y.
+    Freely([Slope; 2]),
+    /// Along the edge of another body.
+    Along {
+        /// The unit vector along the edge.
+        direction: Vector,
+        /// The derivative along it.
+        slope: Slope,
+    },
+    /// It cannot move without opening or bending a joint.
+    Not,
+}
+
+impl CornerMoves {
+    /// Returns the derivative as a vector: it points in the direction in which the value increases most. `None` if it is
+    /// not unique, or if the corner cannot move.
+    pub fn gradient(self) -> Option<Vector> {
+        match self {
+            CornerMoves::Freely([x, y]) => Some(Vector::new(x.unique()?, y.unique()?)),
+            CornerMoves::Along { direction, slope } => Some(direction * slope.unique()?),
+            CornerMoves::Not => None,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! [`State`]: forces and a mechanism at one end of an interval.
+
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::proof::ContactForces;
+
+/// The rigid motion of a body: the velocity at `origin`, and the angular velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RigidMotion {
+    pub origin: Point,
+    pub velocity: Vector,
+    pub spin: f64,
+}
+
+impl RigidMotion {
+    /// No motion.
+    pub const REST: RigidMotion = RigidMotion {
+        origin: Point::new(0.0, 0.0),
+        velocity: Vector::new(0.0, 0.0),
+        spin: 0.0,
+    };
+
+    /// Returns the velocity of a point that moves with the body.
+    pub fn at(&self, point: Point) -> Vector {
+        self.velocity + quarter_turn(point - self.origin) * self.spin
+    }
+}
+
+/// Forces and a mechanism at the end.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    /// The motion of each body.
+    pub motions: Vec<RigidMotion>,
+    /// The forces of each contact in newtons; 0 for those inside a group.
+    pub forces: Vec<ContactForces>,
+    /// The power of the unbalanced forces per unit of the parameter.
+    pub work: f64,
+}

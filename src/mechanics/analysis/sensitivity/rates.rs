@@ -1,0 +1,184 @@
+//! [`Rates`]: the derivatives of the value at an end, for one state of forces and mechanism.
+//!
+//! Every derivative is −u·∂r/∂p divided by u·∂r/∂λ, where r is the sum of the forces on each body, u the mechanism, p
+//! what changes and λ the parameter of the margin. The mechanism is a field of rigid motions, so a force that moves
+//! changes its power by its moment times the spin.
+
+use super::corners::Corners;
+use super::motion::{RigidMotion, State};
+use crate::assembly::{Assembly, AssemblyContact};
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::proof::ContactForces;
+use crate::scene::{BodyId, Scene};
+
+/// The derivatives of a value with one state.
+pub(super) struct Rates {
+    /// Per metre that a joined corner moves: along x and y.
+    pub corners: Vec<Vector>,
+    /// Per newton of a block's weight; 0 for blocks outside the component.
+    pub weights: Vec<f64>,
+    /// Per unit of friction of each interface.
+    pub friction: Vec<f64>,
+    /// Per metre that a load moves.
+    pub loads: Vec<Vector>,
+}
+
+impl Rates {
+    /// Computes the derivatives; `None` if the parameter does no work along the mechanism.
+    pub fn new(
+        scene: &Scene,
+        corners: &Corners,
+        changed: &Assembly,
+        state: &State,
+        interfaces: usize,
+    ) -> Option<Rates> {
+        let per = -1.0 / state.work;
+        if !per.is_finite() {
+            return None;
+        }
+        let mut rates = Rates {
+            corners: vec![Vector::zeros(); corners.count],
+            weights: vec![0.0; scene.blocks().len()],
+            friction: vec![0.0; interfaces],
+            loads: vec![Vector::zeros(); scene.loads().len()],
+        };
+        for (contact, forces) in changed.contacts.iter().zip(&state.forces) {
+            rates.add_contact(corners, contact, forces, &state.motions);
+        }
+        let mut body_of_block = vec![None; scene.blocks().len()];
+        for (number, body) in changed.bodies.iter().enumerate() {
+            body_of_block[body.block.0] = Some(number);
+            let motion = &state.motions[number];
+            rates.weights[body.block.0] = changed.pull.dot(&motion.at(body.centroid));
+        }
+        let mut follows = vec![Vector::zeros(); changed.bodies.len()];
+        for (rate, load) in rates.loads.iter_mut().zip(scene.loads()) {
+            let Some(body) = body_of_block[load.block.0] else {
+                continue;
+            };
+            // Moving the force by d changes its power by spin · (d × force).
+            let force = load.force * changed.load_factor;
+            *rate = -quarter_turn(force) * state.motions[body].spin;
+            if load.at_centroid {
+                follows[body] += *rate;
+            }
+        }
+        for (place, corner) in corners.all.iter().enumerate() {
+            let BodyId::Block(block) = corner.body else {
+                continue;
+            };
+            if let Some(body) = body_of_block[block.0] {
+                let shift = CornerShift::new(corners, place, changed.bodies[body].centroid, scene);
+                let spin = state.motions[body].spin;
+                let weight = changed.bodies[body].weight;
+                let with_centroid = follows[body] - quarter_turn(changed.pull * weight) * spin;
+                let mut rate = shift.of_centroid(with_centroid);
+                if scene.blocks()[block.0].weighs_by_area {
+                    let density = weight / shift.area;
+                    rate += shift.of_area * (density * rates.weights[block.0]);
+                }
+                rates.corners[corners.joined[place]] += rate;
+            }
+        }
+        rates.corners.iter_mut().for_each(|v| *v *= per);
+        rates.weights.iter_mut().for_each(|v| *v *= per);
+        rates.friction.iter_mut().for_each(|v| *v *= per);
+        rates.loads.iter_mut().for_each(|v| *v *= per);
+        Some(rates)
+    }
+
+    /// Adds the change of the power of a contact's forces if its ends move, if its normal turns with them, and if its
+    /// friction changes.
+    fn add_contact(
+        &mut self,
+        corners: &Corners,
+        contact: &AssemblyContact,
+        forces: &ContactForces,
+        motions: &[RigidMotion],
+    ) {
+        let rest = RigidMotion::REST;
+        let (on, from) = (
+            &motions[contact.on],
+            contact.from.map_or(rest, |b| motions[b]),
+        );
+        let apart = |at: Point| on.at(at) - from.at(at);
+        let spin = on.spin - from.spin;
+        let (normal, tangent) = (contact.normal, contact.tangent());
+        let slip = tangent.dot(&apart(contact.points[0]));
+        let pressed = forces.normal[0] + forces.normal[1];
+        self.friction[contact.interface] -= pressed * slip.abs();
+        let Some(place) = &corners.contacts[contact.interface] else {
+            return;
+        };
+        // Power per metre that each application point moves, and per radian that the normal turns.
+        let at_point = |k: usize| {
+            let friction = if k == 0 { forces.friction } else { 0.0 };
+            let force = normal * forces.normal[k] + tangent * friction;
+            -quarter_turn(force) * spin
+        };
+        let mut turning = -forces.friction * normal.dot(&apart(contact.points[0]));
+        for (force, at) in forces.normal.iter().zip(contact.points) {
+            turning += force * tangent.dot(&apart(at));
+        }
+        // The points are the ends, moved inward by a share of the length.
+        let length = (contact.ends[1] - contact.ends[0]).norm();
+        let inward = match length > 0.0 {
+            true => (contact.points[0] - contact.ends[0]).norm() / length,
+            false => 0.0,
+        };
+        let [first, second] = [at_point(0), at_point(1)];
+        self.corners[place.ends[0]] += first * (1.0 - inward) + second * inward;
+        self.corners[place.ends[1]] += second * (1.0 - inward) + first * inward;
+        // If the second end moves along the normal, the normal turns clockwise.
+        let (line, across, long) = match place.edge {
+            None => (place.ends, normal, length),
+            Some(edge) => {
+                let [a, b] = edge.map(|joined| corners.positions[joined]);
+                let along = b - a;
+                let across = quarter_turn(along.normalize());
+                (edge, -across, along.norm())
+            }
+        };
+        let turn = across * (turning / long);
+        self.corners[line[0]] += turn;
+        self.corners[line[1]] -= turn;
+    }
+}
+
+/// How area and centroid of a body change with one of its corners.
+struct CornerShift {
+    area: f64,
+    /// The change of area per metre along x and y.
+    of_area: Vector,
+    /// The changes of the centroid per metre along x and along y.
+    of_axes: [Vector; 2],
+}
+
+impl CornerShift {
+    fn new(corners: &Corners, place: usize, centroid: Point, scene: &Scene) -> CornerShift {
+        let corner = &corners.all[place];
+        let area = scene.body(corner.body).polygon.area();
+        let [before, after] = corners.around(place).map(|at| at - centroid);
+        let own = corner.at - centroid;
+        // The area is half the sum of cross products of neighbours; its first moment is a sixth of their sum times them.
+        let of_area = -quarter_turn(after - before) * 0.5;
+        let of_axes = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)].map(|d| {
+            let (before_turn, after_turn) = (cross(before, d), cross(d, after));
+            let moment = d * (cross(before, own) + cross(own, after))
+                + (before + own) * before_turn
+                + (own + after) * after_turn;
+            moment / (6.0 * area)
+        });
+        CornerShift {
+            area,
+            of_area,
+            of_axes,
+        }
+    }
+
+    /// The derivative with respect to the corner of something that has the derivative `rate` with respect to the
+    /// centroid.
+    fn of_centroid(&self, rate: Vector) -> Vector {
+        Vector::new(rate.dot(&self.of_axes[0]), rate.dot(&self.of_axes[1]))
+    }
+}

@@ -1,0 +1,264 @@
+//! [`Reduced`]: the balance of the groups of bodies that move as one at the end of an interval.
+//!
+//! Each group has three rows: force x, force y, and moment about a common origin divided by L. Forces are in units of
+//! the program.
+
+use super::case::{Case, load_at};
+use super::motion::{RigidMotion, State};
+use super::unknown::{Source, Unknown, groups, unknowns};
+use crate::analysis::margin::MarginKind;
+use crate::assembly::{Assembly, LoadVector};
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::program::Program;
+use crate::proof::ContactForces;
+use crate::solve::LimitState;
+
+/// The balance of the groups.
+pub(super) struct Reduced {
+    /// The group of each body; `None` if it rests with the ground.
+    group: Vec<Option<usize>>,
+    /// The number of groups.
+    pub groups: usize,
+    /// The forces between groups.
+    pub unknowns: Vec<Unknown>,
+    /// The components of grips that are at their limits, with their forces.
+    limits: Vec<(usize, usize, f64)>,
+    /// The motion of each group in the program's mechanism: velocity x, y and spin times L.
+    pub motion: Vec<f64>,
+    /// The largest load of a body.
+    pub load: f64,
+    origin: Point,
+    length: f64,
+    force: f64,
+}
+
+impl Reduced {
+    /// Groups the bodies that basic columns hold together.
+    pub fn new(case: &Case, program: &Program, solved: &LimitState) -> Reduced {
+        let given = case.component;
+        let (all, limits) = unknowns(program, solved);
+        let (group, groups) = groups(given, &all);
+        let is_between = |unknown: &Unknown| match unknown.source {
+            Source::Contact { contact, .. } => {
+                let contact = &given.contacts[contact];
+                group[contact.on] != contact.from.and_then(|from| group[from])
+            }
+            Source::Grip { grip, .. } => group[given.grips[grip].body].is_some(),
+        };
+        let centroids = given.bodies.iter().map(|body| body.centroid.coords);
+        let origin = Point::from(centroids.sum::<Vector>() / given.bodies.len() as f64);
+        let length = program.scale.length;
+        let mut motion = vec![0.0; 3 * groups];
+        for (number, body) in given.bodies.iter().enumerate() {
+            if let Some(group) = group[number] {
+                let [u, v, spin] = [0, 1, 2].map(|row| solved.motion[3 * number + row]);
+                // The velocity of the origin as a point of this body.
+                let arm = quarter_turn(origin - body.centroid) * (spin / length);
+                motion[3 * group..3 * group + 3].copy_from_slice(&[u + arm.x, v + arm.y, spin]);
+            }
+        }
+        Reduced {
+            unknowns: all.into_iter().filter(is_between).collect(),
+            limits,
+            motion,
+            load: program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs())),
+            origin,
+            length,
+            force: program.scale.force,
+            group,
+            groups,
+        }
+    }
+
+    /// The indices of the basic unknowns.
+    pub fn basic(&self) -> impl Iterator<Item = usize> + '_ {
+        let all = self.unknowns.iter().enumerate();
+        all.filter(|(_, unknown)| unknown.is_basic).map(|(k, _)| k)
+    }
+
+    /// Whether a grip's force at its limit has at most the power `speed` per unit: the limit then may or may not bind
+    /// beyond the end.
+    pub fn has_idle_limit(&self, changed: &Assembly, speed: f64, motion: &[f64]) -> bool {
+        self.limits.iter().any(|(grip, component, _)| {
+            let source = Source::Grip {
+                grip: *grip,
+                component: *component,
+            };
+            let entries = self.entries(changed, source).into_iter();
+            let power: f64 = entries.map(|(row, value)| value * motion[row]).sum();
+            power.abs() <= speed
+        })
+    }
+
+    /// The entries of an unknown in the rows of the groups.
+    fn entries(&self, changed: &Assembly, source: Source) -> Vec<(usize, f64)> {
+        match source {
+            Source::Contact {
+                contact,
+                point,
+                side,
+            } => {
+                let contact = &changed.contacts[contact];
+                let force = contact.normal + contact.tangent() * (side * contact.friction);
+                let at = contact.points[point];
+                let mut entries = self.wrench(contact.on, at, force, 0.0);
+                if let Some(from) = contact.from {
+                    entries.extend(self.wrench(from, at, -force, 0.0));
+                }
+                entries
+            }
+            Source::Grip { grip, component } => {
+                let grip = &changed.grips[grip];
+                let (force, torque) = match component {
+                    0 => (Vector::new(1.0, 0.0), 0.0),
+                    1 => (Vector::new(0.0, 1.0), 0.0),
+                    _ => (Vector::zeros(), self.length),
+                };
+                self.wrench(grip.body, grip.at, force, torque)
+            }
+        }
+    }
+
+    /// The entries of a force at a point of a body, and of a torque.
+    fn wrench(&self, body: usize, at: Point, force: Vector, torque: f64) -> Vec<(usize, f64)> {
+        let Some(group) = self.group[body] else {
+            return Vec::new();
+        };
+        let moment = (cross(at - self.origin, force) + torque) / self.length;
+        let row = 3 * group;
+        vec![(row, force.x), (row + 1, force.y), (row + 2, moment)]
+    }
+
+    /// Returns the sum of loads in the rows of the groups, in the units of the loads and divided by L.
+    pub fn grouped(&self, changed: &Assembly, loads: &[LoadVector]) -> Vec<f64> {
+        let mut sum = vec![0.0; 3 * self.groups];
+        for ((body, group), load) in changed.bodies.iter().zip(&self.group).zip(loads) {
+            if let Some(group) = group {
+                let [x, y, moment] = load_at(load, body.centroid, self.origin);
+                for (row, value) in [x, y, moment / self.length].into_iter().enumerate() {
+                    sum[3 * group + row] += value;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Returns the rows of the balance, with an entry for each of the chosen unknowns.
+    pub fn rows(&self, changed: &Assembly, chosen: &[usize]) -> Vec<Vec<f64>> {
+        let mut rows = vec![vec![0.0; chosen.len()]; 3 * self.groups];
+        for (column, place) in chosen.iter().enumerate() {
+            for (row, value) in self.entries(changed, self.unknowns[*place].source) {
+                rows[row][column] += value;
+            }
+        }
+        rows
+    }
+
+    /// Returns the power of one unit of an unknown along a motion of the groups.
+    pub fn power(&self, changed: &Assembly, unknown: &Unknown, motion: &[f64]) -> f64 {
+        let entries = self.entries(changed, unknown.source).into_iter();
+        entries.map(|(row, value)| value * motion[row]).sum()
+    }
+
+    /// Returns the forces that are not balanced, in units of the program.
+    pub fn residual(&self, changed: &Assembly, amounts: &[f64]) -> Vec<f64> {
+        let loads: Vec<LoadVector> = changed.bodies.iter().map(|body| body.load).collect();
+        let mut sum = self.grouped(changed, &loads);
+        sum.iter_mut().for_each(|v| *v /= self.force);
+        let limits = self.limits.iter().map(|(grip, component, amount)| {
+            let source = Source::Grip {
+                grip: *grip,
+                component: *component,
+            };
+            (source, *amount)
+        });
+        let all = self.unknowns.iter().zip(amounts);
+        for (source, amount) in all.map(|(u, a)| (u.source, *a)).chain(limits) {
+            for (row, value) in self.entries(changed, source) {
+                sum[row] += amount * value;
+            }
+        }
+        sum
+    }
+
+    /// Returns the change of [`Reduced::residual`] per unit of the parameter.
+    pub fn growth(&self, case: &Case, changed: &Assembly, amounts: &[f64], value: f64) -> Vec<f64> {
+        if let Some(growth) = case.growth(value) {
+            let mut sum = self.grouped(changed, &growth);
+            sum.iter_mut().for_each(|v| *v /= self.force);
+            return sum;
+        }
+        let mut sum = vec![0.0; 3 * self.groups];
+        for (unknown, amount) in self.unknowns.iter().zip(amounts) {
+            let Source::Contact {
+                contact,
+                point,
+                side,
+            } = unknown.source
+            else {
+                continue;
+            };
+            let contact = &changed.contacts[contact];
+            // Friction grows along the tangent; with a larger kernel the points move inward by half the length.
+            let (force, torque) = match case.kind {
+                MarginKind::Friction => (contact.tangent() * (side * amount), 0.0),
+                _ => {
+                    let inward = (contact.ends[1] - contact.ends[0]) * [0.5, -0.5][point];
+                    let force = contact.normal + contact.tangent() * (side * contact.friction);
+                    (Vector::zeros(), cross(inward, force) * amount)
+                }
+            };
+            let at = contact.points[point];
+            let mut entries = self.wrench(contact.on, at, force, torque);
+            if let Some(from) = contact.from {
+                entries.extend(self.wrench(from, at, -force, -torque));
+            }
+            for (row, value) in entries {
+                sum[row] += value;
+            }
+        }
+        sum
+    }
+
+    /// Returns forces and motions in newtons and metres.
+    pub fn state(
+        &self,
+        case: &Case,
+        changed: &Assembly,
+        motion: &[f64],
+        amounts: &[f64],
+        value: f64,
+    ) -> State {
+        let motions = self.group.iter().map(|group| {
+            group.map_or(RigidMotion::REST, |group| RigidMotion {
+                origin: self.origin,
+                velocity: Vector::new(motion[3 * group], motion[3 * group + 1]),
+                spin: motion[3 * group + 2] / self.length,
+            })
+        });
+        let none = ContactForces {
+            normal: [0.0; 2],
+            friction: 0.0,
+        };
+        let mut forces = vec![none; changed.contacts.len()];
+        for (unknown, amount) in self.unknowns.iter().zip(amounts) {
+            if let Source::Contact {
+                contact,
+                point,
+                side,
+            } = unknown.source
+            {
+                let normal = amount * self.force;
+                forces[contact].normal[point] += normal;
+                forces[contact].friction += side * changed.contacts[contact].friction * normal;
+            }
+        }
+        let growth = self.growth(case, changed, amounts, value);
+        let work = growth.iter().zip(motion).map(|(g, v)| g * v).sum::<f64>();
+        State {
+            motions: motions.collect(),
+            forces,
+            work: work * self.force,
+        }
+    }
+}

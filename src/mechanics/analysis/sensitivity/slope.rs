@@ -1,0 +1,106 @@
+//! [`Slope`]: a derivative, unique or one-sided.
+
+use super::rates::Rates;
+use super::state::Freedom;
+
+/// The derivative of a margin's end with respect to one number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Slope {
+    /// The derivative in both directions.
+    Unique(f64),
+    /// The margin has a kink here: its derivatives if the number decreases, and if it increases.
+    OneSided {
+        /// The derivative to the left.
+        backward: f64,
+        /// The derivative to the right.
+        forward: f64,
+    },
+    /// The margin has a kink here, and its derivatives were not computed.
+    AtKink,
+}
+
+impl Slope {
+    /// No change.
+    pub(super) const ZERO: Slope = Slope::Unique(0.0);
+
+    /// Returns the derivative if it is unique.
+    pub fn unique(self) -> Option<f64> {
+        match self {
+            Slope::Unique(slope) => Some(slope),
+            _ => None,
+        }
+    }
+
+    /// Returns the derivatives if the number decreases, and if it increases.
+    pub fn both(self) -> Option<[f64; 2]> {
+        match self {
+            Slope::Unique(slope) => Some([slope; 2]),
+            Slope::OneSided { backward, forward } => Some([backward, forward]),
+            Slope::AtKink => None,
+        }
+    }
+
+    /// Returns the slope of the smaller of two ends that are equal; of the larger one if `outward` is negative.
+    pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
+        let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
+            return Slope::AtKink;
+        };
+        Slope::one_sided(
+            outward * (outward * a).max(outward * c),
+            outward * (outward * b).min(outward * d),
+            0.0,
+        )
+    }
+
+    /// Returns a unique slope if both are equal within a tolerance.
+    fn one_sided(backward: f64, forward: f64, tolerance: f64) -> Slope {
+        match (backward - forward).abs() <= tolerance {
+            true => Slope::Unique(0.5 * (backward + forward)),
+            false => Slope::OneSided { backward, forward },
+        }
+    }
+}
+
+/// Derivatives that differ by less than this fraction of the largest of their kind are equal.
+const SAME: f64 = 1e-7;
+
+/// The derivatives of one component at one end, with every state there.
+pub(super) struct Branch {
+    pub rates: Vec<Rates>,
+    pub freedom: Freedom,
+    pub outward: f64,
+}
+
+impl Branch {
+    /// Returns the slope of what `read` takes from the rates. `largest` is the largest derivative of its kind.
+    pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
+        let Some(first) = self.rates.first() else {
+            return Slope::AtKink;
+        };
+        let first = read(first);
+        let others = || self.rates[1..].iter().map(&read);
+        let is_same = |rate: f64| (rate - first).abs() <= SAME * largest;
+        let is_unique = match self.freedom {
+            Freedom::Unique => true,
+            Freedom::Unknown => false,
+            _ => others().all(is_same),
+        };
+        if is_unique {
+            return Slope::Unique(first);
+        }
+        let least = others().fold(f64::INFINITY, f64::min);
+        let most = others().fold(f64::NEG_INFINITY, f64::max);
+        // The largest factor is the least of those of all mechanisms.
+        if self.freedom != Freedom::Mechanisms {
+            return Slope::AtKink;
+        }
+        let is_least = self.outward > 0.0;
+        let [backward, forward] = if is_least {
+            [most, least]
+        } else {
+            [least, most]
+        };
+        Slope::OneSided { backward, forward }
+    }
+}

@@ -1,0 +1,364 @@
+//! [`EndState`]: forces and mechanism at one end of an interval, and whether they are unique.
+//!
+//! At the end, a contact either holds its two bodies together in the mechanism, or they move relative to each other.
+//! Bodies that are held together are one *group*. Only the contacts between groups matter: the mechanism does no work
+//! in the others, so their forces, which are often not unique, have no influence on a derivative.
+//!
+//! 1. One linear program gives forces and mechanism to nine digits ([`Case::solved`]). Columns with force are *basic*.
+//! 2. [`Reduced`] has three equations for each group, and a column for each force between groups.
+//! 3. Elimination solves for the motions of the groups, and Newton's method for the forces and the value, to rounding.
+//! 4. The dimensions of the null spaces show whether forces and motions are unique. If only the motions are not, all
+//!    extreme motions are computed. Otherwise directions in the hull of forces and motions are.
+
+use super::case::Case;
+use super::elimination::Elimination;
+use super::motion::State;
+use super::reduced::Reduced;
+use super::unknown::Unknown;
+use crate::assembly::Assembly;
+
+/// Forces or velocities below this, relative to the largest, count as 0.
+const ZERO: f64 = 1e-7;
+
+/// Remaining errors of a balance or of a motion, relative to loads or velocities, that are rounding.
+const ROUNDING: f64 = 1e-8;
+
+/// More groups than this are not computed: elimination takes the cube of their number.
+const MOST_GROUPS: usize = 150;
+
+/// More states than this are not computed.
+const MOST_STATES: usize = 64;
+
+/// More combinations of conditions than this are not tried.
+const MOST_COMBINATIONS: usize = 4000;
+
+/// The largest number of Newton steps for forces and value.
+const STEPS: usize = 12;
+
+/// Whether forces and mechanism at the end are unique.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Freedom {
+    /// Both are.
+    Unique,
+    /// The forces are. The first state is inside the set of mechanisms, the others are all its extreme points.
+    Mechanisms,
+    /// The other states span the hull of forces and mechanisms.
+    Hull,
+    /// They form a set of so many dimensions that it is not computed.
+    Unknown,
+}
+
+/// The states at one end of the interval of a component.
+pub(super) struct EndState {
+    /// The component at the end.
+    pub changed: Assembly,
+    /// The value of the parameter there.
+    pub value: f64,
+    /// One state, and others if it is not unique.
+    pub states: Vec<State>,
+    pub freedom: Freedom,
+}
+
+impl EndState {
+    /// Finds the states at an end; `None` if they cannot be computed.
+    pub fn new(case: &Case) -> Option<EndState> {
+        let (program, solved) = case.solved(&case.at(case.value))?;
+        let mut reduced = Reduced::new(case, &program, &solved);
+        if reduced.groups == 0 || reduced.groups > MOST_GROUPS {
+            return None;
+        }
+        let mut value = case.value;
+        let amounts = balanced(case, &reduced, &mut value)?;
+        let changed = case.at(value);
+        let motions = Motions::new(case, &reduced, &changed, value)?;
+        if reduced.has_idle_limit(&changed, ZERO * largest(&motions.first), &motions.first) {
+            return None;
+        }
+        // Columns without force that do no work may carry force in another balance.
+        let speed = largest(&motions.first);
+        let is_idle = |unknown: &Unknown| {
+            let power = reduced.power(&changed, unknown, &motions.first);
+            !unknown.is_basic && power.abs() <= ZERO * speed
+        };
+        let idle: Vec<bool> = reduced.unknowns.iter().map(is_idle).collect();
+        for (unknown, is_idle) in reduced.unknowns.iter_mut().zip(&idle) {
+            unknown.is_basic |= *is_idle;
+        }
+        let is_resisted = |unknown: &Unknown| {
+            let power = reduced.power(&changed, unknown, &motions.first);
+            unknown.is_basic || power >= 0.0
+        };
+        let force = largest(&amounts);
+        let is_pulled =
+            |(unknown, amount): (&Unknown, &f64)| !unknown.is_both_ways && *amount < -ZERO * force;
+        if !reduced.unknowns.iter().all(is_resisted)
+            || reduced.unknowns.iter().zip(&amounts).any(is_pulled)
+        {
+            return None;
+        }
+        let balances = null_balances(case, &reduced, &changed, &amounts, value)?;
+        let mut found = EndState {
+            states: vec![reduced.state(case, &changed, &motions.first, &amounts, value)],
+            freedom: Freedom::Unique,
+            changed,
+            value,
+        };
+        found.add_others(case, &reduced, &motions, &amounts, &balances);
+        Some(found)
+    }
+
+    /// Adds the other states if the first is not unique.
+    fn add_others(
+        &mut self,
+        case: &Case,
+        reduced: &Reduced,
+        motions: &Motions,
+        amounts: &[f64],
+        balances: &[Vec<f64>],
+    ) {
+        let (changed, value) = (self.changed.clone(), self.value);
+        let state =
+            |motion: &[f64], amounts: &[f64]| reduced.state(case, &changed, motion, amounts, value);
+        if motions.others.is_empty() && balances.is_empty() {
+            return;
+        }
+        let extreme = match balances.is_empty() {
+            true => extreme_motions(reduced, &changed, motions),
+            false => None,
+        };
+        if let Some(all) = extreme {
+            self.freedom = Freedom::Mechanisms;
+            let states = all.iter().map(|motion| state(motion, amounts));
+            self.states.extend(states);
+            return;
+        }
+        if (1 + motions.others.len()) * (1 + balances.len()) > MOST_STATES {
+            self.freedom = Freedom::Unknown;
+            return;
+        }
+        // Every pair of directions: the derivative is linear in forces and in motions.
+        self.freedom = Freedom::Hull;
+        let moved = |first: &[f64], by: &[f64]| -> Vec<f64> {
+            let share = largest(first) / largest(by);
+            first.iter().zip(by).map(|(a, b)| a + share * b).collect()
+        };
+        let all_motions: Vec<Vec<f64>> = std::iter::once(motions.first.clone())
+            .chain(motions.others.iter().map(|by| moved(&motions.first, by)))
+            .collect();
+        let all_amounts: Vec<Vec<f64>> = std::iter::once(amounts.to_vec())
+            .chain(balances.iter().map(|by| moved(amounts, by)))
+            .collect();
+        for (k, motion) in all_motions.iter().enumerate() {
+            for amounts in all_amounts.iter().skip(usize::from(k == 0)) {
+                self.states.push(state(motion, amounts));
+            }
+        }
+    }
+}
+
+/// Newton's method for the forces between groups and the value at which they balance the loads. Starts from the
+/// amounts of the program; columns without force stay 0.
+fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>> {
+    let basic: Vec<usize> = reduced.basic().collect();
+    let mut amounts: Vec<f64> = reduced.unknowns.iter().map(|u| u.amount).collect();
+    for (amount, unknown) in amounts.iter_mut().zip(&reduced.unknowns) {
+        if !unknown.is_basic {
+            *amount = 0.0;
+        }
+    }
+    for _ in 0..STEPS {
+        let changed = case.at(*value);
+        let rest = reduced.residual(&changed, &amounts);
+        if largest(&rest) <= 1e-3 * ROUNDING * reduced.load {
+            return Some(amounts);
+        }
+        let growth = reduced.growth(case, &changed, &amounts, *value);
+        let unit = reduced.load / largest(&growth);
+        if !unit.is_finite() {
+            return None;
+        }
+        let mut rows = reduced.rows(&changed, &basic);
+        for (row, growth) in rows.iter_mut().zip(&growth) {
+            row.push(growth * unit);
+        }
+        let side = rest.iter().map(|v| -v).collect();
+        let solved = Elimination::new(&rows, basic.len() + 1, &[side]);
+        let (step, _) = &solved.solutions[0];
+        for (k, place) in basic.iter().enumerate() {
+            amounts[*place] += step[k];
+        }
+        *value += step[basic.len()] * unit;
+    }
+    let rest = reduced.residual(&case.at(*value), &amounts);
+    (largest(&rest) <= ROUNDING * reduced.load).then_some(amounts)
+}
+
+/// Returns a basis of the changes of forces that keep the balance at the value of the end; `None` if one of them needs
+/// another value.
+fn null_balances(
+    case: &Case,
+    reduced: &Reduced,
+    changed: &Assembly,
+    amounts: &[f64],
+    value: f64,
+) -> Option<Vec<Vec<f64>>> {
+    let basic: Vec<usize> = reduced.basic().collect();
+    let growth = reduced.growth(case, changed, amounts, value);
+    let unit = reduced.load / largest(&growth);
+    let mut rows = reduced.rows(changed, &basic);
+    for (row, growth) in rows.iter_mut().zip(&growth) {
+        row.push(growth * unit);
+    }
+    let found = Elimination::new(&rows, basic.len() + 1, &[]);
+    let whole = |vector: Vec<f64>| {
+        let mut whole = vec![0.0; amounts.len()];
+        for (k, place) in basic.iter().enumerate() {
+            whole[*place] = vector[k];
+        }
+        let is_at_value = vector[basic.len()].abs() <= ROUNDING * largest(&vector);
+        is_at_value.then_some(whole)
+    };
+    found.null_space.into_iter().map(whole).collect()
+}
+
+/// The motions of the groups: one, and a basis of those that can be added.
+struct Motions {
+    first: Vec<f64>,
+    others: Vec<Vec<f64>>,
+}
+
+impl Motions {
+    /// Corrects the motion of the program: basic columns do no work, and the outward loads have the power 1.
+    fn new(case: &Case, reduced: &Reduced, changed: &Assembly, value: f64) -> Option<Motions> {
+        let basic: Vec<usize> = reduced.basic().collect();
+        let columns = reduced.rows(changed, &basic);
+        let push = reduced.grouped(changed, &case.push(value));
+        let unit = largest(&push);
+        // One equation for each column, and one for the power.
+        let mut rows: Vec<Vec<f64>> = (0..basic.len())
+            .map(|k| columns.iter().map(|row| row[k]).collect())
+            .collect();
+        rows.push(push.iter().map(|v| v / unit).collect());
+        let given = &reduced.motion;
+        let power: f64 = push.iter().zip(given).map(|(p, v)| p / unit * v).sum();
+        if power.is_nan() || power <= 0.0 {
+            return None;
+        }
+        let start: Vec<f64> = given.iter().map(|v| v / power).collect();
+        let work = |row: &Vec<f64>| row.iter().zip(&start).map(|(a, v)| a * v).sum::<f64>();
+        let mut side: Vec<f64> = rows.iter().map(|row| -work(row)).collect();
+        if let Some(last) = side.last_mut() {
+            *last += 1.0;
+        }
+        let solved = Elimination::new(&rows, given.len(), &[side]);
+        let (change, rest) = &solved.solutions[0];
+        let first: Vec<f64> = start.iter().zip(change).map(|(a, b)| a + b).collect();
+        (*rest <= ROUNDING * largest(&first)).then_some(Motions {
+            first,
+            others: solved.null_space,
+        })
+    }
+}
+
+/// Returns all extreme motions; `None` if their set has no bound, or if they are too many.
+///
+/// A motion is first + Σ share · other. Forces between groups without amount must not do negative work. At an extreme
+/// motion as many of these conditions hold with equality as there are shares.
+fn extreme_motions(
+    reduced: &Reduced,
+    changed: &Assembly,
+    motions: &Motions,
+) -> Option<Vec<Vec<f64>>> {
+    let free = motions.others.len();
+    let conditions: Vec<Condition> = (reduced.unknowns.iter())
+        .filter(|unknown| !unknown.is_basic)
+        .map(|unknown| {
+            let power = |motion: &[f64]| reduced.power(changed, unknown, motion);
+            let shares = motions.others.iter().map(|m| power(m) / largest(m));
+            Condition {
+                first: power(&motions.first),
+                shares: shares.collect(),
+            }
+        })
+        .collect();
+    let speed = largest(&motions.first);
+    let meets = |shares: &[f64], with: f64| {
+        let tolerance = ZERO * speed.max(largest(shares));
+        conditions
+            .iter()
+            .all(|c| c.power(shares, with) >= -tolerance)
+    };
+    let rows = |chosen: &[usize]| -> Vec<Vec<f64>> {
+        chosen
+            .iter()
+            .map(|k| conditions[*k].shares.clone())
+            .collect()
+    };
+    // A direction in which no condition ends the set.
+    for chosen in combinations(conditions.len(), free - 1)? {
+        let found = Elimination::new(&rows(&chosen), free, &[]);
+        if let [direction] = found.null_space.as_slice() {
+            let back: Vec<f64> = direction.iter().map(|v| -v).collect();
+            if meets(direction, 0.0) || meets(&back, 0.0) {
+                return None;
+            }
+        }
+    }
+    let mut all: Vec<Vec<f64>> = Vec::new();
+    for chosen in combinations(conditions.len(), free)? {
+        let side = chosen.iter().map(|k| -conditions[*k].first).collect();
+        let found = Elimination::new(&rows(&chosen), free, &[side]);
+        let (shares, _) = &found.solutions[0];
+        if found.null_space.is_empty() && meets(shares, 1.0) {
+            let mut motion = motions.first.clone();
+            for (share, other) in shares.iter().zip(&motions.others) {
+                let size = largest(other);
+                for (v, o) in motion.iter_mut().zip(other) {
+                    *v += share * o / size;
+                }
+            }
+            all.push(motion);
+        }
+    }
+    // A bounded set has more extreme points than dimensions.
+    (all.len() > free).then_some(all)
+}
+
+/// A force that must not do negative work: its power along the first motion, and per share of the others.
+struct Condition {
+    first: f64,
+    shares: Vec<f64>,
+}
+
+impl Condition {
+    /// The power along `with` times the first motion and shares of the others.
+    fn power(&self, shares: &[f64], with: f64) -> f64 {
+        let change: f64 = self.shares.iter().zip(shares).map(|(a, b)| a * b).sum();
+        with * self.first + change
+    }
+}
+
+/// Returns all ways to choose `count` of the numbers below `of`; `None` if they are too many.
+fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
+    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..count {
+        let mut longer = Vec::new();
+        for chosen in &all {
+            for k in chosen.last().map_or(0, |last| last + 1)..of {
+                let mut more = chosen.clone();
+                more.push(k);
+                longer.push(more);
+            }
+        }
+        if longer.len() > MOST_COMBINATIONS {
+            return None;
+        }
+        all = longer;
+    }
+    Some(all)
+}
+
+/// Returns the largest absolute value in a list, 0 for an empty list.
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+}

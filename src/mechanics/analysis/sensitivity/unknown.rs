@@ -1,0 +1,141 @@
+//! [`Unknown`]: the forces of contacts and grips at an end, and the groups of bodies that they hold together.
+
+use crate::assembly::{Assembly, DisjointSets};
+use crate::program::{Force, Program};
+use crate::solve::LimitState;
+
+/// A column is basic if its amount, relative to the largest, is above this and above its power, relative to the largest
+/// velocity.
+const BASIC: f64 = 1e-8;
+
+/// A robot whose force is this close to its limit, relative to the limit, is at it.
+const AT_LIMIT: f64 = 1e-6;
+
+/// A force between groups.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unknown {
+    pub source: Source,
+    /// Its amount according to the program, at least 0 unless it acts both ways.
+    pub amount: f64,
+    /// Whether it may carry force in a balance.
+    pub is_basic: bool,
+    /// Whether its amount may be negative.
+    pub is_both_ways: bool,
+}
+
+/// Where a force acts, and in which direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Source {
+    /// One unit of normal force at a point of a contact, with full friction along `side` times the tangent.
+    Contact {
+        contact: usize,
+        point: usize,
+        side: f64,
+    },
+    /// One unit of a component of a grip's force or torque.
+    Grip { grip: usize, component: usize },
+}
+
+/// The forces of contacts and of grips between their limits, and the forces of grips at their limits.
+pub(super) fn unknowns(
+    program: &Program,
+    solved: &LimitState,
+) -> (Vec<Unknown>, Vec<(usize, usize, f64)>) {
+    let size = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let (force, speed) = (size(&solved.amounts), size(&solved.motion));
+    let mut unknowns = Vec::new();
+    let mut grips = vec![[0.0; 3]; program.grips.len()];
+    for (column, amount) in solved.columns.iter().zip(&solved.amounts) {
+        match column.force {
+            Force::Ray {
+                contact,
+                point,
+                normal,
+                friction,
+            } => {
+                let power = column.dot(&solved.motion).abs() / speed;
+                let share = amount / force;
+                unknowns.push(Unknown {
+                    source: Source::Contact {
+                        contact,
+                        point,
+                        side: match friction {
+                            0.0 => 0.0,
+                            _ => friction.signum(),
+                        },
+                    },
+                    amount: amount * normal,
+                    is_basic: share > BASIC && share > power,
+                    is_both_ways: false,
+                });
+            }
+            Force::Grip {
+                grip,
+                component,
+                sign,
+            } => grips[grip][component] += sign * amount,
+            _ => {}
+        }
+    }
+    let mut limits = Vec::new();
+    for (grip, (forces, term)) in grips.iter().zip(&program.grips).enumerate() {
+        for (component, amount) in forces.iter().copied().enumerate() {
+            let limit = term.limits[component];
+            if limit > 0.0 && amount.abs() >= limit * (1.0 - AT_LIMIT) {
+                limits.push((grip, component, limit * amount.signum()));
+            } else if limit > 0.0 {
+                unknowns.push(Unknown {
+                    source: Source::Grip { grip, component },
+                    amount,
+                    is_basic: true,
+                    is_both_ways: true,
+                });
+            }
+        }
+    }
+    (unknowns, limits)
+}
+
+/// Returns the group of each body, `None` for those that rest with the ground, and the number of groups.
+///
+/// A contact holds its bodies together if one of its points has basic forces on both sides of the friction cone, and
+/// the other has one at least: then neither point can move, and so the bodies cannot. A robot holds a body if all three
+/// components are between their limits.
+pub(super) fn groups(given: &Assembly, unknowns: &[Unknown]) -> (Vec<Option<usize>>, usize) {
+    let ground = given.bodies.len();
+    let mut sets = DisjointSets::new(ground + 1);
+    let mut sides = vec![[0_usize; 2]; given.contacts.len()];
+    let mut held = vec![0_usize; given.grips.len()];
+    for unknown in unknowns.iter().filter(|unknown| unknown.is_basic) {
+        match unknown.source {
+            Source::Contact { contact, point, .. } => sides[contact][point] += 1,
+            Source::Grip { grip, .. } => held[grip] += 1,
+        }
+    }
+    for (contact, sides) in given.contacts.iter().zip(sides) {
+        if sides.iter().min() >= Some(&1) && sides.iter().max() >= Some(&2) {
+            sets.union(contact.on, contact.from.unwrap_or(ground));
+        }
+    }
+    for (grip, held) in given.grips.iter().zip(held) {
+        if held == 3 {
+            sets.union(grip.body, ground);
+        }
+    }
+    let fixed = sets.find(ground);
+    let mut numbers: Vec<Option<usize>> = vec![None; ground + 1];
+    let mut count = 0;
+    let group = (0..ground).map(|body| {
+        let root = sets.find(body);
+        if root == fixed {
+            return None;
+        }
+        if numbers[root].is_none() {
+            numbers[root] = Some(count);
+            count += 1;
+        }
+        numbers[root]
+    });
+    let group = group.collect();
+    (group, count)
+}

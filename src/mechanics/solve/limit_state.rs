@@ -1,0 +1,69 @@
+//! [`LimitState`]: the forces and the mechanism at the largest load factor, column by column.
+//!
+//! [`largest_factor`](super::largest_factor) returns forces of contacts. To find out whether forces and mechanism are
+//! unique, the amount and the slack of every column are needed.
+
+use super::dual::amounts_of_rows;
+use super::limit::{attempts, columns_in, rebalanced};
+use super::slanted::Slanted;
+use super::{Status, largest, solve};
+use crate::program::{Column, Program, load_factor_dual};
+
+/// The optimum of the program of the largest load factor.
+#[derive(Clone, Debug)]
+pub struct LimitState {
+    /// The largest factor.
+    pub factor: f64,
+    /// The columns that were used: those of the program without redundant ones.
+    pub columns: Vec<Column>,
+    /// The amount of each column at the limit, in program units, at least 0.
+    pub amounts: Vec<f64>,
+    /// The collapse mechanism: three velocities for each block. The direction of the loads has power 1 along it.
+    pub motion: Vec<f64>,
+}
+
+/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`, and the state there.
+///
+/// `None` if λ has no largest value, if no λ allows a balance, or if the solver ends without a result.
+pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
+    let size = largest(direction);
+    if size == 0.0 {
+        return None;
+    }
+    let load = match largest(&program.loads) {
+        0.0 => 1.0,
+        load => load,
+    };
+    let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
+    let (loads, along) = (scaled(&program.loads, load), scaled(direction, size));
+    let columns = Slanted::new(&columns_in(program, load)).columns;
+    let (problem, row_of) = load_factor_dual(&loads, &along, &columns);
+    for (tolerance, conditioning) in attempts(program) {
+        let answer = solve(&problem, tolerance, conditioning);
+        match answer.status {
+            Status::Solved => {
+                let factor = answer.z.last()?.max(0.0);
+                let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
+                let total: Vec<f64> = total.collect();
+                let amounts = amounts_of_rows(&answer, &row_of);
+                let mut amounts = rebalanced(&total, &columns, amounts);
+                amounts.iter_mut().for_each(|amount| *amount *= load);
+                let motion = answer.x[..loads.len()].iter().map(|v| -v / size).collect();
+                return Some(LimitState {
+                    factor: factor * load / size,
+                    columns: columns_of(program),
+                    amounts,
+                    motion,
+                });
+            }
+            Status::Unsolved => {}
+            Status::Infeasible | Status::Unbounded => return None,
+        }
+    }
+    None
+}
+
+/// Returns the columns of a program without redundant ones, with limits in program units.
+fn columns_of(program: &Program) -> Vec<Column> {
+    Slanted::new(&columns_in(program, 1.0)).columns
+}

@@ -1,0 +1,311 @@
+//! Describes the sensitivity of a margin in words: the changes with the largest effect, with their amounts.
+
+use super::failure::{named, pair};
+use super::number::{digits, round_below, three};
+use crate::analysis::{
+    CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope,
+};
+use crate::geometry::Vector;
+use crate::scene::{BlockId, Scene};
+
+/// A length that changes, as a fraction of the median interface.
+const SHARE_OF_LENGTH: f64 = 1.0 / 50.0;
+/// The part by which a weight changes.
+const SHARE_OF_WEIGHT: f64 = 0.1;
+/// The step of a friction coefficient.
+const FRICTION_STEP: f64 = 0.05;
+/// Changes with a smaller effect, relative to the value, are not listed.
+const NO_EFFECT: f64 = 1e-6;
+
+/// What is changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A corner, by its index in [`EndSensitivity::corners`], along a unit vector.
+    Corner(usize, Vector),
+    /// The weight of a block.
+    Weight(BlockId),
+    /// The friction of an interface, by its index.
+    Friction(usize),
+    /// The friction of all interfaces.
+    AllFriction,
+    /// The point of a load, by its index in the scene, along a unit vector.
+    Load(usize, Vector),
+}
+
+/// A change that makes the structure stronger, and its effect.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// What is changed.
+    pub target: Target,
+    /// What is done, with its amount: `moving corner 3 of block v4 by 10 mm up`.
+    pub words: String,
+    /// By how much: metres, newtons, or a coefficient.
+    pub amount: f64,
+    /// The value of the margin afterwards, to first order.
+    pub after: f64,
+}
+
+/// Returns the changes with the largest effect, the most effective first: at most `most` of them. All make the interval
+/// of the margin larger.
+pub fn most_effective(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    end: &EndSensitivity,
+    is_high: bool,
+    most: usize,
+) -> Vec<Change> {
+    let outward = if is_high { 1.0 } else { -1.0 };
+    let mut list = corners(scene, found, end, outward);
+    list.extend(others(scene, found, end, outward));
+    let effect = |change: &Change| (change.after - end.value) * outward;
+    list.retain(|change| effect(change) > NO_EFFECT * end.value.abs());
+    list.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
+    list.truncate(most);
+    list
+}
+
+/// The length by which corners and loads are moved, metres: 1, 2 or 5 times a power of ten.
+pub fn step_length(found: &FrameAnalysis) -> f64 {
+    round_below(SHARE_OF_LENGTH * found.length * (1.0 + 1e-9))
+}
+
+/// Writes a length in millimetres, or in metres if it is longer than one.
+pub fn length(metres: f64) -> String {
+    match metres < 1.0 {
+        true => format!("{} mm", digits(1e3 * metres)),
+        false => format!("{} m", digits(metres)),
+    }
+}
+
+/// The changes of corners. Corners that move together are listed once.
+fn corners(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    end: &EndSensitivity,
+    outward: f64,
+) -> Vec<Change> {
+    let step = step_length(found);
+    let mut list = Vec::new();
+    let mut seen: Vec<usize> = Vec::new();
+    for (number, corner) in end.corners.iter().enumerate() {
+        let is_known = |other: &usize| {
+            let other = &end.corners[*other];
+            (other.at - corner.at).norm() < 1e-6 * found.length
+        };
+        if !corner.with.is_empty() && seen.iter().any(is_known) {
+            continue;
+        }
+        seen.push(number);
+        let best = match corner.moves {
+            CornerMoves::Freely(slopes) => best_direction(slopes, outward),
+            CornerMoves::Along { direction, slope } => {
+                best_side(slope, outward).map(|(side, rate)| (direction * side, rate))
+            }
+            _ => None,
+        };
+        let Some((direction, rate)) = best else {
+            continue;
+        };
+        let with: Vec<String> = corner.with.iter().map(|b| named(scene, *b)).collect();
+        let with = match with.is_empty() {
+            true => String::new(),
+            false => format!(" with {}", super::number::listed(&with)),
+        };
+        list.push(Change {
+            target: Target::Corner(number, direction),
+            words: format!(
+                "moving corner {} of {}{with} by {} {}",
+                corner.corner + 1,
+                named(scene, crate::scene::BodyId::Block(corner.block)),
+                length(step),
+                toward(direction)
+            ),
+            amount: step,
+            after: end.value + outward * rate * step,
+        });
+    }
+    list
+}
+
+/// The changes of weights, friction and loads.
+fn others(scene: &Scene, found: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<Change> {
+    let mut list = Vec::new();
+    let mut add = |target: Target, words: String, amount: f64, rate: f64| {
+        list.push(Change {
+            target,
+            words,
+            amount,
+            after: end.value + outward * rate * amount,
+        });
+    };
+    for (block, slope) in &end.weights {
+        let amount = SHARE_OF_WEIGHT * scene.blocks[block.0].weight;
+        if let Some((side, rate)) = best_side(*slope, outward) {
+            let name = named(scene, crate::scene::BodyId::Block(*block));
+            let how = if side > 0.0 { "heavier" } else { "lighter" };
+            let words = format!("making {name} 10 % {how}");
+            add(Target::Weight(*block), words, amount, rate);
+        }
+    }
+    let rubbing = |slope: Slope, what: String, target: Target| {
+        let (side, rate) = best_side(slope, outward)?;
+        let how = if side > 0.0 { "raising" } else { "lowering" };
+        let words = format!("{how} the friction {what} by {FRICTION_STEP}");
+        Some((target, words, FRICTION_STEP, rate))
+    };
+    let all = end.friction.iter().filter_map(|(interface, slope)| {
+        let bodies = found.contacts.get(*interface)?.interface.bodies;
+        let what = format!("between {}", pair(scene, bodies));
+        rubbing(*slope, what, Target::Friction(*interface))
+    });
+    let whole = end
+        .friction_of_all
+        .and_then(|slope| rubbing(slope, "of every joint".into(), Target::AllFriction));
+    for (target, words, amount, rate) in all.chain(whole) {
+        add(target, words, amount, rate);
+    }
+    let step = step_length(found);
+    for (load, slopes) in &end.loads {
+        if let Some((direction, rate)) = best_direction(*slopes, outward) {
+            let block = scene.loads[*load].block;
+            let words = format!(
+                "moving the load on {} by {} {}",
+                named(scene, crate::scene::BodyId::Block(block)),
+                length(step),
+                toward(direction)
+            );
+            add(Target::Load(*load, direction), words, step, rate);
+        }
+    }
+    list
+}
+
+/// Returns the side, 1 or −1, to which the interval grows most, and its growth per unit there. `None` if it does not grow.
+fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
+    let [backward, forward] = slope.both()?;
+    let sides = [(1.0, outward * forward), (-1.0, -outward * backward)];
+    let best = sides.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (best.1 > 0.0).then_some(best)
+}
+
+/// Returns the unit vector along which the interval grows most, and its growth per metre. At a kink only the axes are
+/// compared.
+pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)> {
+    if let [Slope::Unique(x), Slope::Unique(y)] = slopes {
+        let gradient = Vector::new(x, y) * outward;
+        let size = gradient.norm();
+        return (size > 0.0).then(|| (gradient / size, size));
+    }
+    let axes = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)];
+    let both = axes.into_iter().zip(slopes).filter_map(|(axis, slope)| {
+        let (side, rate) = best_side(slope, outward)?;
+        Some((axis * side, rate))
+    });
+    both.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Names one of eight directions: `up and to the left`.
+fn toward(direction: Vector) -> String {
+    // The tangent of 22.5°.
+    const NARROW: f64 = 0.414_213_562_373_095_1;
+    let (x, y) = (direction.x.abs(), direction.y.abs());
+    let upright = if direction.y > 0.0 { "up" } else { "down" };
+    let side = if direction.x > 0.0 { "right" } else { "left" };
+    if x < NARROW * y {
+        upright.into()
+    } else if y < NARROW * x {
+        format!("to the {side}")
+    } else {
+        format!("{upright} and to the {side}")
+    }
+}
+
+/// The name of a margin's value.
+pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
+    match (kind, is_high) {
+        (MarginKind::Friction, _) => "least friction",
+        (MarginKind::Tilt, true) => "tilt to the right",
+        (MarginKind::Tilt, false) => "tilt to the left",
+        (MarginKind::HorizontalLoad, true) => "horizontal share to the right",
+        (MarginKind::HorizontalLoad, false) => "horizontal share to the left",
+        (MarginKind::Kernel, _) => "largest kernel",
+        (MarginKind::LoadFactor, false) => "least load factor",
+        _ => "load factor",
+    }
+}
+
+/// Writes a value of a margin, without its sign if the name gives the side.
+pub fn value(kind: MarginKind, value: f64) -> String {
+    match kind {
+        MarginKind::Tilt => format!("{}°", three(value.abs())),
+        MarginKind::HorizontalLoad => three(value.abs()),
+        _ => three(value),
+    }
+}
+
+/// Describes the ends of a margin in lines: for each end the most effective changes.
+pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
+    let kind = sensitivity.kind;
+    let mut lines = Vec::new();
+    if let Some(reason) = sensitivity.reason() {
+        lines.push(without(kind, reason));
+    }
+    for (is_high, end) in sensitivity.ends() {
+        let changes = most_effective(scene, found, end, is_high, 10);
+        let before = value(kind, end.value);
+        let name = name(kind, is_high);
+        lines.push(match changes.is_empty() {
+            true => format!("{name} {before}: no change of one number makes it better"),
+            false => format!("{name} {before}; what changes it most:"),
+        });
+        for change in &changes {
+            let after = value(kind, change.after);
+            lines.push(format!("  {}: {name} {before} → {after}", change.words));
+        }
+        let kinks = kinks(end);
+        if kinks > 0 {
+            lines.push(format!(
+                "  {kinks} derivatives are not unique and were not computed: the margin may have a kink there"
+            ));
+        }
+    }
+    lines
+}
+
+/// Why there is no sensitivity, in a sentence.
+pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
+    let name = name(kind, true);
+    match reason {
+        NoSensitivity::NotApplicable => {
+            format!("no sensitivity of the {name}: there are no loads on placed blocks")
+        }
+        NoSensitivity::Empty => {
+            format!("no sensitivity of the {name}: the frame falls at every value")
+        }
+        NoSensitivity::Unbounded => {
+            format!("no sensitivity of the {name}: the frame stands at every larger value")
+        }
+        NoSensitivity::RangeEnds => {
+            format!("no sensitivity of the {name}: its range ends before the frame falls")
+        }
+        NoSensitivity::Unconfirmed => {
+            format!("no sensitivity of the {name}: no verdict confirms its value")
+        }
+        _ => format!("no sensitivity of the {name}: forces and mechanism there were not computed"),
+    }
+}
+
+/// The number of derivatives that were not computed.
+fn kinks(end: &EndSensitivity) -> usize {
+    let is_kink = |slope: &Slope| slope.both().is_none();
+    let corners = end.corners.iter().filter(|corner| match corner.moves {
+        CornerMoves::Freely(slopes) => slopes.iter().any(is_kink),
+        CornerMoves::Along { slope, .. } => is_kink(&slope),
+        _ => false,
+    });
+    let weights = end.weights.iter().filter(|(_, slope)| is_kink(slope));
+    let friction = end.friction.iter().filter(|(_, slope)| is_kink(slope));
+    let loads = end.loads.iter();
+    let loads = loads.filter(|(_, slopes)| slopes.iter().any(is_kink));
+    corners.count() + weights.count() + friction.count() + loads.count()
+}
