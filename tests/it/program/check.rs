@@ -164,6 +164,29 @@ fn some_margins_can_be_asked_for_alone() {
 }
 
 #[test]
+fn the_most_effective_changes_of_a_margin_are_listed_in_words() {
+    let bench = Bench::new();
+    let told = bench
+        .run("check --sensitivity horizontal_load stands.json")
+        .out;
+    assert!(told.contains("horizontal share to the right "), "{told}");
+    assert!(told.contains("; what changes it most:"), "{told}");
+    assert!(told.contains(" → "), "{told}");
+    let told = bench.run("check --sensitivity load_factor stands.json").out;
+    let reason = "no sensitivity of the load factor: there are no loads on placed blocks";
+    assert!(told.contains(reason), "{told}");
+    let asked = bench.run("check --json --sensitivity tilt stands.json").out;
+    let asked: Value = serde_json::from_str(&asked).expect("JSON");
+    let found = &asked["frames"][0]["sensitivity"];
+    assert_eq!(found["parameter"], "tilt");
+    assert_eq!(found["ends"].as_array().map(Vec::len), Some(2));
+    let vertices = &found["ends"][1]["vertices"];
+    assert_eq!(vertices[0]["moves"], "along", "it stands on the ground");
+    let wrong = bench.run("check --sensitivity robots stands.json");
+    assert_eq!(wrong.code, 2);
+}
+
+#[test]
 fn the_verdict_alone_has_the_same_shape() {
     let bench = Bench::new();
     let object =

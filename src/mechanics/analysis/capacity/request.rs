@@ -171,6 +171,7 @@ impl Scene {
             at,
             force,
             torque: 0.0,
+            at_centroid: false,
         });
         scene
     }
