@@ -176,13 +176,14 @@ impl Tally {
                 }
             }
             Slope::OneSided { backward, forward } => {
-                let Some(sides) = change.slopes() else {
+                let step = change.step / 16.0;
+                let Some(sides) = (Change { step, ..*change }.slopes()) else {
                     self.skipped += 1;
                     return;
                 };
                 self.one_sided += 1;
                 for (own, other) in [backward, forward].into_iter().zip(sides) {
-                    if (own - other).abs() > 1e-4 * scale {
+                    if (own - other).abs() > 1e-5 * scale.max(own.abs()) {
                         self.wrong.push(format!(
                             "{what}: {backward:.9} {forward:.9} against {sides:?}"
                         ));
