@@ -145,12 +145,19 @@ pub struct Tally {
     pub kinks: usize,
     pub one_sided: usize,
     pub skipped: usize,
+    /// One of so many derivatives is compared.
+    every: usize,
+    asked: usize,
     pub worst: f64,
     pub wrong: Vec<String>,
 }
 
 impl Tally {
     fn compare(&mut self, what: &str, slope: Slope, scale: f64, change: &Change) {
+        self.asked += 1;
+        if self.asked % self.every != 0 {
+            return;
+        }
         match slope {
             Slope::Unique(slope) => {
                 // If the margin has a kink nearby, a smaller step stays on this side of it.
@@ -196,10 +203,13 @@ impl Tally {
     }
 }
 
-/// Compares every derivative of an end with differences.
-pub fn compared(file: &Value, kind: MarginKind, is_high: bool) -> Option<Tally> {
+/// Compares one of `every` derivatives of an end with differences.
+pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> Option<Tally> {
     let found = end(file, kind, is_high).ok()?;
-    let mut tally = Tally::default();
+    let mut tally = Tally {
+        every,
+        ..Tally::default()
+    };
     let change = |step: f64,
                   apply: &dyn Fn(&mut Value, f64),
                   slope,
@@ -328,7 +338,7 @@ fn the_slopes_of_a_loaded_arch_are_those_of_central_differences() {
     let file = loaded_arch(15, 0.2, 0.6, 4, &json!({ "density": 1 }));
     let found = end(&file, MarginKind::LoadFactor, true).expect("a largest factor");
     assert!((found.value - 0.469_201_9).abs() < 5e-8, "{}", found.value);
-    let tally = compared(&file, MarginKind::LoadFactor, true).expect("it has an end");
+    let tally = compared(&file, MarginKind::LoadFactor, true, 1).expect("it has an end");
     // 28 corners of 14 joints, and the four of the springings, along x and y.
     assert!(tally.wrong.is_empty(), "{:?}", tally.wrong);
     assert_eq!((tally.kinks, tally.one_sided, tally.skipped), (0, 0, 0));
@@ -386,7 +396,7 @@ fn random_scene(random: &mut Random) -> Value {
 }
 
 /// Compares random scenes from `first` on. Returns the sum of their comparisons, and the number of ends.
-fn random_scenes(first: u64, count: u64) -> (Tally, usize) {
+fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
     let mut sum = Tally::default();
     let mut ends = 0;
     for seed in first..first + count {
@@ -401,7 +411,7 @@ fn random_scenes(first: u64, count: u64) -> (Tally, usize) {
             MarginKind::Kernel,
         ]);
         for is_high in [false, true] {
-            let Some(tally) = compared(&file, kind, is_high) else {
+            let Some(tally) = compared(&file, kind, is_high, every) else {
                 continue;
             };
             ends += 1;
@@ -420,7 +430,8 @@ fn random_scenes(first: u64, count: u64) -> (Tally, usize) {
 
 #[test]
 fn slopes_of_random_scenes_are_those_of_differences() {
-    let (sum, ends) = random_scenes(1, 30);
+    // Two hundred scenes were compared with `every` = 1; here one derivative of five.
+    let (sum, ends) = random_scenes(1, 30, 5);
     assert!(sum.wrong.is_empty(), "{:#?}", sum.wrong);
-    assert!(ends > 20 && sum.slopes > 500, "{ends} ends, {sum:?}");
+    assert!(ends > 20 && sum.slopes > 150, "{ends} ends, {sum:?}");
 }
