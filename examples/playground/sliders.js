@@ -42,7 +42,7 @@ const PARAMETERS = [
     interval: (intervals) => intervals.kernel,
   },
   {
-    id: "load", label: "Loads", help: "Multiplies all loads. Add a load to use it.", low: 0, high: 5, step: 0.05, unit: "×",
+    id: "load", label: "Loads", help: "Multiplies all loads. Select a block and press Push to add one.", low: 0, high: 5, step: 0.05, unit: "×",
     read: (store) => store.factor,
     write: (store, value) => store.setFactor(value),
     interval: ({ load_factor: interval }, { factor }) => (Array.isArray(interval) && factor > 0 ? /** @type {Interval} */ (interval.map((end) => (end === null ? null : end * factor))) : interval),
