@@ -177,7 +177,9 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
     let asked = drystone::analysis::Options::default().margins(true);
     let analysis = Analysis::with(&scene, &asked);
-    let (turn, motions) = analysis.tilted(0).expect("it topples");
+    let (turn, motions) = analysis
+        .edge(0, drystone::analysis::Toward::Tilt)
+        .expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
     let [motion] = &motions[..] else {
         panic!("{motions:?}")

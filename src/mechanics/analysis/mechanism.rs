@@ -54,13 +54,6 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the tilt at which a frame (numbered from 0) falls, and its mechanism. See [`Analysis::edge`].
-    ///
-    /// Units: degrees. Signs: positive if the tip of the gravity vector moves to the right.
-    pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
-        self.edge(frame, Toward::Tilt)
-    }
-
     /// Returns the nearer limit of stability of a frame (numbered from 0), and the elementary mechanism there. `None`
     /// if margins were not computed or the frame does not fall in this direction. Loads without largest factor have the
     /// least.

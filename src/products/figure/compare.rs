@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::change::{ForceChange, noise};
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
@@ -23,19 +24,10 @@ use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Th
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// A force has changed if it differs by more than this share of the larger of the two. If forces are not unique, the
-/// solver alone causes smaller differences.
-const CHANGE_TOL: f64 = 0.05;
 /// Radius of the ring around a change, unit edges; its least and its largest radius, pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
-
-/// An interface whose force changed.
-struct Change<'a> {
-    now: &'a Contact,
-    before: &'a Contact,
-}
 
 /// Returns the blocks that were added since the previous frame, and the blocks that were removed.
 fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
@@ -66,7 +58,7 @@ fn force(contact: &Contact) -> Vector {
 
 /// Returns the common interfaces of a frame and the frame before it whose forces differ, and the number of all common
 /// interfaces.
-fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize) {
+fn changes(analysis: &Analysis, frame: usize) -> (Vec<ForceChange<'_>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
     };
@@ -78,28 +70,19 @@ fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize)
         let (a, b) = (&now.interface, &then.interface);
         (a.middle() - b.middle()).norm() <= 1e-6 * a.length()
     };
-    let shared: Vec<Change<'_>> = analysis.frames[frame]
-        .contacts
-        .iter()
-        .filter_map(|now| {
-            let before = before
-                .get(&between(now))?
-                .iter()
-                .copied()
-                .find(|then| same(now, then))?;
-            Some(Change { now, before })
+    let shared = analysis.frames[frame].contacts.iter().filter_map(|now| {
+        let then = before.get(&between(now))?.iter().copied();
+        let contacts = [then.into_iter().find(|then| same(now, then))?, now];
+        Some(ForceChange {
+            contacts,
+            forces: contacts.map(force),
         })
-        .collect();
+    });
+    let shared: Vec<ForceChange<'_>> = shared.collect();
     let count = shared.len();
-    let size = |c: &Contact| force(c).norm();
-    let largest = shared.iter().map(|c| size(c.now).max(size(c.before)));
-    let noise = 1e-6 * largest.fold(0.0, f64::max);
-    let differs = |change: &Change<'_>| {
-        let larger = size(change.now).max(size(change.before));
-        let difference = (force(change.now) - force(change.before)).norm();
-        larger > noise && difference > CHANGE_TOL * larger
-    };
-    (shared.into_iter().filter(differs).collect(), count)
+    let noise = noise(shared.iter().map(ForceChange::larger));
+    let changed = shared.into_iter().filter(|change| change.is_change(noise));
+    (changed.collect(), count)
 }
 
 /// The figure of the changes between frames.
@@ -164,23 +147,24 @@ impl PanelContent for Comparison {
         let true_lines = mark::marks(context.analysis, frame, context.options, newtons);
         let radius = (share * pen.unit()).clamp(least, most);
         for change in changes(context.analysis, frame).0 {
-            let at = camera.place(change.now.resultant.at);
-            let pair = description::pair(scene, change.now.interface.bodies);
-            let amounts = [change.before, change.now].map(|c| quantity(force(c).norm(), "N"));
-            let [was, is] = amounts;
+            let [then, now] = change.contacts;
+            let [force_then, force_now] = change.forces;
+            let at = camera.place(now.resultant.at);
+            let pair = description::pair(scene, now.interface.bodies);
+            let [was, is] = change.amounts().map(|amount| quantity(amount, "N"));
             let title = format!("Between {pair}: {was} before, {is} now");
             ink.disc(at, radius + 1.0);
             let stroke = Stroke::new(theme.motion, 1.6);
             let ring = Path::stroked(Outline::circle(at, radius), stroke);
             let drawn = Group::with_class("change").titled(title);
             changed.items.push(drawn.with(ring).into());
-            let bodies = between(change.now);
+            let bodies = between(now);
             for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
                 let BodyId::Block(_) = body else { continue };
-                let now = force(change.now) * sign;
-                let aside = aside(&context.marks[frame], &true_lines, body, other, now);
-                let from = camera.place(change.before.resultant.at + aside);
-                let along = camera.turn(force(change.before) * (sign * metres));
+                let force = force_now * sign;
+                let aside = aside(&context.marks[frame], &true_lines, body, other, force);
+                let from = camera.place(then.resultant.at + aside);
+                let along = camera.turn(force_then * (sign * metres));
                 let width = theme.widths.force * pen.unit();
                 let arrow = Path::filled(straight(from, along, width), theme.faint);
                 before.items.push(arrow.with_opacity(0.35).into());

@@ -11,6 +11,7 @@ mod broken;
 mod by_colour;
 mod cad;
 mod caption;
+mod change;
 mod choice;
 mod collapse;
 mod compare;
@@ -56,6 +57,8 @@ pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 pub use broken::broken;
 pub use cad::dxf;
 pub use caption::caption;
+#[cfg(feature = "report")]
+pub(crate) use change::{ForceChange, noise};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use choice::{FREEBODY, FREEBODY_HELP, free_block, named_block};
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};

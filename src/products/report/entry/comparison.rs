@@ -4,32 +4,27 @@
 //! 2. A force counts as changed if it differs by more than 5 % of the larger one.
 //! 3. Changed blocks (outline, place, weight, friction, loads, robots) and changed forces are marked in both figures.
 
+mod force;
+mod mark;
+mod number;
 mod setting;
 mod shape;
 
-use std::collections::BTreeMap;
-
-use super::bullet;
 use super::row::file_name;
 use super::sheet;
-use super::touch::onto_scene;
-use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart};
-use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
+use super::{Entry, Figure, File, ReportOptions, Row, Section, SheetPart};
+use crate::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::drawing::Drawing;
 use crate::figure::{self, Kind};
 use crate::geometry::Point;
-use crate::scene::Scene;
 use crate::text::line;
-use crate::wording::failure::pair;
-use crate::wording::number::{counted, digits, letter, percent, tenths};
+use crate::wording::number::{counted, letter};
 use crate::wording::verdict::{self, plain};
+use force::SharedForces;
+use mark::mark;
+use number::{margins, totals};
 use setting::Settings;
 use shape::Shapes;
-
-/// Forces that differ by more than this share of the larger one count as changed.
-const CHANGE_TOL: f64 = 0.05;
-/// The smallest and largest radius of the ring around a changed force, in pixels.
-const RING: (f64, f64) = (3.0, 9.0);
 
 /// One of the two scenes of a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +37,44 @@ pub struct Side<'s> {
 
 /// Makes the content of a report that compares two scenes: the first, then the second.
 pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
+    let [was, is] = sides;
+    let (stated, sections) = steps(sides, wanted);
+    let mut row = Row::new(is.file.name, is.analysis);
+    row.before = Some(was.analysis.verdict());
+    let names = sides.map(|side| line(side.file.name));
+    let titles = sides.map(|side| match side.analysis.scene.title.trim() {
+        "" => file_name(side.file.name),
+        title => line(title),
+    });
+    row.title = if titles[0] == titles[1] {
+        titles[1].clone()
+    } else {
+        format!("{} → {}", titles[0], titles[1])
+    };
+    row.name = format!("{} → {}", names[0], names[1]);
+    row.fails = stated.first().cloned().unwrap_or_default();
+    let commands = sides.map(|side| super::commands(side.file.name, side.analysis, wanted));
+    let origins = sides.map(|side| super::hash(side.file.text));
+    Entry {
+        row,
+        details: Vec::new(),
+        sections,
+        origin: format!(
+            "drystone {}, scenes {}",
+            env!("CARGO_PKG_VERSION"),
+            origins.join(" and ")
+        ),
+        commands: commands.concat(),
+        source: String::new(),
+        results: sides
+            .map(|side| super::result(side.file.name, side.analysis, wanted.timing))
+            .to_vec(),
+        changes: stated,
+    }
+}
+
+/// Compares the steps in their order: a sentence about each, and the sections of the report.
+fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Section>) {
     let [was, is] = sides;
     let options = sheet::options(wanted);
     let mut figures = sides.map(|side| {
@@ -79,37 +112,17 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
         stated.push(sentence);
         sections.push(section);
     }
-    let mut row = Row::new(is.file.name, is.analysis);
-    row.before = Some(was.analysis.verdict());
-    let names = sides.map(|side| line(side.file.name));
-    let titles = sides.map(|side| match side.analysis.scene.title.trim() {
-        "" => file_name(side.file.name),
-        title => line(title),
-    });
-    row.title = if titles[0] == titles[1] {
-        titles[1].clone()
-    } else {
-        format!("{} → {}", titles[0], titles[1])
-    };
-    row.name = format!("{} → {}", names[0], names[1]);
-    row.fails = stated.first().cloned().unwrap_or_default();
-    let commands = sides.map(|side| super::commands(side.file.name, side.analysis, wanted));
-    let origins = sides.map(|side| super::hash(side.file.text));
-    Entry {
-        row,
-        details: Vec::new(),
-        sections,
-        origin: format!(
-            "drystone {}, scenes {}",
-            env!("CARGO_PKG_VERSION"),
-            origins.join(" and ")
-        ),
-        commands: commands.concat(),
-        source: String::new(),
-        results: sides
-            .map(|side| super::result(side.file.name, side.analysis, wanted.timing))
-            .to_vec(),
-        changes: stated,
+    (stated, sections)
+}
+
+fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
+    let scale = "the scales of arrows and colours are those of this figure only";
+    let name = line(side.file.name);
+    Figure {
+        caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
+        drawing,
+        dark: None,
+        touches: Vec::new(),
     }
 }
 
@@ -131,17 +144,6 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
     (why.to_owned(), section)
 }
 
-fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "the scales of arrows and colours are those of this figure only";
-    let name = line(side.file.name);
-    Figure {
-        caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
-        drawing,
-        dark: None,
-        touches: Vec::new(),
-    }
-}
-
 /// Compares a step that both scenes have: a sentence about the changes, and the section.
 fn both(
     sides: [Side<'_>; 2],
@@ -152,7 +154,7 @@ fn both(
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::new(sides, number);
-    let forces = forces(sides, number);
+    let forces = SharedForces::new(sides, number);
     let settings = Settings::new(sides, number);
     let sentence = changes_sentence([then, now], &shape, &settings, &forces);
     let sentence = format!("{}.", capital(&line(&sentence)));
@@ -172,7 +174,7 @@ fn both(
         margins(sides, number),
         shape.grid(),
         settings.grid(),
-        grid(&is.analysis.scene, &forces),
+        forces.grid(&is.analysis.scene),
     ];
     let colour = wanted.theme.motion;
     let [loaded, now_loaded] = settings.blocks;
@@ -181,8 +183,10 @@ fn both(
         [shape.new_or_changed, now_loaded].concat(),
     ];
     let rings = [0, 1].map(|side: usize| {
-        let changed = forces.iter().filter(|f| f.changed());
-        changed.map(|f| f.at[side]).collect::<Vec<Point>>()
+        let changed = forces.changed();
+        changed
+            .map(|f| f.contacts[side].resultant.at)
+            .collect::<Vec<Point>>()
     });
     let mut plates = Vec::new();
     for (side, (found, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
@@ -206,7 +210,7 @@ fn changes_sentence(
     [then, now]: [&FrameAnalysis; 2],
     shape: &Shapes,
     settings: &Settings,
-    forces: &[SharedForce],
+    forces: &SharedForces<'_>,
 ) -> String {
     let mut stated = vec![match (then.verdict, now.verdict) {
         (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
@@ -220,12 +224,12 @@ fn changes_sentence(
     }
     stated.extend(differs);
     stated.extend(settings.stated());
-    stated.push(match forces.iter().filter(|f| f.changed()).count() {
-        _ if forces.is_empty() => "no interface that both have".to_owned(),
+    stated.push(match forces.changed().count() {
+        _ if forces.all.is_empty() => "no interface that both have".to_owned(),
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",
-            counted(forces.len(), "shared force")
+            counted(forces.all.len(), "shared force")
         ),
     });
     stated.join("; ")
@@ -243,189 +247,4 @@ fn capital(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
-}
-
-/// The forces of both frames at the same interface.
-struct SharedForce {
-    between: [crate::scene::BodyId; 2],
-    amounts: [f64; 2],
-    difference: f64,
-    noise: f64,
-    at: [Point; 2],
-}
-
-impl SharedForce {
-    fn changed(&self) -> bool {
-        let larger = self.amounts[0].max(self.amounts[1]);
-        larger > self.noise && self.difference > CHANGE_TOL * larger
-    }
-}
-
-/// Pairs the interfaces of both frames by the names of their bodies. Several interfaces between two bodies are paired
-/// by their order.
-fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<SharedForce> {
-    let key = |scene: &Scene, contact: &Contact| {
-        contact.interface.bodies.map(|b| scene.name(b).to_owned())
-    };
-    let [was, is] = sides.map(|side| (&side.analysis.scene, &side.analysis.frames[number]));
-    let mut before: BTreeMap<[String; 2], Vec<&Contact>> = BTreeMap::new();
-    for contact in &was.1.contacts {
-        before.entry(key(was.0, contact)).or_default().push(contact);
-    }
-    let sizes = was.1.contacts.iter().chain(&is.1.contacts);
-    // Forces below a millionth of the largest force are rounding errors of the solver.
-    let noise = 1e-6 * sizes.map(|c| c.resultant.force.norm()).fold(0.0, f64::max);
-    let mut taken: BTreeMap<[String; 2], usize> = BTreeMap::new();
-    let mut shared = Vec::new();
-    for contact in &is.1.contacts {
-        let key = key(is.0, contact);
-        let turn = taken.entry(key.clone()).or_default();
-        let Some(then) = before.get(&key).and_then(|list| list.get(*turn)) else {
-            continue;
-        };
-        *turn += 1;
-        shared.push(SharedForce {
-            between: contact.interface.bodies,
-            amounts: [then, contact].map(|c| c.resultant.force.norm()),
-            difference: (contact.resultant.force - then.resultant.force).norm(),
-            noise,
-            at: [then, contact].map(|c| c.resultant.at),
-        });
-    }
-    shared
-}
-
-fn change(before: f64, after: f64) -> String {
-    if (after - before).abs() <= 1e-9 * before.abs() {
-        return "none".to_owned();
-    }
-    if before == 0.0 {
-        return "from nothing".to_owned();
-    }
-    let sign = if after < before { "−" } else { "+" };
-    match (after / before - 1.0).abs() {
-        little if little < 0.0005 => format!("{sign}under 0.1 %"),
-        share => format!("{sign}{}", tenths(share)),
-    }
-}
-
-fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
-    let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
-    let largest = |f: &FrameAnalysis| {
-        let forces = f.contacts.iter().map(|c| c.resultant.force.norm());
-        forces.fold(0.0, f64::max)
-    };
-    for (what, a, b) in [
-        ("weight of all blocks, N", then.weight, now.weight),
-        ("total force, N", then.total_force, now.total_force),
-        ("total sticking, N", then.total_sticking, now.total_sticking),
-        (
-            "largest force at an interface, N",
-            largest(then),
-            largest(now),
-        ),
-    ] {
-        grid.add("", [what.to_owned(), digits(a), digits(b), change(a, b)]);
-    }
-    grid
-}
-
-fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
-    let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
-    let [first, second] =
-        sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
-    for bullet in &first {
-        let same = second.iter().find(|b| b.name == bullet.name);
-        let after = same.map_or("–".to_owned(), |b| b.words.clone());
-        grid.add("", [bullet.name.clone(), bullet.words.clone(), after]);
-    }
-    for bullet in second
-        .iter()
-        .filter(|b| first.iter().all(|a| a.name != b.name))
-    {
-        grid.add(
-            "",
-            [bullet.name.clone(), "–".to_owned(), bullet.words.clone()],
-        );
-    }
-    grid
-}
-
-fn grid(scene: &Scene, forces: &[SharedForce]) -> Grid {
-    let mut grid = Grid::new(
-        "Forces that changed by over 5 %",
-        &[
-            "between",
-            "#first, N",
-            "#second, N",
-            "#change of the amount",
-            "#change as a vector, relative to the larger",
-        ],
-    );
-    for force in forces.iter().filter(|f| f.changed()) {
-        let [a, b] = force.amounts;
-        let cells = [
-            line(&pair(scene, force.between)),
-            digits(a),
-            digits(b),
-            change(a, b),
-            percent(force.difference / a.max(b)),
-        ];
-        grid.add("", cells);
-    }
-    grid
-}
-
-/// Returns the radius of the rings in pixels: smaller if many rings would overlap.
-fn radius(places: &[PagePoint]) -> f64 {
-    let (least, most) = RING;
-    let span = |of: fn(&PagePoint) -> f64| {
-        let (low, high) = places
-            .iter()
-            .map(of)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
-        (high - low).max(0.0)
-    };
-    let (width, height) = (span(|p| p.x), span(|p| p.y));
-    let count = places.len() as f64;
-    // The mean distance of the rings if they were spread evenly over their bounding box, or along a line.
-    let apart = f64::max(
-        libm::sqrt(width * height / count),
-        width.max(height) / count,
-    );
-    match places.len() {
-        0 | 1 => most,
-        _ => (0.3 * apart).clamp(least, most),
-    }
-}
-
-/// Marks blocks with an outline and points with a ring in a drawing of the scene. `blocks` are numbers of blocks;
-/// `rings` are in metres.
-fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
-    if blocks.is_empty() && rings.is_empty() {
-        return;
-    }
-    let marks = |camera: &Camera| {
-        let mut outline = Outline::default();
-        for block in blocks {
-            outline.extend(camera.polygon(&scene.blocks[*block].body.polygon));
-        }
-        let mut group = Group {
-            echo: true,
-            ..Group::with_class("changed")
-        };
-        if !outline.segments.is_empty() {
-            group = group.with(Path::stroked(outline, Stroke::new(colour, 3.0)));
-        }
-        let places: Vec<PagePoint> = rings.iter().map(|at| camera.place(*at)).collect();
-        let radius = radius(&places);
-        for at in places {
-            let circle = Outline::circle(at, radius);
-            group = group.with(Path::stroked(circle, Stroke::new(colour, 1.8)));
-        }
-        group
-    };
-    onto_scene(drawing, &marks);
 }

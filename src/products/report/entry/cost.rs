@@ -4,7 +4,7 @@
 //! stage. Only margins and wedging are computed separately and have times of their own.
 
 use super::Grid;
-use crate::analysis::{EffectName, FrameAnalysis};
+use crate::analysis::{EffectName, EffectReport, FrameAnalysis, Stages};
 use crate::result::Timing;
 use crate::text::line;
 use crate::wording::number::{counted, duration};
@@ -23,51 +23,64 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
         ),
     };
     let mut grid = Grid::new(caption, heads);
-    let mut add = |cells: [String; 4], time: String| {
+    let mut add = |(cells, time): ([String; 4], String)| {
         grid.add("", cells.into_iter().chain(timed.then_some(time)));
     };
-    let (solve, stages) = (&found.solve, &found.solve.stages);
     for described in &found.effects {
-        let time = match described.effect {
-            _ if !described.simulated => "none".to_owned(),
-            EffectName::Margins => duration(stages.margins),
-            EffectName::Wedging => duration(stages.wedging),
-            _ => "shared".to_owned(),
-        };
-        let meaning = described.effect.meaning();
-        let name = format!("{}: {meaning}", described.effect);
-        let simulated = match described.simulated {
-            true => "yes",
-            false => "left out",
-        };
-        let unknowns = match (described.simulated, described.unknowns) {
-            (_, 0) => "none".to_owned(),
-            (true, n) => n.to_string(),
-            (false, n) => format!("{n} saved"),
-        };
-        let why = line(&described.why);
-        add([name, simulated.to_owned(), why, unknowns], time);
+        add(effect(described, &found.solve.stages));
     }
     if timed {
-        let stage = |name: &str, why: &str| {
-            [
-                name.to_owned(),
-                String::new(),
-                why.to_owned(),
-                String::new(),
-            ]
-        };
-        let posing = stage(
+        stages(&found.solve.stages).into_iter().for_each(&mut add);
+    }
+    add(sum(found));
+    grid
+}
+
+/// Returns the cells of an effect, and its time.
+fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
+    let time = match described.effect {
+        _ if !described.simulated => "none".to_owned(),
+        EffectName::Margins => duration(stages.margins),
+        EffectName::Wedging => duration(stages.wedging),
+        _ => "shared".to_owned(),
+    };
+    let name = format!("{}: {}", described.effect, described.effect.meaning());
+    let simulated = match described.simulated {
+        true => "yes",
+        false => "left out",
+    };
+    let unknowns = match (described.simulated, described.unknowns) {
+        (_, 0) => "none".to_owned(),
+        (true, n) => n.to_string(),
+        (false, n) => format!("{n} saved"),
+    };
+    let why = line(&described.why);
+    ([name, simulated.to_owned(), why, unknowns], time)
+}
+
+/// Returns the cells of the stages that all effects share, and their times.
+fn stages(stages: &Stages) -> [([String; 4], String); 2] {
+    let stage = |name: &str, why: &str, seconds: f64| {
+        let cells = [name, "", why, ""].map(str::to_owned);
+        (cells, duration(seconds))
+    };
+    [
+        stage(
             "posing",
             "the contributions of all effects, assembled to one program",
-        );
-        add(posing, duration(stages.assembly));
-        let solving = stage(
+            stages.assembly,
+        ),
+        stage(
             "solving and proving",
             "all unknowns together: no time can be given for a single effect",
-        );
-        add(solving, duration(stages.solution));
-    }
+            stages.solution,
+        ),
+    ]
+}
+
+/// Returns the cells of the last row, with the sums of all effects, and the total time.
+fn sum(found: &FrameAnalysis) -> ([String; 4], String) {
+    let solve = &found.solve;
     let simulated = found.effects.iter().filter(|e| e.simulated);
     let unknowns: usize = simulated.map(|e| e.unknowns).sum();
     let how = format!(
@@ -79,6 +92,5 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     );
     let name = format!("all together, decided by: {}", solve.method.name());
     let cells = [name, String::new(), how, unknowns.to_string()];
-    add(cells, duration(solve.seconds));
-    grid
+    (cells, duration(solve.seconds))
 }

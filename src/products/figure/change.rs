@@ -1,0 +1,48 @@
+//! [`ForceChange`]: the force of one interface in two frames, and when it counts as changed. Figures and reports use it.
+
+use crate::analysis::Contact;
+use crate::geometry::Vector;
+
+/// A force has changed if it differs by more than this share of the larger of the two. If forces are not unique, the
+/// solver alone causes smaller differences.
+const CHANGE_TOL: f64 = 0.05;
+/// Forces below this share of the largest force are rounding errors of the solver.
+const NOISE_SHARE: f64 = 1e-6;
+
+/// The force of an interface that two frames have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ForceChange<'a> {
+    /// The interface in the earlier and in the later frame.
+    pub contacts: [&'a Contact; 2],
+    /// Its force on the same body in both frames, N.
+    pub forces: [Vector; 2],
+}
+
+impl ForceChange<'_> {
+    /// Returns the magnitudes of both forces, N.
+    pub(crate) fn amounts(&self) -> [f64; 2] {
+        self.forces.map(|force| force.norm())
+    }
+
+    /// Returns the larger of both magnitudes, N.
+    pub(crate) fn larger(&self) -> f64 {
+        let [before, after] = self.amounts();
+        before.max(after)
+    }
+
+    /// Returns the magnitude of the difference of both forces, N.
+    pub(crate) fn difference(&self) -> f64 {
+        (self.forces[1] - self.forces[0]).norm()
+    }
+
+    /// True if the force changed. Forces of at most `noise` N count as zero; see [`noise`].
+    pub(crate) fn is_change(&self, noise: f64) -> bool {
+        let larger = self.larger();
+        larger > noise && self.difference() > CHANGE_TOL * larger
+    }
+}
+
+/// Returns the magnitude of rounding errors for forces of these magnitudes, all in N.
+pub(crate) fn noise(amounts: impl Iterator<Item = f64>) -> f64 {
+    NOISE_SHARE * amounts.fold(0.0, f64::max)
+}

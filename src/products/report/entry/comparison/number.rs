@@ -1,0 +1,65 @@
+//! The tables of sums and margins of two frames.
+
+use super::Side;
+use crate::analysis::FrameAnalysis;
+use crate::report::entry::{Grid, bullet};
+use crate::wording::number::{digits, tenths};
+
+/// Describes a change of a number, relative to its first value.
+pub(super) fn change(before: f64, after: f64) -> String {
+    if (after - before).abs() <= 1e-9 * before.abs() {
+        return "none".to_owned();
+    }
+    if before == 0.0 {
+        return "from nothing".to_owned();
+    }
+    let sign = if after < before { "−" } else { "+" };
+    match (after / before - 1.0).abs() {
+        little if little < 0.0005 => format!("{sign}under 0.1 %"),
+        share => format!("{sign}{}", tenths(share)),
+    }
+}
+
+/// Makes the table of weight and sums of forces.
+pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
+    let largest = |f: &FrameAnalysis| {
+        let forces = f.contacts.iter().map(|c| c.resultant.force.norm());
+        forces.fold(0.0, f64::max)
+    };
+    for (what, a, b) in [
+        ("weight of all blocks, N", then.weight, now.weight),
+        ("total force, N", then.total_force, now.total_force),
+        ("total sticking, N", then.total_sticking, now.total_sticking),
+        (
+            "largest force at an interface, N",
+            largest(then),
+            largest(now),
+        ),
+    ] {
+        grid.add("", [what.to_owned(), digits(a), digits(b), change(a, b)]);
+    }
+    grid
+}
+
+/// Makes the table of margins.
+pub(super) fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
+    let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
+    let [first, second] =
+        sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
+    for bullet in &first {
+        let same = second.iter().find(|b| b.name == bullet.name);
+        let after = same.map_or("–".to_owned(), |b| b.words.clone());
+        grid.add("", [bullet.name.clone(), bullet.words.clone(), after]);
+    }
+    for bullet in second
+        .iter()
+        .filter(|b| first.iter().all(|a| a.name != b.name))
+    {
+        grid.add(
+            "",
+            [bullet.name.clone(), "–".to_owned(), bullet.words.clone()],
+        );
+    }
+    grid
+}
