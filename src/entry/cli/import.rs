@@ -1,10 +1,12 @@
 //! `drystone import`: turns a drawing into a scene.
 
+mod value;
+
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
@@ -12,11 +14,12 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::source::FrameChoice;
 use crate::cli::terminal::Terminal;
-use crate::import::{self, Format, Imported, Options, Remark, STONES, Stone};
+use crate::import::{self, Format, Imported, Options, Remark, Stone};
 use crate::output::file::Existing;
 use crate::result::import_json;
 use crate::scene::format::SceneFile;
 use crate::scene::{Note, NoteCode, Scene};
+use value::{DrawnAt, Unit, WrittenIn, gravity, scale, stone};
 
 /// At most this many moved bodies are listed; `--json` lists all.
 const LISTED: usize = 12;
@@ -89,46 +92,6 @@ pub(crate) struct Import {
     /// Print the log of the import as JSON; the scene then needs a file (-o)
     #[arg(long, requires = "output")]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum WrittenIn {
-    Svg,
-    Dxf,
-    Geojson,
-    Wkt,
-}
-
-/// A unit of length in drawings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Unit {
-    Mm,
-    Cm,
-    M,
-    In,
-    Ft,
-}
-
-impl Unit {
-    /// Returns the length of the unit in metres.
-    fn metres(self) -> f64 {
-        match self {
-            Unit::Mm => 1e-3,
-            Unit::Cm => 1e-2,
-            Unit::M => 1.0,
-            Unit::In => 0.0254,
-            Unit::Ft => 0.3048,
-        }
-    }
-}
-
-/// The value of `--scale`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum DrawnAt {
-    /// Real lengths divided by drawn lengths.
-    Ratio(f64),
-    /// Metres per unit of the drawing.
-    Metres(f64),
 }
 
 impl Import {
@@ -363,59 +326,4 @@ fn light(imported: &Imported) -> Option<String> {
         "{}; give --density in kg/m³ or --material limestone",
         note.message
     ))
-}
-
-fn stone(typed: &str) -> Result<Stone, String> {
-    Stone::from_name(typed).ok_or_else(|| {
-        let names = STONES.map(|stone| stone.name);
-        format!(
-            "the known materials are {}; for others give --density and --friction",
-            names.join(", ")
-        )
-    })
-}
-
-/// Parses a scale: `1:50` is a ratio, and `0.02` is metres per unit.
-fn scale(typed: &str) -> Result<DrawnAt, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
-    let wrong = || "give 1:50, or metres per unit such as 0.02".to_owned();
-    match typed.split_once(':') {
-        Some((drawn, real)) => match (number(drawn), number(real)) {
-            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
-                Ok(DrawnAt::Ratio(real / drawn))
-            }
-            _ => Err(wrong()),
-        },
-        None => number(typed).map(DrawnAt::Metres).ok_or_else(wrong),
-    }
-}
-
-/// Parses gravity in m/s²: `9.81` acts downwards, and `0,-9.81` gives both components.
-fn gravity(typed: &str) -> Result<[f64; 2], String> {
-    let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
-    match numbers.as_deref() {
-        Ok([g]) => Ok([0.0, -g]),
-        Ok([x, y]) => Ok([*x, *y]),
-        _ => Err("give one number, or two numbers with a comma between them".into()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scale_is_a_ratio_or_metres() {
-        assert_eq!(scale("1:50"), Ok(DrawnAt::Ratio(50.0)));
-        assert_eq!(scale("2 : 1"), Ok(DrawnAt::Ratio(0.5)));
-        assert_eq!(scale("0.02"), Ok(DrawnAt::Metres(0.02)));
-        assert!(scale("1:0").is_err() && scale("1:x").is_err() && scale("big").is_err());
-    }
-
-    #[test]
-    fn gravity_is_one_number_or_two() {
-        assert_eq!(gravity("9.81"), Ok([0.0, -9.81]));
-        assert_eq!(gravity("1, -2"), Ok([1.0, -2.0]));
-        assert!(gravity("down").is_err() && gravity("1,2,3").is_err());
-    }
 }

@@ -1,5 +1,6 @@
 //! `drystone report`: reports on many scenes, on one page for people.
 
+mod content;
 mod task;
 
 use std::path::{Path, PathBuf};
@@ -7,6 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
+use content::{entry, make_figures_legible};
 use task::Task;
 
 use crate::analysis::{self, Analysis, MarginKind, MarginKinds};
@@ -22,7 +24,7 @@ use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
+use crate::report::entry::ReportOptions;
 use crate::report::page::{Form, Piece, Refused, Report as Page};
 use crate::result::Timing;
 use crate::study::{TOLERANCES, study};
@@ -349,56 +351,6 @@ impl Report {
         }
         destination::write(&files, Existing::Replace)
     }
-}
-
-/// Makes the entry of one scene, or of two scenes that are compared; `None` without a scene.
-fn entry(
-    read: &[(Source, String)],
-    analyses: &[Analysis],
-    wanted: &ReportOptions,
-) -> Option<Entry> {
-    let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
-    let file = |i: usize| File {
-        name: &names[i],
-        text: &read[i].1,
-    };
-    match analyses {
-        [was, is] => {
-            let side = |i: usize, analysis| Side {
-                file: file(i),
-                analysis,
-            };
-            Some(compared([side(0, was), side(1, is)], wanted))
-        }
-        [one, ..] => Some(Entry::new(file(0), one, wanted)),
-        [] => None,
-    }
-}
-
-/// Replaces the characters that the fonts of drystone lack, but only in figures. The program that shows the Markdown has
-/// fonts of its own for the other text.
-fn make_figures_legible(
-    entry: &mut Entry,
-    read: &[(Source, String)],
-    mut analyses: Vec<Analysis>,
-    wanted: &ReportOptions,
-) {
-    let fonts = Fonts::default();
-    let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
-    if !analyses.iter().any(lacks) {
-        return;
-    }
-    for analysis in &mut analyses {
-        analysis.scene = script::legible(&analysis.scene, &fonts).into();
-    }
-    if let Some(drawn) = self::entry(read, &analyses, wanted) {
-        entry.take_figures(drawn);
-    }
-}
-
-/// Returns the path as typed.
-fn shown(source: &Source) -> String {
-    source.path.display().to_string()
 }
 
 fn undone(error: &dyn std::error::Error) -> CliError {

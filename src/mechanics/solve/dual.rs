@@ -32,6 +32,18 @@ pub struct Dual {
 }
 
 impl Dual {
+    /// Makes a solution in which all numbers are 0, for a program of this size.
+    fn zero(status: Status, unknowns: usize, columns: usize) -> Dual {
+        Dual {
+            status,
+            y: vec![0.0; unknowns],
+            amounts: vec![0.0; columns],
+            slack: vec![0.0; columns],
+            multipliers: vec![0.0; columns],
+            objective: 0.0,
+        }
+    }
+
     /// Whether each column is basic, so that it belongs to the face of optima: its slack is below `margin` times its
     /// amount.
     pub fn active(&self, margin: f64) -> Vec<bool> {
@@ -69,14 +81,7 @@ pub(super) fn of_velocities(
 ) -> Dual {
     let n = columns.len();
     // The multipliers of the rows are the amounts, their slacks the columns' slacks.
-    let mut solved = Dual {
-        status: answer.status,
-        y: vec![0.0; loads.len()],
-        amounts: vec![0.0; n],
-        slack: vec![0.0; n],
-        multipliers: vec![0.0; n],
-        objective: 0.0,
-    };
+    let mut solved = Dual::zero(answer.status, loads.len(), columns.len());
     if answer.x.is_empty() {
         return solved;
     }
@@ -135,20 +140,13 @@ pub(super) fn in_forces(
 ) -> Dual {
     let conic = force_primal(loads, columns, cost, None);
     let answer = once(&conic, settings.into(), effort);
-    let n = columns.len();
-    let mut solved = Dual {
-        // The static form is infeasible if the kinematic form is unbounded, and unbounded if that is infeasible.
-        status: match answer.status {
-            Status::Infeasible => Status::Unbounded,
-            Status::Unbounded => Status::Infeasible,
-            other => other,
-        },
-        y: vec![0.0; loads.len()],
-        amounts: vec![0.0; n],
-        slack: vec![0.0; n],
-        multipliers: vec![0.0; n],
-        objective: 0.0,
+    // The static form is infeasible if the kinematic form is unbounded, and unbounded if that is infeasible.
+    let status = match answer.status {
+        Status::Infeasible => Status::Unbounded,
+        Status::Unbounded => Status::Infeasible,
+        other => other,
     };
+    let mut solved = Dual::zero(status, loads.len(), columns.len());
     if answer.x.is_empty() {
         return solved;
     }

@@ -11,6 +11,7 @@
 //! The name of a layer gives the role, as in other drawings, or the material: a layer "granite" sets density and friction.
 //! Group codes are those of the AutoCAD DXF reference.
 
+mod bounds;
 mod chain;
 mod document;
 mod entity;

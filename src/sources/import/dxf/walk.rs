@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::bounds::{around, coincides, part_box};
 use super::chain::{OpenCurve, chains};
 use super::document::{Block, Document};
 use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
 use super::hatch;
 use super::record::Record;
-use crate::geometry::{Bounds, Point};
+use crate::geometry::Bounds;
 use crate::import::LENGTH_TOL;
 use crate::import::affine::Affine;
 use crate::import::draft::{Draft, FillRule, Form, Part, Role, Values};
@@ -18,8 +19,6 @@ use crate::import::subpath::Subpath;
 
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
-/// Two outlines coincide if their boxes differ by at most this share of their size.
-const SAME_TOL: f64 = 1e-6;
 /// Entities without outlines, which a drawing of a structure usually contains.
 const ANNOTATIONS: [&str; 17] = [
     "ACAD_PROXY_ENTITY",
@@ -335,27 +334,6 @@ impl<'d> Walk<'d> {
     }
 }
 
-/// Returns the map from the coordinates of a block to those around its INSERT: scale, shift to the cell of the array,
-/// rotate, move. A normal that points down mirrors the result.
-fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) -> Affine {
-    let number = |code, default| insert.number(code).unwrap_or(default);
-    let base = point(block.head, 10);
-    let at = point(insert, 10);
-    let offset = [
-        column as f64 * number(44, 0.0),
-        row as f64 * number(45, 0.0),
-    ];
-    let map = Affine::translation(at.x, at.y)
-        .after(&Affine::rotation(number(50, 0.0)))
-        .after(&Affine::translation(offset[0], offset[1]))
-        .after(&Affine::scale(number(41, 1.0), number(42, 1.0)))
-        .after(&Affine::translation(-base.x, -base.y));
-    match extrusion(insert) {
-        Extrusion::Down => Affine::scale(-1.0, 1.0).after(&map),
-        _ => map,
-    }
-}
-
 fn new_part(place: &Place, form: Form, element: String) -> Part {
     let stone = Stone::from_name(&place.layer);
     Part {
@@ -378,31 +356,23 @@ fn described(entity: &Record<'_>, place: &Place) -> String {
     format!("{} on layer {layer} in line {}", entity.kind, entity.line)
 }
 
-fn around(curve: &Subpath) -> Option<Bounds> {
-    let hull = curve.hull();
-    let is_finite = hull
-        .iter()
-        .all(|p: &Point| p.x.is_finite() && p.y.is_finite());
-    if is_finite {
-        Bounds::from_points(hull)
-    } else {
-        None
+/// Returns the map from the coordinates of a block to those around its INSERT: scale, shift to the cell of the array,
+/// rotate, move. A normal that points down mirrors the result.
+fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) -> Affine {
+    let number = |code, default| insert.number(code).unwrap_or(default);
+    let base = point(block.head, 10);
+    let at = point(insert, 10);
+    let offset = [
+        column as f64 * number(44, 0.0),
+        row as f64 * number(45, 0.0),
+    ];
+    let map = Affine::translation(at.x, at.y)
+        .after(&Affine::rotation(number(50, 0.0)))
+        .after(&Affine::translation(offset[0], offset[1]))
+        .after(&Affine::scale(number(41, 1.0), number(42, 1.0)))
+        .after(&Affine::translation(-base.x, -base.y));
+    match extrusion(insert) {
+        Extrusion::Down => Affine::scale(-1.0, 1.0).after(&map),
+        _ => map,
     }
-}
-
-fn part_box(part: &Part) -> Option<Bounds> {
-    match &part.form {
-        Form::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
-        Form::Point(_) => None,
-    }
-}
-
-/// True if a box coincides with one of the boxes, which are sorted by their left sides.
-fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
-    let tolerance = SAME_TOL * own.diagonal();
-    let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
-    boxes[first..]
-        .iter()
-        .take_while(|b| b.min.x <= own.min.x + tolerance)
-        .any(|b| (b.min - own.min).norm() <= tolerance && (b.max - own.max).norm() <= tolerance)
 }

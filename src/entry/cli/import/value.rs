@@ -1,0 +1,102 @@
+//! The values of the options of `drystone import`, and how they are read.
+
+use clap::ValueEnum;
+
+use crate::import::{STONES, Stone};
+
+/// The format of a drawing.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum WrittenIn {
+    Svg,
+    Dxf,
+    Geojson,
+    Wkt,
+}
+
+/// A unit of length in drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Unit {
+    Mm,
+    Cm,
+    M,
+    In,
+    Ft,
+}
+
+impl Unit {
+    /// Returns the length of the unit in metres.
+    pub(super) fn metres(self) -> f64 {
+        match self {
+            Unit::Mm => 1e-3,
+            Unit::Cm => 1e-2,
+            Unit::M => 1.0,
+            Unit::In => 0.0254,
+            Unit::Ft => 0.3048,
+        }
+    }
+}
+
+/// The value of `--scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum DrawnAt {
+    /// Real lengths divided by drawn lengths.
+    Ratio(f64),
+    /// Metres per unit of the drawing.
+    Metres(f64),
+}
+
+/// Parses the name of a material.
+pub(super) fn stone(typed: &str) -> Result<Stone, String> {
+    Stone::from_name(typed).ok_or_else(|| {
+        let names = STONES.map(|stone| stone.name);
+        format!(
+            "the known materials are {}; for others give --density and --friction",
+            names.join(", ")
+        )
+    })
+}
+
+/// Parses a scale: `1:50` is a ratio, and `0.02` is metres per unit.
+pub(super) fn scale(typed: &str) -> Result<DrawnAt, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
+    let wrong = || "give 1:50, or metres per unit such as 0.02".to_owned();
+    match typed.split_once(':') {
+        Some((drawn, real)) => match (number(drawn), number(real)) {
+            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
+                Ok(DrawnAt::Ratio(real / drawn))
+            }
+            _ => Err(wrong()),
+        },
+        None => number(typed).map(DrawnAt::Metres).ok_or_else(wrong),
+    }
+}
+
+/// Parses gravity in m/s²: `9.81` acts downwards, and `0,-9.81` gives both components.
+pub(super) fn gravity(typed: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([g]) => Ok([0.0, -g]),
+        Ok([x, y]) => Ok([*x, *y]),
+        _ => Err("give one number, or two numbers with a comma between them".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_a_ratio_or_metres() {
+        assert_eq!(scale("1:50"), Ok(DrawnAt::Ratio(50.0)));
+        assert_eq!(scale("2 : 1"), Ok(DrawnAt::Ratio(0.5)));
+        assert_eq!(scale("0.02"), Ok(DrawnAt::Metres(0.02)));
+        assert!(scale("1:0").is_err() && scale("1:x").is_err() && scale("big").is_err());
+    }
+
+    #[test]
+    fn gravity_is_one_number_or_two() {
+        assert_eq!(gravity("9.81"), Ok([0.0, -9.81]));
+        assert_eq!(gravity("1, -2"), Ok([1.0, -2.0]));
+        assert!(gravity("down").is_err() && gravity("1,2,3").is_err());
+    }
+}

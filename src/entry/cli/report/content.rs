@@ -1,0 +1,57 @@
+//! [`entry`]: the content of a report on one scene, or on two scenes that are compared.
+
+use crate::analysis::Analysis;
+use crate::cli::script;
+use crate::cli::source::Source;
+use crate::output::fonts::Fonts;
+use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
+
+/// Makes the entry of one scene, or of two scenes that are compared; `None` without a scene.
+pub(super) fn entry(
+    read: &[(Source, String)],
+    analyses: &[Analysis],
+    wanted: &ReportOptions,
+) -> Option<Entry> {
+    let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
+    let file = |i: usize| File {
+        name: &names[i],
+        text: &read[i].1,
+    };
+    match analyses {
+        [was, is] => {
+            let side = |i: usize, analysis| Side {
+                file: file(i),
+                analysis,
+            };
+            Some(compared([side(0, was), side(1, is)], wanted))
+        }
+        [one, ..] => Some(Entry::new(file(0), one, wanted)),
+        [] => None,
+    }
+}
+
+/// Replaces the characters that the fonts of drystone lack, but only in figures. The program that shows the Markdown has
+/// fonts of its own for the other text.
+pub(super) fn make_figures_legible(
+    entry: &mut Entry,
+    read: &[(Source, String)],
+    mut analyses: Vec<Analysis>,
+    wanted: &ReportOptions,
+) {
+    let fonts = Fonts::default();
+    let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
+    if !analyses.iter().any(lacks) {
+        return;
+    }
+    for analysis in &mut analyses {
+        analysis.scene = script::legible(&analysis.scene, &fonts).into();
+    }
+    if let Some(drawn) = self::entry(read, &analyses, wanted) {
+        entry.take_figures(drawn);
+    }
+}
+
+/// Returns the path as typed.
+fn shown(source: &Source) -> String {
+    source.path.display().to_string()
+}

@@ -1,0 +1,39 @@
+//! Boxes around outlines, to find outlines that are drawn twice.
+
+use crate::geometry::{Bounds, Point};
+use crate::import::draft::{Form, Part};
+use crate::import::subpath::Subpath;
+
+/// Two outlines coincide if their boxes differ by at most this share of their size.
+const SAME_TOL: f64 = 1e-6;
+
+/// Returns the box around a curve; `None` if it is not finite.
+pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
+    let hull = curve.hull();
+    let is_finite = hull
+        .iter()
+        .all(|p: &Point| p.x.is_finite() && p.y.is_finite());
+    if is_finite {
+        Bounds::from_points(hull)
+    } else {
+        None
+    }
+}
+
+/// Returns the box around a part; `None` for a point.
+pub(super) fn part_box(part: &Part) -> Option<Bounds> {
+    match &part.form {
+        Form::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
+        Form::Point(_) => None,
+    }
+}
+
+/// True if a box coincides with one of the boxes, which are sorted by their left sides.
+pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
+    let tolerance = SAME_TOL * own.diagonal();
+    let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
+    boxes[first..]
+        .iter()
+        .take_while(|b| b.min.x <= own.min.x + tolerance)
+        .any(|b| (b.min - own.min).norm() <= tolerance && (b.max - own.max).norm() <= tolerance)
+}
