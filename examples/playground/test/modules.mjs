@@ -40,9 +40,10 @@ test("cells with a hole have an outline and a hole, and many cells take no time"
   const [body] = resolve({ grid: { kind: "square" }, blocks: [{ cells: ring }] }).bodies;
   assert.deepEqual([body.outline.length, body.holes.map((hole) => hole.length)], [4, [4]]);
   const many = Array.from({ length: 5000 }, (_, i) => [2 * (i % 70), 2 * Math.floor(i / 70)]);
-  const before = performance.now();
+  const before = process.cpuUsage();
   resolve({ grid: { kind: "square" }, blocks: [{ cells: many }] });
-  assert.ok(performance.now() - before < 2000);
+  // Processor time, because other programs may run too.
+  assert.ok(process.cpuUsage(before).user < 2_000_000);
 });
 
 test("steps place, hold, release and plan", async () => {
