@@ -13,6 +13,7 @@ from ._result import Result, Results
 from ._scene import Scene
 
 Margins = bool | str | Iterable[str]
+Capacity = str | tuple[Any, ...]
 AnyScene = Scene | Mapping[str, Any] | os.PathLike[str]
 
 
@@ -26,6 +27,8 @@ def check(
     time_limit: float | None = None,
     contact_tolerance: float | None = None,
     notes: bool = True,
+    capacity: Capacity | None = None,
+    for_all: str | None = None,
 ) -> Result:
     """Says whether a scene stands, with the forces, what fails and the proof.
 
@@ -34,6 +37,10 @@ def check(
     does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in seconds, ``contact_tolerance`` in metres.
     ``notes`` are about input that is allowed but probably not intended.
 
+    ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid, ``("lintel", (2, 3))`` at a point,
+    ``("lintel", (1, 3), (3, 3))`` at two points. ``for_all``, such as ``"tilt=±2,friction=0.5..0.7"``, leaves the forces that
+    are carried in every case of these ranges.
+
     Raises :class:`SceneError` where the scene is not valid.
 
     >>> brick = Scene(friction=0.5).ground([(0, -1), (9, -1), (9, 0), (0, 0)]).block("a", [(1, 0), (4, 0), (4, 2), (1, 2)])
@@ -41,7 +48,7 @@ def check(
     True
     """
     scene = as_scene(scene)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located)
+    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all)
     return Result(_drystone.check(scene._json(), options), scene)
 
 
@@ -55,6 +62,8 @@ def check_many(
     time_limit: float | None = None,
     contact_tolerance: float | None = None,
     notes: bool = True,
+    capacity: Capacity | None = None,
+    for_all: str | None = None,
     errors: str = "raise",
     progress: Callable[[int], object] | None = None,
     threads: int = 0,
@@ -69,7 +78,7 @@ def check_many(
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
     given = [as_scene(scene) for scene in scenes]
     located = all(scene._located for scene in given)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located)
+    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all)
     answers = _drystone.check_many([scene._json() for scene in given], options, progress, threads)
     results: list[Result | SceneError] = []
     for number, (scene, answer) in enumerate(zip(given, answers)):
@@ -105,6 +114,8 @@ def asked(
     contact_tolerance: float | None,
     notes: bool,
     located: bool,
+    capacity: Capacity | None = None,
+    for_all: str | None = None,
 ) -> _drystone.Options:
     """The options of an analysis; the same options are read only once."""
     names: tuple[str, ...] | None
@@ -114,7 +125,20 @@ def asked(
         names = () if margins else None
     else:
         names = tuple(margins)
-    return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located)
+    if for_all is not None and capacity is None:
+        raise ValueError("for_all is about the forces that a block can carry; give capacity, too")
+    where = None if capacity is None else place(capacity)
+    return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all)
+
+
+def place(capacity: Capacity) -> str:
+    """The block and the point of ``--capacity``."""
+    if isinstance(capacity, str):
+        return capacity
+    block, *points = capacity
+    if not points:
+        return str(block)
+    return f"{block}@" + "..".join(f"{float(x)!r},{float(y)!r}" for x, y in points)
 
 
 @lru_cache(maxsize=64)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from typing import Any
 
 from . import _drystone, _geometry
-from ._check import AnyScene, Margins, as_scene, asked
+from ._check import AnyScene, Margins, as_scene, asked, place
 from ._geometry import Outline, Point
-from ._result import Result
+from ._result import Record, Result
 from ._scene import _dumps
 
 
@@ -84,6 +85,13 @@ class Session:
     def margins(self, *kinds: str) -> Any:
         """The margins of the placed blocks, all or those that are named."""
         return self.check(margins=kinds or True).margins
+
+    def capacity(self, block: str, *points: Point, for_all: str | None = None) -> Any:
+        """All forces (Fx, Fy) that a block can carry, at its centroid, at a point, or at two points as one more contact.
+
+        If a robot holds the block and no point is given, they are the forces that this robot may exert.
+        """
+        return json.loads(self._native.capacity(place((block, *points)), for_all), object_hook=Record)
 
     def copy(self) -> Session:
         """A session of its own in the same state, to try steps in."""

@@ -61,3 +61,21 @@ def test_a_session_agrees_with_a_scene(session):
     assert "<svg" in session._repr_svg_()
     with pytest.raises(ds.DrystoneError, match="no scene file"):
         mine.report("sheet.html")
+
+
+def test_the_forces_that_a_block_can_carry(session):
+    session.place("a", brick(0, 0), weight=6)
+    carried = session.capacity("a")
+    assert carried.shape == "unbounded" and carried.stands_without
+    assert carried.vertices[0] == pytest.approx([0, 6], abs=1e-5)
+    # On the top the force to the side tips the brick of 3 x 1 only after it slides.
+    top = session.capacity("a", (1.5, 1.0))
+    assert top.at == [[1.5, 1.0]]
+    assert session.capacity("a", (0, 1), (3, 1)).shape == "unbounded"
+    fewer = session.capacity("a", for_all="friction=0.3..0.6")
+    slope = min(edge.normal[0] / edge.normal[1] for edge in fewer.edges)
+    assert slope == pytest.approx(-1 / 0.3, rel=1e-5)
+    with pytest.raises(ds.DrystoneError, match="did you mean a"):
+        session.capacity("aa")
+    result = ds.check(ds.Scene(friction=0.6).ground(FLOOR).block("a", brick(0, 0), weight=6), capacity=("a", (1.5, 0.5)))
+    assert result.frames[0].capacity.vertices[0] == pytest.approx([0, 6], abs=1e-5)

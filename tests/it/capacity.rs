@@ -1,14 +1,21 @@
 //! The forces that a block can carry.
 
-use drystone::analysis::{Capacity, CapacityError, CapacityRequest, CapacityShape, ForceAt};
+use drystone::analysis::{
+    CapacityError, CapacityRequest, CapacityShape, Cases, ForceAt, LoadCapacity, Options, Verdict,
+};
 use drystone::internals::geometry::Point;
+use drystone::result::{Layout, Timing, to_json};
 use drystone::{Analysis, Scene};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::structure::scene;
+use crate::oracle::balance::Balance;
+use crate::oracle::number_of;
+use crate::oracle::touch::touches;
+use crate::structure::{block, rectangle, scene};
 
 /// The capacity of a block at a point.
-fn capacity(file: &Value, name: &str, at: ForceAt) -> Capacity {
+fn capacity(file: &Value, name: &str, at: ForceAt) -> LoadCapacity {
     of(
         &scene(file),
         CapacityRequest::of_block(named(file, name)).at(at),
@@ -20,7 +27,7 @@ fn named(file: &Value, name: &str) -> drystone::scene::BlockId {
     scene(file).block_named(name).expect("the block exists")
 }
 
-fn of(scene: &Scene, request: CapacityRequest) -> Result<Capacity, CapacityError> {
+fn of(scene: &Scene, request: CapacityRequest) -> Result<LoadCapacity, CapacityError> {
     Analysis::new(scene).capacity(0, &request)
 }
 
@@ -78,4 +85,416 @@ fn an_arch_is_held_by_a_force_at_its_last_face() {
             .iter()
             .all(|e| e.proof.holds() && !e.mechanism.is_empty())
     );
+}
+
+/// A block of 4 m × 2 m and 6 N on a floor with friction 0.5.
+fn on_floor() -> Value {
+    json!({ "drystone": 1, "friction": 0.5,
+        "ground": [{ "polygon": rectangle(0.0, -1.0, 9.0, 1.0) }],
+        "blocks": [block("a", rectangle(1.0, 0.0, 4.0, 2.0), 6.0)] })
+}
+
+fn near(found: impl Into<Option<f64>>, expected: f64) {
+    let found = found.into().expect("it is bounded");
+    assert!(
+        (found - expected).abs() < 1e-5,
+        "{found} instead of {expected}"
+    );
+}
+
+#[test]
+fn a_block_on_a_floor_is_carried_as_by_hand() {
+    // At its centroid it slides: |Fx| ≤ 0.5 (6 − Fy). It would tip only at |Fx| = 2 (6 − Fy).
+    let found = capacity(&on_floor(), "a", ForceAt::Usual);
+    assert_eq!(found.shape(), CapacityShape::Unbounded);
+    assert_eq!((found.vertices.len(), found.edges.len()), (1, 2));
+    near(found.vertices[0].force.y, 6.0);
+    for (direction, most) in [([-1.0, 0.0], 3.0), ([1.0, 0.0], 3.0), ([0.0, 1.0], 6.0)] {
+        near(found.reach(direction), most);
+    }
+    assert_eq!(found.reach([0.0, -1.0]), Some(f64::INFINITY));
+    assert!(found.gap < 1e-5, "{}", found.gap);
+    // At its upper right corner it tips to the right about (5, 0) before it slides, at 2 Fx = 12 N·m.
+    let corner = capacity(&on_floor(), "a", ForceAt::Point(Point::new(5.0, 2.0)));
+    near(corner.reach([1.0, 0.0]), 3.0);
+    // Lifted there it turns about (1, 0): 4 Fy = 12 N·m.
+    near(corner.reach([0.0, 1.0]), 3.0);
+}
+
+#[test]
+fn every_shape_occurs() {
+    // Without friction only vertical forces between the ends of the joint are carried.
+    let mut smooth = on_floor();
+    smooth["friction"] = json!(0.0);
+    let ray = capacity(&smooth, "a", ForceAt::Usual);
+    assert_eq!((ray.shape(), ray.rays.len()), (CapacityShape::Unbounded, 1));
+    near(ray.reach([0.0, 1.0]), 6.0);
+    near(ray.reach([1.0, 0.0]), 0.0);
+    // Beyond its edge a block is lifted or tips: a segment.
+    let segment = capacity(&smooth, "a", ForceAt::Point(Point::new(6.0, 1.0)));
+    assert_eq!(segment.shape(), CapacityShape::Segment, "{segment:?}");
+    near(segment.reach([0.0, -1.0]), 12.0);
+    near(segment.reach([0.0, 1.0]), 12.0 / 5.0);
+    // One force holds a block in the air.
+    let mut hangs = on_floor();
+    hangs["ground"] = json!([]);
+    let point = capacity(&hangs, "a", ForceAt::Usual);
+    assert_eq!(point.shape(), CapacityShape::Point, "{point:?}");
+    near(point.vertices[0].force.y, 6.0);
+    // No force at one point holds it beside its centroid, but a free contact does.
+    let beside = capacity(&hangs, "a", ForceAt::Point(Point::new(4.0, 1.0)));
+    assert_eq!(beside.shape(), CapacityShape::Empty);
+    assert!(!beside.mechanism.is_empty() && !beside.contains([0.0, 6.0]));
+    let ends = [Point::new(4.0, 0.0), Point::new(4.0, 2.0)];
+    let held = capacity(&hangs, "a", ForceAt::Contact(ends));
+    assert_eq!(held.shape(), CapacityShape::Point);
+    near(held.vertices[0].torque, -6.0);
+    // A robot without limits carries everything.
+    let mut held = hangs.clone();
+    held["robots"] = json!([{ "id": "r", "holds": "a" }]);
+    let all = capacity(&held, "a", ForceAt::Point(Point::new(3.0, 1.0)));
+    assert_eq!(all.shape(), CapacityShape::Everything);
+    assert_eq!(all.reach([1.0, 0.0]), Some(f64::INFINITY));
+    // Of the robot itself, only the weight is asked for.
+    let tool = capacity(&held, "a", ForceAt::Usual);
+    assert_eq!(tool.shape(), CapacityShape::Point);
+    assert!(tool.robot.is_some());
+    // What else falls makes the set empty.
+    let mut other = on_floor();
+    other["blocks"].as_array_mut().expect("a list").push(block(
+        "b",
+        rectangle(1.0, 5.0, 1.0, 1.0),
+        1.0,
+    ));
+    let none = capacity(&other, "a", ForceAt::Usual);
+    assert_eq!(none.shape(), CapacityShape::Empty);
+    assert_eq!(none.mechanism.len(), 1);
+}
+
+#[test]
+fn requests_that_are_not_valid_are_refused() {
+    let file = on_floor();
+    let (scene, a) = (scene(&file), named(&file, "a"));
+    let request = CapacityRequest::of_block(a);
+    let analysis = Analysis::new(&scene);
+    assert_eq!(analysis.capacity(1, &request), Err(CapacityError::NoFrame));
+    let at = request.at(ForceAt::Point(Point::new(f64::NAN, 0.0)));
+    assert!(matches!(of(&scene, at), Err(CapacityError::Point(..))));
+    let both = request.at(ForceAt::Contact([Point::new(1.0, 0.0); 2]));
+    assert!(matches!(of(&scene, both), Err(CapacityError::Point(..))));
+    for cases in [
+        Cases::default().tilt(-60.0, 60.0),
+        Cases::default().friction(0.7, 0.5),
+        Cases::default().friction(-0.1, 0.5),
+        Cases::default().horizontal_load(0.0, f64::NAN),
+    ] {
+        let found = of(&scene, request.cases(cases));
+        assert!(matches!(found, Err(CapacityError::Range(_))), "{found:?}");
+    }
+}
+
+/// In every case of some ranges: the block on the floor again, by hand.
+#[test]
+fn what_is_carried_in_every_case_is_carried_in_each() {
+    let file = on_floor();
+    let (scene, request) = (scene(&file), CapacityRequest::of_block(named(&file, "a")));
+    let every = |cases: Cases| of(&scene, request.cases(cases)).expect("a capacity");
+    // The least friction counts: |Fx| ≤ 0.4 (6 − Fy).
+    let friction = every(Cases::default().friction(0.4, 0.9));
+    near(friction.reach([1.0, 0.0]), 2.4);
+    near(friction.reach([0.0, 1.0]), 6.0);
+    // A tenth of the weight to either side takes 0.6 N.
+    let across = every(Cases::default().horizontal_load(-0.1, 0.1));
+    assert_eq!(across.cases, 2);
+    near(across.reach([1.0, 0.0]), 2.4);
+    near(across.reach([-1.0, 0.0]), 2.4);
+    // Tilted: Fx + 6 sin t ≤ 0.5 · 6 cos t, on the safe side by less than 4e-5 of the weight.
+    let tilted = every(Cases::default().tilt(-2.0, 2.0));
+    let (sin, cos) = libm::sincos(2.0_f64.to_radians());
+    let exact = 3.0 * cos - 6.0 * sin;
+    let found = tilted.reach([1.0, 0.0]).expect("it stands");
+    assert!(
+        found <= exact + 1e-6 && found > exact - 3e-4,
+        "{found} {exact}"
+    );
+    // Each single case carries at least as much.
+    for tilt in [-2.0, -1.3, 0.0, 0.7, 2.0] {
+        let alone = every(Cases::default().tilt(tilt, tilt));
+        for vertex in &tilted.vertices {
+            let inside = vertex.force * (1.0 - 1e-6) - vertex.force.normalize() * 1e-5;
+            assert!(alone.contains(inside), "{tilt}: {:?}", vertex.force);
+        }
+    }
+}
+
+/// Scenes for the checks below: the arch, walls and random ones.
+fn scenes() -> Vec<Value> {
+    let mut all = vec![half_arch(), on_floor()];
+    all.extend((0..10).map(|number| crate::oracle::random::scene(number).1));
+    all
+}
+
+fn first_capacity(file: &Value) -> Option<(Scene, LoadCapacity)> {
+    let scene = Scene::from_json(&file.to_string()).ok()?;
+    if !scene.penetrations().is_empty() {
+        return None;
+    }
+    let last = drystone::scene::BlockId(scene.blocks().len() - 1);
+    let found = of(
+        &scene,
+        CapacityRequest::of_block(last).at(ForceAt::Point(scene.blocks()[last.0].centroid)),
+    );
+    Some((scene, found.ok()?))
+}
+
+/// The same scene with one more load.
+fn with_load(file: &Value, scene: &Scene, capacity: &LoadCapacity, force: [f64; 2]) -> Verdict {
+    let mut file = file.clone();
+    let id = &scene.blocks()[capacity.block.0].id;
+    let at = capacity.at[0];
+    let load = json!({ "block": id, "force": force, "at": [at.x, at.y] });
+    match file["loads"].as_array_mut() {
+        Some(loads) => loads.push(load),
+        None => file["loads"] = json!([load]),
+    }
+    crate::structure::verdict(&file)
+}
+
+#[test]
+fn just_beyond_an_edge_it_falls_and_at_a_vertex_it_stands() {
+    let mut count = 0;
+    for file in scenes() {
+        let Some((scene, found)) = first_capacity(&file) else {
+            continue;
+        };
+        let weight: f64 = scene.blocks().iter().map(|b| b.weight).sum();
+        if found.vertices.is_empty() || found.rays.len() > 2 {
+            continue;
+        }
+        let forces: Vec<_> = found.vertices.iter().map(|v| v.force).collect();
+        let middle =
+            forces.iter().sum::<drystone::internals::geometry::Vector>() / forces.len() as f64;
+        let size = forces.iter().map(|f| f.norm()).fold(weight, f64::max);
+        for edge in &found.edges {
+            let ends: Vec<_> = edge.ends.iter().flatten().map(|k| forces[*k]).collect();
+            let on = ends.iter().sum::<drystone::internals::geometry::Vector>()
+                / ends.len().max(1) as f64;
+            let on = if ends.is_empty() { forces[0] } else { on };
+            let beyond = on + edge.normal * (1e-4 * size);
+            let verdict = with_load(&file, &scene, &found, [beyond.x, beyond.y]);
+            assert_eq!(verdict, Verdict::Unstable, "{file} {edge:?}");
+            count += 1;
+        }
+        for force in &forces {
+            let inside = force + (middle - force) * 1e-6;
+            let verdict = with_load(&file, &scene, &found, [inside.x, inside.y]);
+            assert_eq!(verdict, Verdict::Stable, "{file} {force:?}");
+        }
+    }
+    assert!(count > 5, "{count} edges");
+}
+
+#[test]
+fn the_forces_of_a_vertex_balance_every_block() {
+    let file = half_arch();
+    let found = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
+    let analysis = Analysis::new(&scene(&file));
+    for vertex in &found.vertices {
+        let mut sum = vertex.force;
+        for block in analysis.scene.blocks() {
+            sum.y -= block.weight;
+        }
+        // Of all forces, only those of the ground do not cancel.
+        for pressed in &vertex.contacts {
+            let interface = &analysis.frames[0].contacts[pressed.interface].interface;
+            assert!(pressed.normal.iter().all(|n| *n >= 0.0));
+            let most = interface.friction * (pressed.normal[0] + pressed.normal[1]);
+            assert!(pressed.friction.abs() <= most * (1.0 + 1e-9));
+            let force = interface.normal * (pressed.normal[0] + pressed.normal[1])
+                + interface.tangent() * pressed.friction;
+            let grounds = interface
+                .bodies
+                .map(|b| matches!(b, drystone::scene::BodyId::Ground(_)));
+            match grounds {
+                [false, true] => sum += force,
+                [true, false] => sum -= force,
+                _ => {}
+            }
+        }
+        assert!(sum.norm() < 1e-6, "{sum:?}");
+    }
+}
+
+#[test]
+fn what_is_written_is_what_was_found() {
+    let file = half_arch();
+    let scene = scene(&file);
+    let at = ForceAt::Point(Point::new(5.5, 0.0));
+    let request = CapacityRequest::of_block(named(&file, "19")).at(at);
+    let analysis = Analysis::with(&scene, &Options::default().capacity(request));
+    let found = analysis.frames[0].capacity.as_ref().expect("requested");
+    let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    let told = &json["frames"][0]["capacity"];
+    assert_eq!(
+        (&told["block"], &told["shape"]),
+        (&json!("19"), &json!("polygon"))
+    );
+    assert_eq!(told["at"], json!([[5.5, 0.0]]));
+    assert_eq!(told["stands_without"], json!(false));
+    let forces: Vec<[f64; 2]> = found
+        .vertices
+        .iter()
+        .map(|v| [v.force.x, v.force.y])
+        .collect();
+    assert_eq!(told["vertices"], json!(forces));
+    assert_eq!(
+        told["edges"].as_array().map(Vec::len),
+        Some(found.edges.len())
+    );
+    assert_eq!(
+        told["balances"].as_array().map(Vec::len),
+        Some(forces.len())
+    );
+    assert_eq!(told["cases"], json!(1));
+    let limits: Vec<f64> = found.edges.iter().map(|e| e.limit).collect();
+    let written: Vec<f64> = told["edges"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|e| e["limit"].as_f64().expect("a number"))
+        .collect();
+    assert_eq!(written, limits);
+    // Only where it is requested.
+    let plain = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
+    assert!(!plain.contains("\"capacity\""));
+}
+
+/// Random sets against exact programs in 90 directions each: no vertex outside, and no direction short.
+/// `DRYSTONE_CAPACITY_SCENES=1000` looks at more scenes than an everyday run.
+#[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
+fn random_sets_are_those_of_an_exact_program() {
+    let first = number_of("DRYSTONE_CAPACITY_FIRST", 0);
+    let wanted = number_of("DRYSTONE_CAPACITY_SCENES", 30);
+    let directions: Vec<[f64; 2]> = (0..90)
+        .map(|k| libm::sincos(0.013 + f64::from(k) * std::f64::consts::TAU / 90.0))
+        .map(|(sin, cos)| [cos, sin])
+        .collect();
+    let all: Vec<Result<Option<(f64, f64, CapacityShape)>, String>> = (first..first + wanted)
+        .into_par_iter()
+        .map(|number| compared(number, &directions))
+        .collect();
+    let bad: Vec<&String> = all
+        .iter()
+        .filter_map(|found| found.as_ref().err())
+        .collect();
+    let good: Vec<_> = all.iter().flatten().flatten().collect();
+    let worst = good
+        .iter()
+        .fold([0.0, 0.0], |[a, b]: [f64; 2], c| [a.max(c.0), b.max(c.1)]);
+    println!(
+        "{} sets, the farthest vertex outside by {:.1e}, the shortest direction short by {:.1e}; {} wrong",
+        good.len(),
+        worst[0],
+        worst[1],
+        bad.len()
+    );
+    for shape in [
+        "empty",
+        "point",
+        "segment",
+        "polygon",
+        "unbounded",
+        "everything",
+    ] {
+        let count = good.iter().filter(|c| c.2.word() == shape).count();
+        println!("{shape}: {count}");
+    }
+    assert!(bad.is_empty(), "{bad:#?}");
+    assert!(good.len() as u64 * 2 > wanted);
+}
+
+/// By how much the vertices lie outside and the directions are short, relative to the size of the set.
+fn compared(
+    number: u64,
+    directions: &[[f64; 2]],
+) -> Result<Option<(f64, f64, CapacityShape)>, String> {
+    let file = crate::oracle::random::scene(number).1;
+    let Ok(scene) = Scene::from_json(&file.to_string()) else {
+        return Ok(None);
+    };
+    let touches = touches(&scene);
+    let frame = Analysis::new(&scene).frames.remove(0);
+    let doubtful = !scene.penetrations().is_empty() || touches.len() != frame.contacts.len();
+    if doubtful {
+        return Ok(None);
+    }
+    let groups = Balance::groups(&scene, &touches);
+    let block = (number as usize * 7) % scene.blocks().len();
+    let outline = scene.blocks()[block].body.polygon.outline();
+    let at = match number % 3 {
+        0 => scene.blocks()[block].centroid,
+        _ => outline[number as usize % outline.len()],
+    };
+    let request = CapacityRequest::of_block(drystone::scene::BlockId(block)).at(ForceAt::Point(at));
+    let own = groups
+        .iter()
+        .find(|g| g.blocks.contains(&block))
+        .expect("a group");
+    let others = || groups.iter().filter(|g| !g.blocks.contains(&block));
+    let is_borderline = others().any(Balance::is_borderline);
+    if is_borderline {
+        return Ok(None);
+    }
+    let stand = others().all(Balance::stands);
+    let exact = match stand {
+        true => own.farthest_forces(block, [at.x, at.y], directions),
+        false => None,
+    };
+    let found = match of(&scene, request) {
+        Ok(found) => found,
+        // Withheld, because the forces and the motions that were proved do not agree closely enough.
+        Err(CapacityError::Undecided) => return Ok(None),
+        Err(why) => return Err(format!("{number}: {why}\n{file}")),
+    };
+    let Some(exact) = exact else {
+        return match found.shape() {
+            CapacityShape::Empty => Ok(Some((0.0, 0.0, found.shape()))),
+            // It may be carried within the tolerance of a proof.
+            _ if own.holds_within_band(block, [at.x, at.y]) => Ok(None),
+            shape => Err(format!("{number}: {shape:?} instead of empty\n{file}")),
+        };
+    };
+    if found.shape() == CapacityShape::Empty {
+        return Err(format!("{number}: empty\n{file}"));
+    }
+    let weight: f64 = scene.blocks().iter().map(|b| b.weight).fold(0.0, f64::max);
+    let sizes = found.vertices.iter().map(|v| v.force.norm());
+    let size = sizes.fold(weight.max(1e-3), f64::max);
+    let (mut outside, mut short): (f64, f64) = (0.0, 0.0);
+    for (direction, exact) in directions.iter().zip(exact) {
+        match (found.most(*direction), exact) {
+            (None, None) => {}
+            (Some(most), Some(exact)) => {
+                outside = outside.max((most - exact) / size);
+                short = short.max((exact - most) / size);
+            }
+            other => {
+                return Err(format!(
+                    "{number}: {direction:?} {other:?} {:?}\n{file}",
+                    found.rays
+                ));
+            }
+        }
+    }
+    if outside > 1e-6 || short > 1e-6 {
+        return Err(format!(
+            "{number}: outside {outside:e}, short {short:e}\n{file}"
+        ));
+    }
+    Ok(Some((outside, short, found.shape())))
 }

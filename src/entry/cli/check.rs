@@ -6,6 +6,7 @@ use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::analysis::{Analysis, Options, Verdict};
+use crate::cli::capacity::CapacityArgs;
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
@@ -43,6 +44,8 @@ pub(crate) struct Check {
     /// effect; --json has them all
     #[arg(long, value_enum, value_name = "MARGIN")]
     sensitivity: Option<Varied>,
+    #[command(flatten)]
+    capacity: CapacityArgs,
     /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
     #[arg(long)]
     verdict_only: bool,
@@ -148,7 +151,8 @@ impl Check {
                 progress.doing(&source.name());
                 let answer = source::isolated(&source.path, || {
                     self.answer(source, &options, layout, width)
-                });
+                })
+                .flatten();
                 progress.step();
                 answer
             })
@@ -162,8 +166,9 @@ impl Check {
         options: &Options,
         layout: Layout,
         width: Option<usize>,
-    ) -> Answer {
-        let mut analysis = Analysis::with(&source.scene, options);
+    ) -> Result<Answer, CliError> {
+        let options = self.capacity.add_to(*options, &source.scene)?;
+        let mut analysis = Analysis::with(&source.scene, &options);
         if self.no_notes {
             analysis.notes.clear();
         }
@@ -180,13 +185,13 @@ impl Check {
                 true => to_json_with_blocks(Some(&file), &analysis, timing, layout),
                 false => to_json_of(&file, &analysis, timing, layout),
             };
-            return (ending, verdicts, json, Page::default());
+            return Ok((ending, verdicts, json, Page::default()));
         }
         let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
         page.append(&sensitivities(&analysis));
         page.append(&noted(&analysis.notes));
         page.end();
-        (ending, verdicts, String::new(), page)
+        Ok((ending, verdicts, String::new(), page))
     }
 
     /// Returns the tables of all scenes, with the totals and the explanation below them.

@@ -17,6 +17,7 @@
 
 mod accuracy;
 mod batch;
+pub(super) mod capacity;
 mod check;
 mod complaint;
 mod completions;

@@ -129,11 +129,13 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// Refuses `--margin` for figures without margins, and parts of a figure that cannot be files.
+    /// Refuses `--margin` and `--capacity` for figures without them, and parts of a figure that cannot be files.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let why = if self.margin.is_some() && !self.kind.needs_margins() {
             "--margin is about the direction of a margin; add --kind margin"
+        } else if self.capacity.are_requested() && !self.kind.needs_capacity() {
+            "--capacity names the block of a figure of the forces that it can carry; add --kind capacity"
         } else if self.writes_parts() && (self.kind.panels().is_none() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
@@ -231,7 +233,8 @@ impl Render {
         } else {
             source.scene.clone()
         };
-        let analysis = self.analysed(&scene, asked);
+        let asked = self.with_capacity(asked, &scene)?;
+        let analysis = self.analysed(&scene, &asked);
         progress.step();
         let mut summary = summary(&analysis);
         let kind = self.kind.panels();
@@ -303,6 +306,20 @@ impl Render {
         } else {
             figure::panels(analysis, kind, options)
         }
+    }
+
+    /// Adds the forces that a block can carry, if the figure shows them: of the block on the command line, or of a
+    /// usual one.
+    fn with_capacity(
+        &self,
+        asked: &analysis::Options,
+        scene: &Scene,
+    ) -> Result<analysis::Options, CliError> {
+        let mut asked = self.capacity.add_to(*asked, scene)?;
+        if self.kind.needs_capacity() && asked.capacity.is_none() {
+            asked.capacity = analysis::CapacityRequest::usual(scene);
+        }
+        Ok(asked)
     }
 
     /// Analyses a scene, with the margins that the figure states or needs.

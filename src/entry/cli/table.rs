@@ -12,7 +12,7 @@ use crate::scene::{Frame, Scene};
 use crate::text::heading;
 use crate::wording::number::{digits, duration, letter, tenths};
 use crate::wording::verdict::plain;
-use crate::wording::{failure, margin, proof};
+use crate::wording::{capacity, failure, margin, proof};
 
 /// The words in the tables and in the lines below them, with their meanings.
 const MEANINGS: [[&str; 2]; 16] = [
@@ -366,6 +366,8 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
         remarks.push(format!("wedging: {}", effect.why));
     }
     remarks.extend(margin::lines(scene, frame));
+    let carried = frame.capacity.iter();
+    remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }

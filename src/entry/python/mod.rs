@@ -29,6 +29,9 @@ use crate::scene::{Scene, SceneError, isolate};
 #[derive(Clone, Debug)]
 struct Options {
     asked: analysis::Options,
+    /// The block of which to compute the forces that it can carry, and the ranges of the cases, as on the command line.
+    capacity: Option<String>,
+    for_all: Option<String>,
     time_limit: Option<Duration>,
     contact_tolerance: Option<f64>,
     notes: bool,
@@ -39,7 +42,7 @@ struct Options {
 #[pymethods]
 impl Options {
     #[new]
-    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located))]
+    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity=None, for_all=None))]
     #[expect(
         clippy::too_many_arguments,
         reason = "one for each keyword of the Python function"
@@ -54,6 +57,8 @@ impl Options {
         contact_tolerance: Option<f64>,
         notes: bool,
         located: bool,
+        capacity: Option<String>,
+        for_all: Option<String>,
     ) -> PyResult<Options> {
         let accuracy = match accuracy {
             "standard" => Accuracy::Standard,
@@ -92,6 +97,8 @@ impl Options {
         }
         Ok(Options {
             asked,
+            capacity,
+            for_all,
             time_limit,
             contact_tolerance,
             notes,
@@ -102,11 +109,17 @@ impl Options {
 
 impl Options {
     /// Analyses a scene. If the program itself fails, this becomes a problem of the scene.
-    fn analysis(&self, text: &str) -> Result<analysis::Analysis, SceneError> {
+    fn analysis(&self, text: &str) -> Result<analysis::Analysis, Refusal> {
         let mut asked = self.asked;
         asked.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
-        isolate("scene", || {
+        let found = isolate("scene", || {
             let scene = Scene::from_json_within(text, self.contact_tolerance)?;
+            if let Some(typed) = &self.capacity {
+                match cli::capacity::requested(&scene, typed, self.for_all.as_deref()) {
+                    Ok(request) => asked = asked.capacity(request),
+                    Err(why) => return Err(Refusal::Request(why)),
+                }
+            }
             let mut found = analysis::Analysis::with(scene, &asked);
             if !self.notes {
                 found.notes.clear();
@@ -115,8 +128,31 @@ impl Options {
                 found.notes.iter_mut().for_each(|note| note.line = 0);
             }
             Ok(found)
-        })
-        .flatten()
+        });
+        found.map_err(Refusal::Scene).flatten()
+    }
+}
+
+/// Why a scene was not analysed.
+enum Refusal {
+    /// The scene is not valid.
+    Scene(SceneError),
+    /// What was asked for does not fit the scene.
+    Request(String),
+}
+
+impl From<SceneError> for Refusal {
+    fn from(problems: SceneError) -> Refusal {
+        Refusal::Scene(problems)
+    }
+}
+
+impl Refusal {
+    fn raised(self, py: Python<'_>, located: bool) -> PyErr {
+        match self {
+            Refusal::Scene(problems) => refused(py, problems, located),
+            Refusal::Request(why) => fault(py, &why),
+        }
     }
 }
 
@@ -243,7 +279,7 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
 fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
     py.detach(|| options.analysis(text))
         .map(Analysis::new)
-        .map_err(|problems| refused(py, problems, options.located))
+        .map_err(|why| why.raised(py, options.located))
 }
 
 /// Analyses scenes on several threads, and returns analyses and errors in the order of the scenes. Calls `progress`
@@ -310,9 +346,7 @@ fn check_many(
     let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
     let one = |answer| match answer {
         Ok(found) => Ok(Py::new(py, Analysis::new(found))?.into_any()),
-        Err(problems) => Ok(refused(py, problems, options.located)
-            .into_value(py)
-            .into_any()),
+        Err(why) => Ok(why.raised(py, options.located).into_value(py).into_any()),
     };
     answers.into_iter().flatten().map(one).collect()
 }

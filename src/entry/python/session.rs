@@ -4,7 +4,9 @@ use pyo3::prelude::*;
 
 use super::{Analysis, Options, fault, refused};
 use crate::analysis;
+use crate::cli;
 use crate::geometry::Point;
+use crate::result;
 use crate::scene::Scene;
 use crate::scene::format::{BlockEntry, SceneFile, parsed};
 use crate::session::{self, SessionError};
@@ -82,6 +84,15 @@ impl Session {
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.now.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))
+    }
+
+    /// Returns the forces that a block can carry, as JSON.
+    fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
+        let request = cli::capacity::requested(self.now.scene(), typed, for_all);
+        let request = request.map_err(|why| fault(py, &why))?;
+        let found = py.detach(|| self.now.capacity(&request));
+        let found = found.map_err(|why| fault(py, &why.to_string()))?;
+        Ok(result::capacity_json(self.now.scene(), &found))
     }
 
     fn copy(&self) -> Session {

@@ -36,6 +36,7 @@ pub(super) fn gathered(
         mechanism: Vec::new(),
         margins: None,
         sensitivity: None,
+        capacity: None,
         only_by_wedging: None,
         wedged: None,
         effects,

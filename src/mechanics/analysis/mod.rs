@@ -39,8 +39,8 @@ use crate::scene::{BlockId, Note, Scene};
 pub use crate::solve::Slide;
 pub(crate) use capacity::capacity_of;
 pub use capacity::{
-    Capacity, CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases,
-    ForceAt, VertexForce,
+    CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt,
+    LoadCapacity, VertexForce,
 };
 pub use cost::{SolveReport, Stages};
 pub use decide::Method;
@@ -141,6 +141,8 @@ pub struct FrameAnalysis {
     pub margins: Option<Margins>,
     /// How a margin changes with corners, weights, friction and loads, if requested.
     pub sensitivity: Option<Sensitivity>,
+    /// The forces that a block can carry, if requested and if the block is placed.
+    pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not requested,
     /// if the frame does not stand, or if no answer was found.
     pub only_by_wedging: Option<bool>,
@@ -182,6 +184,7 @@ impl Analysis {
         let scene = scene.into();
         let (found, mut frames) = analyse::analyse(&scene, options);
         gaps_closed::recheck(&scene, &found, &mut frames, options);
+        capacity::add(&scene, &found, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &found);
         Analysis {
             scene,

@@ -3,6 +3,7 @@
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
 
+use super::capacity::CapacityRequest;
 use super::margin::{MarginKind, MarginKinds};
 use crate::clock::Instant;
 use crate::proof::ProofThreshold;
@@ -22,6 +23,8 @@ pub struct Options {
     pub margin_kinds: MarginKinds,
     /// The margin whose derivatives are computed, if any. The margin itself is computed too.
     pub sensitivity: Option<MarginKind>,
+    /// The block of which to compute all forces that it can carry.
+    pub capacity: Option<CapacityRequest>,
     /// Whether to check if a stable frame stands only by wedging.
     pub wedging: bool,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
@@ -65,6 +68,7 @@ impl Options {
 
     optional_setters! {
         sensitivity: MarginKind, "The margin whose derivatives are computed.";
+        capacity: CapacityRequest, "The block of which to compute all forces that it can carry.";
         tolerance: f64, "A solver tolerance that replaces that of the accuracy, to measure its cost.";
         deadline: Instant, "The time at which the analysis stops.";
     }
@@ -76,6 +80,7 @@ impl Options {
         margins: false,
         margin_kinds: MarginKinds::ALL,
         sensitivity: None,
+        capacity: None,
         wedging: false,
         verdict_only: false,
         deadline: None,

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub use error::SessionError;
 
 use crate::analysis::{
-    Analysis, Capacity, CapacityError, CapacityRequest, MarginKinds, Margins, Options, Source,
+    Analysis, CapacityError, CapacityRequest, LoadCapacity, MarginKinds, Margins, Options, Source,
     Verdict, WarmStart, capacity_of, hinges_on_gaps,
 };
 use crate::geometry::{Cell, Point};
@@ -277,7 +277,7 @@ impl Session {
     ///
     /// # Errors
     /// If the request is not valid, or if no proof was found.
-    pub fn capacity(&self, request: &CapacityRequest) -> Result<Capacity, CapacityError> {
+    pub fn capacity(&self, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
         let _until = DeadlineGuard::new(self.options.deadline);
         let interfaces = match self.scene.exact {
             true => self.found.clone(),

@@ -37,8 +37,9 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. The other forces have no cost.
-pub fn support(program: &Program, grip: usize, direction: Vector) -> Support {
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. The other forces have no cost. If `is_again`,
+/// plain conditioning has given a result without a proof and is not tried.
+pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,
         load => load,
@@ -54,7 +55,7 @@ pub fn support(program: &Program, grip: usize, direction: Vector) -> Support {
         _ => 0.0,
     };
     let (problem, row_of) = kinematic_dual(&loads, &columns, cost);
-    for (tolerance, conditioning) in ATTEMPTS {
+    for (tolerance, conditioning) in ATTEMPTS.into_iter().skip(usize::from(is_again)) {
         let answer = solve(&problem, tolerance, conditioning);
         match answer.status {
             Status::Solved => {

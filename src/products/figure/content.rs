@@ -32,6 +32,8 @@ pub(crate) struct About {
     pub title: &'static str,
     /// Whether the analysis has to compute the margins.
     pub needs_margins: bool,
+    /// Whether the analysis has to compute the forces that a block can carry.
+    pub needs_capacity: bool,
     /// Whether each falling part is shown with one elementary mechanism
     /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
     /// motion.

@@ -1,5 +1,6 @@
 //! [`Kind`]: lists the kinds of figures. Each kind is a type in a file of its own.
 
+use super::capacity::CarriedForces;
 use super::compare::Comparison;
 use super::content::PanelContent;
 use super::context::FigureContext;
@@ -41,13 +42,16 @@ pub enum Kind {
     /// The structure in its place, and dashed how it falls just beyond its margin. Gravity is turned, a horizontal load
     /// is added, or the loads grow.
     Margin,
+    /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its
+    /// longest edges.
+    Capacity,
     /// The changes of blocks and forces from one frame to the next, with arrows to one scale in all panels.
     Compare,
 }
 
 impl Kind {
     /// All kinds, in the order in which help lists them.
-    pub const ALL: [Kind; 10] = [
+    pub const ALL: [Kind; 11] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -57,6 +61,7 @@ impl Kind {
         Kind::Build,
         Kind::Polygon,
         Kind::Margin,
+        Kind::Capacity,
         Kind::Compare,
     ];
 
@@ -72,6 +77,7 @@ impl Kind {
             Kind::Build => &BUILD,
             Kind::Polygon => &ForcePolygon,
             Kind::Margin => &CollapseMargin,
+            Kind::Capacity => &CarriedForces,
             Kind::Compare => &Comparison,
         }
     }
@@ -115,6 +121,12 @@ impl Kind {
     /// ([`analysis::Options::margins`](crate::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
         self.content().about().needs_margins
+    }
+
+    /// True if it needs the forces that a block can carry, which the analysis only computes on request
+    /// ([`analysis::Options::capacity`](crate::analysis::Options::capacity)).
+    pub fn needs_capacity(self) -> bool {
+        self.content().about().needs_capacity
     }
 
     /// Returns the options, with those replaced that the kind determines itself.

@@ -10,6 +10,7 @@ mod bearing;
 mod broken;
 mod by_colour;
 mod cad;
+mod capacity;
 mod caption;
 mod change;
 mod choice;

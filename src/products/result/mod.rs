@@ -11,6 +11,7 @@
 #[cfg(feature = "report")]
 mod accuracy;
 mod block;
+mod capacity;
 mod excluded;
 mod force;
 #[cfg(feature = "import")]
@@ -34,6 +35,8 @@ use serde::{Serialize, Serializer};
 #[cfg(feature = "report")]
 pub use accuracy::accuracy_json;
 use block::Block;
+use capacity::Capacity;
+pub use capacity::capacity_json;
 use force::{Interface, Missing, Motion, Robot};
 #[cfg(feature = "import")]
 pub use import::import_json;
@@ -192,6 +195,7 @@ struct Frame<'a> {
     margins: Option<Margins<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     sensitivity: Option<Sensitivity<'a>>,
+    capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
@@ -319,6 +323,7 @@ impl<'a> Frame<'a> {
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
+            capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
             effects: frame

@@ -144,6 +144,7 @@ fn frame() -> FrameAnalysis {
         }],
         margins: None,
         sensitivity: None,
+        capacity: None,
         only_by_wedging: None,
         wedged: None,
         effects: vec![EffectReport {

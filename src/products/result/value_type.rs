@@ -17,6 +17,8 @@ pub enum Type {
     Count,
     /// A whole number from 1, or `null` if there is no text.
     Place,
+    /// A whole number from 0, or `null` if there is none.
+    Index,
     /// A number; `null` if it could not be computed, which happens only in undecided frames.
     Number,
     /// A number, or `"unbounded"`.
@@ -68,7 +70,7 @@ impl Type {
             Type::Flag => "true or false",
             Type::FlagOrOpen => "true, false or null",
             Type::Count => "whole number",
-            Type::Place => "whole number or null",
+            Type::Place | Type::Index => "whole number or null",
             Type::Number => "number",
             Type::Bound => "number or `\"unbounded\"`",
             Type::Margin => "number, null or `\"unbounded\"`",
@@ -103,6 +105,7 @@ impl Type {
             Type::FlagOrOpen => json!({ "type": ["boolean", "null"] }),
             Type::Count => json!({ "type": "integer", "minimum": 0 }),
             Type::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
+            Type::Index => json!({ "type": ["integer", "null"], "minimum": 0 }),
             Type::Number => number,
             Type::Bound | Type::Margin => json!({ "anyOf": [number, unbounded] }),
             Type::Interval => {

@@ -5,6 +5,7 @@
 //! scene files. Code that writes them to an output escapes them with the function for that format in
 //! [`text`](crate::text).
 
+pub mod capacity;
 pub mod failure;
 #[cfg(feature = "report")]
 pub mod headline;

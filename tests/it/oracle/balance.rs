@@ -179,7 +179,7 @@ impl<'a> Balance<'a> {
         self.off(self.admissible())
     }
 
-    fn off(&self, mut program: LinearProgram) -> f64 {
+    pub(super) fn off(&self, mut program: LinearProgram) -> f64 {
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
         let off = program.unknown(RBig::ONE);
         for row in 0..3 * self.blocks.len() {
@@ -431,7 +431,7 @@ impl<'a> Balance<'a> {
         }
     }
 
-    fn push(
+    pub(super) fn push(
         &self,
         program: &mut LinearProgram,
         block: usize,

@@ -73,6 +73,21 @@ impl LinearProgram {
                 .fold(RBig::ZERO, |sum, (v, c)| sum + v * c),
         )
     }
+
+    /// The unknowns at the optimum of each objective, which the rows must bound; `None` where nothing fits.
+    pub fn optima(&self, objectives: &[Vec<RBig>]) -> Option<Vec<Vec<RBig>>> {
+        let mut table = Table::new(self);
+        if !table.reach_feasible() {
+            return None;
+        }
+        // Each search goes on from the last optimum.
+        Some(
+            objectives
+                .iter()
+                .map(|costs| table.optimum(costs))
+                .collect(),
+        )
+    }
 }
 
 struct Table {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Margin, Normalise};
+use crate::cli::capacity::CapacityArgs;
 use crate::cli::level::AnalysisArgs;
 use crate::cli::look::StyleArgs;
 use crate::cli::picture::Picture;
@@ -52,6 +53,8 @@ pub(crate) struct Render {
     /// The quantity that the colours of blocks show
     #[arg(long, value_enum, default_value = "amplitude")]
     pub(super) fill: Fill,
+    #[command(flatten)]
+    pub(super) capacity: CapacityArgs,
     /// Leave out the figure's title
     #[arg(long)]
     pub(super) no_title: bool,

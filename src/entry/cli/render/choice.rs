@@ -90,6 +90,11 @@ impl KindChoice {
     pub(super) fn needs_margins(self) -> bool {
         self.panels().is_some_and(figure::Kind::needs_margins)
     }
+
+    /// True if the figure shows the forces that a block can carry.
+    pub(super) fn needs_capacity(self) -> bool {
+        self.panels().is_some_and(figure::Kind::needs_capacity)
+    }
 }
 
 impl Fill {

@@ -18,15 +18,12 @@
 
 use super::refine;
 use super::region::{clipped, close, corners, cut_off, square};
-use super::{Capacity, CapacityEdge, CapacityError, CapacityVertex, Cases};
+use super::{CapacityEdge, CapacityError, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 
 /// The longest piece of an arc of tilts, degrees.
 const LONGEST_PIECE: f64 = 1.0;
-
-/// The widest range of tilts, degrees.
-const WIDEST_TILT: f64 = 90.0;
 
 /// Rays are cut off at this multiple of the size of the sets.
 const FAR: f64 = 1e5;
@@ -35,8 +32,8 @@ const FAR: f64 = 1e5;
 pub(super) fn intersected(
     assembly: &Assembly,
     cases: &Cases,
-    one: impl Fn(&Assembly) -> Result<Capacity, CapacityError>,
-) -> Result<Capacity, CapacityError> {
+    one: impl Fn(&Assembly) -> Result<LoadCapacity, CapacityError>,
+) -> Result<LoadCapacity, CapacityError> {
     let changed = extremes(assembly, cases)?;
     let mut all = Vec::with_capacity(changed.len());
     for (number, assembly) in changed.iter().enumerate() {
@@ -53,11 +50,11 @@ pub(super) fn intersected(
     }
     let count = changed.len();
     match all.pop() {
-        Some(only) if all.is_empty() => Ok(Capacity {
+        Some(only) if all.is_empty() => Ok(LoadCapacity {
             cases: count,
             ..only
         }),
-        Some(last) if last.vertices.is_empty() => Ok(Capacity {
+        Some(last) if last.vertices.is_empty() => Ok(LoadCapacity {
             cases: count,
             ..last
         }),
@@ -71,31 +68,11 @@ pub(super) fn intersected(
 
 /// Returns the assembly in each extreme case.
 fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
-    let range = |name: &str, range: Option<[f64; 2]>| match range {
-        Some([from, to]) if !(from <= to && from.is_finite() && to.is_finite()) => {
-            Err(CapacityError::Range(format!(
-                "the range {name}={from}..{to} is not valid; write the smaller number first"
-            )))
-        }
-        other => Ok(other),
-    };
-    let tilt = range("tilt", cases.tilt)?.unwrap_or([0.0; 2]);
-    let across = range("horizontal", cases.horizontal_load)?.unwrap_or([0.0; 2]);
-    let friction = range("friction", cases.friction)?;
-    if tilt[1] - tilt[0] > WIDEST_TILT {
-        return Err(CapacityError::Range(format!(
-            "the range tilt={}..{} is wider than {WIDEST_TILT}°: the forces that are carried at its extreme tilts need \
-             not be carried between them; split it into smaller ranges",
-            tilt[0], tilt[1]
-        )));
-    }
+    cases.check()?;
+    let tilt = cases.tilt.unwrap_or([0.0; 2]);
+    let across = cases.horizontal_load.unwrap_or([0.0; 2]);
     let mut base = assembly.clone();
-    if let Some([least, _]) = friction {
-        if least < 0.0 {
-            return Err(CapacityError::Range(
-                "the range of friction begins below 0".into(),
-            ));
-        }
+    if let Some([least, _]) = cases.friction {
         base = base.with_friction(least);
     }
     let mut shares = across.to_vec();
@@ -131,7 +108,7 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
 }
 
 /// Returns the forces that belong to every capacity of a list.
-fn intersection(all: &[Capacity]) -> Capacity {
+fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
     let centre = forces().next().unwrap_or_else(Vector::zeros);
     let size = forces().map(|f| (f - centre).norm()).fold(0.0, f64::max);
@@ -168,7 +145,7 @@ fn intersection(all: &[Capacity]) -> Capacity {
             contacts: Vec::new(),
             proof: None,
         });
-    let mut capacity = Capacity {
+    let mut capacity = LoadCapacity {
         vertices: vertices.collect(),
         rays,
         edges: Vec::new(),

@@ -31,10 +31,11 @@ pub(super) fn found(probe: &Probe) -> Option<Found> {
     let mut start = Vec::new();
     for angle in axes {
         match probe.farthest(unit(angle), None) {
-            Farthest::At { carried, line } => {
-                let carried = carried?;
-                start.push(Sample { carried, line });
-            }
+            Farthest::At {
+                carried: Some(carried),
+                line,
+            } => start.push(Sample { carried, line }),
+            Farthest::At { carried: None, .. } => start.push(sample(probe, unit(angle), None)?),
             Farthest::Unbounded => break,
             Farthest::None => return None,
         }

@@ -1,4 +1,4 @@
-//! [`Capacity`]: all forces that may act on a block in addition to what acts already, such that the frame stands.
+//! [`LoadCapacity`]: all forces that may act on a block in addition to what acts already, such that the frame stands.
 //!
 //! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set: a polygon, which may be unbounded or
 //! empty. It is the set of forces that a robot without limits could exert at this point ([`probe`]): one linear program
@@ -15,16 +15,15 @@ mod refine;
 mod region;
 mod request;
 
-use super::Analysis;
-use super::Verdict;
 use super::decide::{Place, ProofCache, decide_verdict};
+use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::effect::{self, FrameContext};
 use crate::geometry::{Point, Vector};
 use crate::interface::Interfaces;
 use crate::proof::{Motion, Proof};
-use crate::scene::{BlockId, Scene};
-use crate::solve::is_late;
+use crate::scene::{Block, BlockId, RobotId, Scene};
+use crate::solve::{DeadlineGuard, is_late};
 use probe::Probe;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 
@@ -51,11 +50,13 @@ pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Capacity {
+pub struct LoadCapacity {
     /// The block on which the force acts.
     pub block: BlockId,
     /// The point at which it acts, metres; or the two points of a free contact, whose resultant it is.
     pub at: Vec<Point>,
+    /// The robot whose force it is, if a robot holds the block at this point.
+    pub robot: Option<RobotId>,
     /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
     pub vertices: Vec<CapacityVertex>,
     /// The unit directions in which the set has no end, anticlockwise: at most two, or four if every force is carried.
@@ -70,7 +71,7 @@ pub struct Capacity {
     pub cases: usize,
 }
 
-/// A corner of a [`Capacity`].
+/// A corner of a [`LoadCapacity`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CapacityVertex {
@@ -96,7 +97,7 @@ pub struct VertexForce {
     pub friction: f64,
 }
 
-/// An edge of a [`Capacity`]: every force F of the set has normal · F ≤ limit.
+/// An edge of a [`LoadCapacity`]: every force F of the set has normal · F ≤ limit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CapacityEdge {
@@ -114,7 +115,7 @@ pub struct CapacityEdge {
     pub case: usize,
 }
 
-/// The kind of set that a [`Capacity`] is.
+/// The kind of set that a [`LoadCapacity`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CapacityShape {
     /// No force is carried.
@@ -145,7 +146,7 @@ impl CapacityShape {
     }
 }
 
-impl Capacity {
+impl LoadCapacity {
     /// Returns the kind of set.
     pub fn shape(&self) -> CapacityShape {
         match (self.vertices.len(), self.rays.len()) {
@@ -177,10 +178,33 @@ impl Capacity {
         region::contains(&corners, &self.rays, force)
     }
 
-    fn empty(block: BlockId, at: Vec<Point>, mechanism: Vec<Motion>) -> Capacity {
-        Capacity {
+    /// Returns the largest carried force straight along a unit direction, N: infinite if it has no end. `None` if the
+    /// frame does not stand without a force.
+    pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
+        let direction = direction.into();
+        if !self.contains(Vector::zeros()) {
+            return None;
+        }
+        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
+        Some(region::reach(&corners, &self.rays, direction))
+    }
+
+    /// Returns the indices of the edges, the longest first; edges without end before all others.
+    pub fn longest_edges(&self) -> Vec<usize> {
+        let length = |k: &usize| match self.edges[*k].ends {
+            [Some(a), Some(b)] => (self.vertices[a].force - self.vertices[b].force).norm(),
+            _ => f64::INFINITY,
+        };
+        let mut order: Vec<usize> = (0..self.edges.len()).collect();
+        order.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        order
+    }
+
+    fn empty(block: BlockId, at: Vec<Point>, mechanism: Vec<Motion>) -> LoadCapacity {
+        LoadCapacity {
             block,
             at,
+            robot: None,
             vertices: Vec::new(),
             rays: Vec::new(),
             edges: Vec::new(),
@@ -202,14 +226,19 @@ impl Analysis {
         &self,
         frame: usize,
         request: &CapacityRequest,
-    ) -> Result<Capacity, CapacityError> {
+    ) -> Result<LoadCapacity, CapacityError> {
         capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
     }
 
     /// Computes the elementary mechanism of an edge, for drawing; see [`Analysis::elementary`].
     ///
     /// The fastest point has speed 1.
-    pub fn edge_mechanism(&self, frame: usize, capacity: &Capacity, edge: usize) -> Vec<Motion> {
+    pub fn edge_mechanism(
+        &self,
+        frame: usize,
+        capacity: &LoadCapacity,
+        edge: usize,
+    ) -> Vec<Motion> {
         let (Some(found), Some(edge)) = (self.frames.get(frame), capacity.edges.get(edge)) else {
             return Vec::new();
         };
@@ -230,15 +259,67 @@ impl Analysis {
     }
 }
 
+/// Adds the capacity to each frame, if it is requested.
+pub(super) fn add(
+    scene: &Scene,
+    interfaces: &Interfaces,
+    frames: &mut [FrameAnalysis],
+    options: &Options,
+) {
+    let Some(request) = &options.capacity else {
+        return;
+    };
+    let _until = DeadlineGuard::new(options.deadline);
+    for (number, frame) in frames.iter_mut().enumerate() {
+        match capacity_of(scene, interfaces, number, request) {
+            Ok(capacity) => {
+                let block = &scene.blocks[request.block.0];
+                frame.notices.extend(outside(block, &capacity.at));
+                frame.capacity = Some(capacity);
+            }
+            Err(CapacityError::NotPlaced) => {}
+            Err(why) => frame.notices.push(format!("capacity: {why}")),
+        }
+    }
+}
+
+/// Whether the proved forces and the motions do not agree as exactly as they should.
+fn is_inexact(capacity: &LoadCapacity) -> bool {
+    let sizes = capacity.vertices.iter().map(|v| v.force.norm());
+    capacity.gap > INEXACT * sizes.fold(0.0, f64::max)
+}
+
+/// With a gap above this fraction of the largest force, the set counts as not found.
+const INEXACT: f64 = 1e-4;
+
+/// Returns a notice if a point lies outside its block.
+fn outside(block: &Block, points: &[Point]) -> Option<String> {
+    let outline = block.body.polygon.outline();
+    let next = |k: usize| outline[(k + 1) % outline.len()];
+    let near = |at: Point| {
+        let edges = outline.iter().enumerate();
+        let away = edges.map(|(k, a)| region::to_segment(at.coords, a.coords, next(k).coords));
+        away.fold(f64::INFINITY, f64::min)
+    };
+    let small = 1e-6 * block.body.polygon.bounds().diagonal();
+    let is_outside = |at: &&Point| !block.body.polygon.contains(**at) && near(**at) > small;
+    points.iter().find(is_outside).map(|at| {
+        format!(
+            "capacity: the point ({}, {}) lies outside the block; the force acts there as on an arm that is fixed to it",
+            at.x, at.y
+        )
+    })
+}
+
 /// Computes the capacity of a block in a frame of a scene.
 pub(crate) fn capacity_of(
     scene: &Scene,
     interfaces: &Interfaces,
     frame: usize,
     request: &CapacityRequest,
-) -> Result<Capacity, CapacityError> {
+) -> Result<LoadCapacity, CapacityError> {
     let found = scene.frames.get(frame).ok_or(CapacityError::NoFrame)?;
-    let points = request.points(scene)?;
+    let points = request.points(scene, found)?;
     if !found.placed.contains(&request.block) {
         return Err(CapacityError::NotPlaced);
     }
@@ -247,9 +328,19 @@ pub(crate) fn capacity_of(
         frame: found,
         interfaces: &interfaces.in_frame(scene, found),
     };
-    let (assembly, _) = effect::assemble(&context);
-    cases::intersected(&assembly, &request.cases, |changed| {
+    let (mut assembly, _) = effect::assemble(&context);
+    // The force of a robot is asked for: its own limits do not count. It keeps its torque.
+    let tool = request.tool(found);
+    let mut grips = assembly.grips.iter_mut();
+    if let Some(grip) = tool.and_then(|hold| grips.find(|grip| grip.robot == hold.robot)) {
+        (grip.limits.fx, grip.limits.fy) = (0.0, 0.0);
+    }
+    let capacity = cases::intersected(&assembly, &request.cases, |changed| {
         capacity_of_assembly(changed, request.block, &points)
+    })?;
+    Ok(LoadCapacity {
+        robot: tool.map(|hold| hold.robot),
+        ..capacity
     })
 }
 
@@ -258,7 +349,7 @@ fn capacity_of_assembly(
     assembly: &Assembly,
     block: BlockId,
     points: &[Point],
-) -> Result<Capacity, CapacityError> {
+) -> Result<LoadCapacity, CapacityError> {
     let (mut own, mut falls) = (None, None);
     for component in assembly.components() {
         if let Some(body) = component.bodies.iter().position(|b| b.block == block) {
@@ -274,14 +365,20 @@ fn capacity_of_assembly(
     }
     let (component, body) = own.ok_or(CapacityError::NotPlaced)?;
     if let Some(mechanism) = falls {
-        return Ok(Capacity::empty(block, points.to_vec(), mechanism));
+        return Ok(LoadCapacity::empty(block, points.to_vec(), mechanism));
     }
     let probe = Probe::new(&component, body, points);
     match cone::found(&probe) {
-        Some(found) => Ok(region::capacity(found, &probe, block, points)),
+        Some(found) => {
+            let capacity = region::capacity(found, &probe, block, points);
+            match is_inexact(&capacity) {
+                true => Err(undecided()),
+                false => Ok(capacity),
+            }
+        }
         // No force of the probe balances the loads, or no result was found. A verdict decides.
         None => match decide_verdict(&probe.held, Place::Anywhere, &mut ProofCache::default()) {
-            (Verdict::Unstable, motion) => Ok(Capacity::empty(block, points.to_vec(), motion)),
+            (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided()),
         },
     }

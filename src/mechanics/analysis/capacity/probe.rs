@@ -4,7 +4,7 @@ use crate::analysis::decide::{proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
-use crate::proof::{Forces, Motion, Proof};
+use crate::proof::{Forces, Motion, Proof, check_forces};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Amounts, Support, support};
 
@@ -24,6 +24,9 @@ pub(super) struct Probe {
     body: usize,
     at: Point,
     has_torque: bool,
+    /// Whether forces and motions are proved. Those of a cone of directions are not: a proof is relative to the forces on
+    /// each body, and without loads most bodies have none. The edges and a far force of the loaded component show them.
+    proves: bool,
 }
 
 /// A force that is carried, with its proof.
@@ -76,6 +79,7 @@ impl Probe {
             body,
             at,
             has_torque,
+            proves: true,
         }
     }
 
@@ -96,7 +100,10 @@ impl Probe {
         }
         let points = [self.at; 2];
         let count = if self.has_torque { 2 } else { 1 };
-        Probe::new(&given, self.body, &points[..count])
+        Probe {
+            proves: false,
+            ..Probe::new(&given, self.body, &points[..count])
+        }
     }
 
     /// Returns the heaviest load of the component, N; 1 without loads.
@@ -114,29 +121,65 @@ impl Probe {
 
     /// Returns the farthest carried force in a direction, a unit vector. `reach` limits both components of the force, N.
     pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
-        let grip = self.given.grips.len();
-        let found = match reach {
-            None => support(&self.program, grip, direction),
-            Some(most) => {
-                let mut program = self.program.clone();
-                let most = most / program.scale.force;
-                program.grips[grip].limits[0] = most;
-                program.grips[grip].limits[1] = most;
-                support(&program, grip, direction)
+        let mut program = self.program.clone();
+        if let Some(most) = reach {
+            let grip = self.given.grips.len();
+            let most = most / program.scale.force;
+            program.grips[grip].limits[0] = most;
+            program.grips[grip].limits[1] = most;
+        }
+        let first = self.farthest_in(&program, direction, false);
+        // A more exact solution may have the proofs that the first one lacks.
+        match first {
+            Farthest::At {
+                carried: Some(_),
+                line: Some(_),
+            } => first,
+            Farthest::At { carried, line } if self.proves => {
+                match self.farthest_in(&program, direction, true) {
+                    Farthest::At {
+                        carried: better,
+                        line: closer,
+                    } => Farthest::At {
+                        carried: better.or(carried),
+                        line: closer.or(line),
+                    },
+                    _ => Farthest::At { carried, line },
+                }
             }
-        };
-        match found {
+            other => other,
+        }
+    }
+
+    fn farthest_in(&self, program: &Program, direction: Vector, is_again: bool) -> Farthest {
+        let grip = self.given.grips.len();
+        match support(program, grip, direction, is_again) {
             Support::At { forces, motion } => {
-                let carried = self.carried(&forces);
                 let near = forces.grip[grip];
                 let near = Vector::new(near[0], near[1]) * self.program.scale.force;
-                Farthest::At {
-                    carried,
-                    line: self.line(near, direction, &motion),
+                match self.proves {
+                    true => Farthest::At {
+                        carried: self.carried(&forces),
+                        line: self.line(near, direction, &motion),
+                    },
+                    false => Farthest::At {
+                        carried: Some(self.unproved(near)),
+                        line: None,
+                    },
                 }
             }
             Support::Unbounded => Farthest::Unbounded,
             Support::Never | Support::Unsolved => Farthest::None,
+        }
+    }
+
+    fn unproved(&self, force: Vector) -> Carried {
+        let forces = Forces::none(&self.given);
+        Carried {
+            force,
+            torque: 0.0,
+            proof: check_forces(&self.given, &forces),
+            forces,
         }
     }
 

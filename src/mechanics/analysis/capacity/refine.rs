@@ -23,11 +23,14 @@ const LEAST_TOLERANCE: f64 = 2e-9;
 /// Forces that differ by this fraction of the size of a set differ by rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
+/// An advance up to this multiple of the tolerance may be the error of a program.
+const NOISE: f64 = 30.0;
+
 /// The largest number of nested refinements.
-const MAX_DEPTH: usize = 40;
+const MAX_DEPTH: usize = 24;
 
 /// The largest number of programs.
-const MAX_SAMPLES: usize = 2000;
+const MAX_SAMPLES: usize = 500;
 
 /// Returns the tolerance for a set of this size, both in newtons.
 pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
@@ -48,13 +51,23 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
 
 /// Returns the sample of a direction; `None` without a proved force.
 pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
-    match probe.farthest(direction, reach) {
-        Farthest::At {
-            carried: Some(carried),
-            line,
-        } => Some(Sample { carried, line }),
-        _ => None,
-    }
+    // If no proof is found in this direction, a slightly different one is as good: any carried force adds to the set.
+    [0.0, 1e-3, -1e-3, 2e-2, -2e-2]
+        .into_iter()
+        .find_map(|angle| {
+            let (sin, cos) = libm::sincos(angle);
+            let turned = Vector::new(
+                cos * direction.x - sin * direction.y,
+                sin * direction.x + cos * direction.y,
+            );
+            match probe.farthest(turned, reach) {
+                Farthest::At {
+                    carried: Some(carried),
+                    line,
+                } => Some(Sample { carried, line }),
+                _ => None,
+            }
+        })
 }
 
 /// Refines between neighbouring samples, whose directions run anticlockwise. `is_closed` is true if the last and the
@@ -118,7 +131,12 @@ impl Search<'_> {
         };
         let force = next.carried.force;
         let farther = cross(chord, force - a) / -length;
-        if farther <= self.tolerance {
+        // How far the force is from its own line: the error of this program. It must not look like another vertex.
+        let error = next
+            .line
+            .as_ref()
+            .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
+        if farther <= self.tolerance + (2.0 * error).min(NOISE * self.tolerance) {
             // An edge. Its own line is known now.
             if next.line.is_some() {
                 self.found.push(next);

@@ -2,7 +2,7 @@
 
 use super::probe::{Line, Probe};
 use super::refine::{self, Sample};
-use super::{Capacity, CapacityEdge, CapacityVertex, VertexForce, cone};
+use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross};
 use crate::scene::BlockId;
 
@@ -15,7 +15,7 @@ pub(super) fn capacity(
     probe: &Probe,
     block: BlockId,
     at: &[Point],
-) -> Capacity {
+) -> LoadCapacity {
     let cone::Found { samples, rays } = found;
     let size = refine::size(&samples);
     let tolerance = refine::tolerance(probe, size);
@@ -29,9 +29,10 @@ pub(super) fn capacity(
         .iter()
         .filter_map(|s| Some((s.line.as_ref()?, 0)))
         .collect();
-    let mut capacity = Capacity {
+    let mut capacity = LoadCapacity {
         block,
         at: at.to_vec(),
+        robot: None,
         vertices,
         rays,
         edges: Vec::new(),
@@ -48,7 +49,7 @@ pub(super) fn capacity(
 }
 
 /// Chooses the edges of a capacity among the half-planes that contain it, and computes the gap.
-pub(super) fn close(capacity: &mut Capacity, lines: &[CapacityEdge], size: f64) {
+pub(super) fn close(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let mut edges = Vec::new();
     for (ends, from, to) in sides(&corners, &capacity.rays, size) {
@@ -214,7 +215,7 @@ fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
 }
 
 /// The distance of a point from a segment.
-fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
+pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     let along = b - a;
     let square = along.norm_squared();
     let share = match square {
@@ -295,11 +296,57 @@ pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vect
 
 /// Whether a force belongs to the convex hull of the corners, extended along the rays.
 pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bool {
-    if corners.is_empty() {
-        return false;
+    if rays.len() > 2 || corners.is_empty() {
+        return rays.len() > 2;
     }
     let extent = corners.iter().map(|f| (f - force).norm());
     let extent = extent.fold(0.0, f64::max);
     let ring = cut_off(corners, rays, FAR * extent.max(f64::MIN_POSITIVE));
     distance(&ring, force) <= 1e-9 * extent
+}
+
+/// Directions within this angle are the same.
+const SAME_DIRECTION: f64 = 1e-7;
+
+/// The largest multiple of a unit direction in the convex hull of the corners, extended along the rays; infinite if it
+/// has no end. The hull contains 0.
+pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f64 {
+    let is_along = |ray: &Vector| (ray - direction).norm() <= SAME_DIRECTION;
+    let is_between = match rays {
+        [first, second] if cross(*first, *second) > SAME_DIRECTION => {
+            cross(*first, direction) >= -SAME_DIRECTION
+                && cross(direction, *second) >= -SAME_DIRECTION
+        }
+        // A half-plane has vertices on the line of its rays only.
+        [first, second] => {
+            let is_line = (first + second).norm() <= SAME_DIRECTION && corners.len() != 1;
+            !is_line && cross(*first, direction) >= -SAME_DIRECTION
+        }
+        _ => rays.len() > 2,
+    };
+    if is_between || rays.iter().any(is_along) {
+        return f64::INFINITY;
+    }
+    let extent = corners
+        .iter()
+        .map(|f| f.norm())
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let ring = cut_off(corners, rays, FAR * extent);
+    let along = |force: &Vector| force.dot(&direction);
+    if ring.len() < 3 {
+        // A segment or a point: only along the segment.
+        let [first, last] = [ring.first(), ring.last()].map(|f| f.copied().unwrap_or_default());
+        let chord = last - first;
+        let is_aligned = cross(chord, direction).abs() <= SAME_DIRECTION * chord.norm();
+        let ends = ring.iter().map(along).fold(0.0, f64::max);
+        return if is_aligned { ends } else { 0.0 };
+    }
+    let count = ring.len();
+    let sides = (0..count).map(|k| (ring[k], ring[(k + 1) % count]));
+    let each = sides.filter_map(|(a, b)| {
+        let outward = Vector::new(b.y - a.y, a.x - b.x);
+        let rate = outward.dot(&direction);
+        (rate > 1e-12 * outward.norm()).then(|| (outward.dot(&a) / rate).max(0.0))
+    });
+    each.fold(f64::INFINITY, f64::min)
 }

@@ -1,9 +1,9 @@
 //! [`CapacityRequest`]: the block, the point and the cases for which a capacity is computed.
 
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, Scene};
+use crate::scene::{BlockId, Frame, Hold, Scene};
 
-/// The block, the point and the cases for which a [`Capacity`](super::Capacity) is computed.
+/// The block, the point and the cases for which a [`LoadCapacity`](super::LoadCapacity) is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CapacityRequest {
@@ -19,9 +19,10 @@ pub struct CapacityRequest {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum ForceAt {
-    /// At the centroid of the block.
+    /// At the grip point if a robot holds the block: then it is the force of this robot, without the limits of its force.
+    /// Otherwise at the centroid of the block.
     #[default]
-    Centroid,
+    Usual,
     /// At a point that moves with the block, metres.
     Point(Point),
     /// At two points, in any direction at each. They are one more contact, whose resultant is asked for.
@@ -70,13 +71,27 @@ pub enum CapacityError {
 }
 
 impl CapacityRequest {
-    /// Requests the forces at the centroid of a block.
+    /// Requests the forces at the usual point of a block: its grip point, or its centroid.
     pub fn of_block(block: BlockId) -> CapacityRequest {
         CapacityRequest {
             block,
-            at: ForceAt::Centroid,
+            at: ForceAt::Usual,
             cases: Cases::default(),
         }
+    }
+
+    /// Returns the request of a scene for which nobody chose a block: the last block that a robot holds, or the placed
+    /// block whose centroid is highest. `None` without blocks.
+    pub fn usual(scene: &Scene) -> Option<CapacityRequest> {
+        let held = scene.frames.iter().rev().find_map(|f| f.holds.first());
+        let highest = || {
+            let placed = scene.frames.last()?.placed.iter().copied();
+            let height = |id: &BlockId| scene.blocks[id.0].centroid.y;
+            placed.max_by(|a, b| height(a).total_cmp(&height(b)).then(b.cmp(a)))
+        };
+        held.map(|hold| hold.block)
+            .or_else(highest)
+            .map(CapacityRequest::of_block)
     }
 
     /// Sets where the force acts.
@@ -91,15 +106,22 @@ impl CapacityRequest {
         CapacityRequest { cases, ..self }
     }
 
-    /// Returns the point, or the two points, at which the force acts.
+    /// Returns the hold of the robot whose force is asked for, if there is one.
+    pub(super) fn tool<'f>(&self, frame: &'f Frame) -> Option<&'f Hold> {
+        let is_usual = self.at == ForceAt::Usual;
+        let mut holds = frame.holds.iter();
+        holds.find(|hold| is_usual && hold.block == self.block)
+    }
+
+    /// Returns the point, or the two points, at which the force acts in a frame.
     ///
     /// # Errors
     /// If the block does not exist or a point is not valid.
-    pub fn points(&self, scene: &Scene) -> Result<Vec<Point>, CapacityError> {
+    pub fn points(&self, scene: &Scene, frame: &Frame) -> Result<Vec<Point>, CapacityError> {
         let block = scene.blocks.get(self.block.0);
         let block = block.ok_or(CapacityError::NoBlock)?;
         let points = match self.at {
-            ForceAt::Centroid => vec![block.centroid],
+            ForceAt::Usual => vec![self.tool(frame).map_or(block.centroid, |hold| hold.at)],
             ForceAt::Point(at) => vec![at],
             ForceAt::Contact(both) => both.to_vec(),
         };
@@ -137,6 +159,40 @@ impl Cases {
         let friction = Some([from, to]);
         Cases { friction, ..self }
     }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// If a range is not valid, or if its extreme values do not show which forces are carried between them.
+    pub fn check(&self) -> Result<(), CapacityError> {
+        let ranges = [
+            ("tilt", self.tilt),
+            ("horizontal", self.horizontal_load),
+            ("friction", self.friction),
+        ];
+        for (name, range) in ranges {
+            let Some([from, to]) = range else { continue };
+            let wrong = |why: &str| {
+                let range = format!("the range {name}={from}..{to} {why}");
+                Err(CapacityError::Range(range))
+            };
+            if !(from <= to && from.is_finite() && to.is_finite()) {
+                return wrong("is not valid; write the smaller number first");
+            }
+            if name == "tilt" && to - from > Self::WIDEST_TILT {
+                return wrong(
+                    "is wider than 90°: between such tilts gravity differs too much from both; split it into smaller ranges",
+                );
+            }
+            if name == "friction" && from < 0.0 {
+                return wrong("begins below 0");
+            }
+        }
+        Ok(())
+    }
+
+    /// The widest range of tilts, degrees.
+    pub const WIDEST_TILT: f64 = 90.0;
 
     /// True if there is one case only, that of the scene.
     pub fn is_empty(&self) -> bool {

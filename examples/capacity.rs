@@ -1,0 +1,81 @@
+//! Which forces can a lintel carry, and how does it fall beyond them?
+//!
+//! Change the numbers below: the span, the posts, the friction, or the point at which the force acts.
+
+#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+
+use std::error::Error;
+
+use drystone::analysis::{CapacityRequest, Cases, ForceAt};
+use drystone::scene::Point;
+use drystone::scene::format::{BlockEntry, Pair};
+use drystone::{Analysis, Scene};
+
+/// Metres between the posts.
+const SPAN: f64 = 4.0;
+/// Width and height of a post, metres.
+const POST: (f64, f64) = (1.0, 3.0);
+const FRICTION: f64 = 0.6;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (width, height) = POST;
+    let right = SPAN + width;
+    let scene = Scene::builder()
+        .friction(FRICTION)
+        .ground(rectangle(-1.0, -1.0, right + width + 1.0, 0.0))
+        .block(
+            BlockEntry::new("left")
+                .polygon(rectangle(0.0, 0.0, width, height))
+                .weight(6.0),
+        )
+        .block(
+            BlockEntry::new("right")
+                .polygon(rectangle(right, 0.0, right + width, height))
+                .weight(6.0),
+        )
+        .block(
+            BlockEntry::new("lintel")
+                .polygon(rectangle(0.0, height, right + width, height + 1.0))
+                .weight(11.0),
+        )
+        .build()?;
+    let lintel = scene.block_named("lintel").ok_or("there is no lintel")?;
+
+    // A force at the middle of its upper edge.
+    let at = ForceAt::Point(Point::new(0.5 * (right + width), height + 1.0));
+    let request = CapacityRequest::of_block(lintel).at(at);
+    let analysis = Analysis::new(&scene);
+    let capacity = analysis.capacity(0, &request)?;
+    println!("corners of the set of forces (Fx, Fy), in newtons:");
+    for vertex in &capacity.vertices {
+        println!("  {:8.3} {:8.3}", vertex.force.x, vertex.force.y);
+    }
+    for ray in &capacity.rays {
+        println!("  and without end towards {:.3} {:.3}", ray.x, ray.y);
+    }
+    for (number, edge) in capacity.edges.iter().enumerate() {
+        let moving = edge
+            .mechanism
+            .iter()
+            .map(|m| scene.blocks()[m.block.0].id.as_str());
+        let moving: Vec<&str> = moving.collect();
+        println!(
+            "beyond edge {number}, these blocks move: {}",
+            moving.join(", ")
+        );
+    }
+    println!(
+        "straight to the right it carries {:.3?} N",
+        capacity.reach([1.0, 0.0])
+    );
+
+    // The same if the ground may tilt by 2° to either side, and the friction is only known roughly.
+    let cases = Cases::default().tilt(-2.0, 2.0).friction(0.5, 0.7);
+    let sure = analysis.capacity(0, &request.cases(cases))?;
+    println!("in every case: {:.3?} N", sure.reach([1.0, 0.0]));
+    Ok(())
+}
+
+fn rectangle(left: f64, bottom: f64, right: f64, top: f64) -> Vec<Pair> {
+    vec![[left, bottom], [right, bottom], [right, top], [left, top]]
+}

@@ -1,0 +1,357 @@
+//! Draws the forces that a block can carry: a polygon at the point at which they act, and how the structure falls beyond
+//! its longest edges.
+//!
+//! The tail of a force is at the point, and its tip lies in the polygon if it is carried. A polygon that is small
+//! compared with its forces would be a dot: it is drawn next to the structure, in a scale of its own. Forces without end
+//! are cut off at a circle, which has no line.
+
+mod plan;
+
+use super::arrow::Marks;
+use super::content::{About, FrameSource, PanelContent};
+use super::context::FigureContext;
+use super::displacement::Course;
+use super::label::{self, Callout};
+use super::legend::{self, Entry};
+use super::panel::composed_with;
+use super::pen::{DISPLACED_OPACITY, Pen};
+use super::words::{quantity, round_below};
+use crate::analysis::CapacityShape;
+use crate::drawing::arrow::straight;
+use crate::drawing::placement::Ink;
+use crate::drawing::{
+    Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
+};
+use crate::geometry::{Bounds, Point};
+use crate::wording;
+use plan::{Plan, Small, falling};
+
+/// Opacity of the area of carried forces.
+const AREA_OPACITY: f64 = 0.34;
+/// Width of an edge with and without a number, pixels.
+const EDGE: (f64, f64) = (2.4, 1.3);
+/// Radius of the dot at the force 0, pixels.
+const DOT: f64 = 3.2;
+
+/// The figure of the forces that a block can carry.
+pub(crate) struct CarriedForces;
+
+impl PanelContent for CarriedForces {
+    fn about(&self) -> About {
+        About {
+            name: "capacity",
+            help: "All forces that a block can carry at a point, and how it falls beyond them; --capacity selects the block",
+            title: "The forces that a block can carry",
+            needs_capacity: true,
+            lines_cross_names: true,
+            ..About::default()
+        }
+    }
+
+    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
+        let plan = Plan::new(of.analysis, of.frame, unit)?;
+        Some(plan.bounds()?.grown(0.3 * unit))
+    }
+
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let (context, frame) = (pen.context, pen.number);
+        let mut ink = label::ink(pen);
+        let (mut parts, mut callouts) = (Vec::new(), Vec::new());
+        if let Some(plan) = Plan::new(context.analysis, frame, context.unit) {
+            let before = frame.checked_sub(1);
+            let before = before.and_then(|f| Plan::new(context.analysis, f, context.unit));
+            parts.extend(before.map(|before| earlier(pen, &before)));
+            parts.push(polygon(pen, &plan, &mut ink, &mut callouts));
+            for small in &plan.pictures {
+                parts.push(picture_of(pen, &plan, small, &mut ink));
+            }
+        }
+        composed_with(pen, view, pen.blocks(), parts, callouts, ink)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let analysis = context.analysis;
+        let frames = 0..analysis.frames.len();
+        let plans = frames.filter_map(|frame| Plan::new(analysis, frame, context.unit));
+        let plans: Vec<Plan> = plans.collect();
+        let mut entries = Vec::new();
+        let Some(first) = plans.first() else {
+            return legend::robots(context);
+        };
+        let area = match first.is_apart {
+            true => "tips of the forces that are carried",
+            false => "tips of the forces that are carried; their tail is at the dot",
+        };
+        entries.push(Entry::Sign(area_sign, 20.0, area.into()));
+        if !first.is_apart {
+            entries.push(Entry::Sign(dot_sign, 10.0, "no force".into()));
+        }
+        if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
+            entries.push(Entry::Sign(open_sign, 26.0, "goes on without end".into()));
+        }
+        if plans.len() > 1 {
+            entries.push(Entry::Sign(before_sign, 26.0, "in the step before".into()));
+        }
+        if plans.iter().any(|p| !p.pictures.is_empty()) {
+            entries.push(Entry::Sign(
+                number_sign,
+                14.0,
+                "how it begins to fall just beyond this edge, enlarged".into(),
+            ));
+        }
+        // The scale of the forces: a round force of about a third of the reach of the polygon.
+        let pixels_per_newton = first.scale * unit / context.unit;
+        let newtons = round_below(64.0 / pixels_per_newton);
+        if newtons > 0.0 && newtons.is_finite() {
+            let length = newtons * pixels_per_newton;
+            entries.push(Entry::Scale(length, 2.6, quantity(newtons, "N")));
+        }
+        entries.extend(legend::robots(context));
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let found = &context.analysis.frames[frame];
+        match &found.capacity {
+            Some(capacity) => wording::capacity::sentences(&context.analysis.scene, capacity),
+            None if context.analysis.frames.iter().any(|f| f.capacity.is_some()) => {
+                "the block is not placed yet".into()
+            }
+            None => "the forces that a block can carry were not computed".into(),
+        }
+    }
+}
+
+/// Draws the polygon at its point, its numbered edges, and the dot of the force 0.
+fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
+    let theme = &pen.context.options.theme;
+    let words = wording::capacity::ranges(plan.capacity);
+    let mut group = Group::with_class("capacity").titled(format!("Carried forces: {words}"));
+    let ring: Vec<PagePoint> = plan.ring.iter().map(|p| pen.camera.place(*p)).collect();
+    if plan.is_apart {
+        group = group.with(leader(pen, plan, ink));
+    } else if let [first, second] = plan.capacity.at[..] {
+        let ends = [first, second].map(|p| pen.camera.place(p));
+        ink.line(ends[0], ends[1], 3.2);
+        let stroke = Stroke::new(edge_colour(theme), 3.2);
+        group = group.with(Path::stroked(Outline::line(ends), stroke));
+    }
+    if ring.len() > 2 {
+        let area = Path::filled(Outline::ring(ring.clone()), theme.safe);
+        group = group.with(area.with_opacity(AREA_OPACITY));
+    }
+    let colour = edge_colour(theme);
+    for side in &plan.sides {
+        let [from, to] = side.ends.map(|p| pen.camera.place(p));
+        let width = if side.number.is_some() {
+            EDGE.0
+        } else {
+            EDGE.1
+        };
+        ink.line(from, to, width);
+        let stroke = Stroke::new(colour, width);
+        group = group.with(Path::stroked(Outline::line([from, to]), stroke));
+        for (end, other, is_open) in [(from, to, side.is_open[0]), (to, from, side.is_open[1])] {
+            if is_open {
+                group = group.with(Path::filled(open_end(end, other), colour));
+            }
+        }
+        if let Some(number) = side.number {
+            let middle = PagePoint::new(0.5 * (from.x + to.x), 0.5 * (from.y + to.y));
+            let (x, y) = pen.camera.turn(side.outward * 1.0);
+            let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
+            callouts.push(Callout {
+                at: middle.moved(3.0 * x / length, 3.0 * y / length),
+                clear: 3.0,
+                words: number.to_string(),
+                colour,
+            });
+        }
+    }
+    if plan.capacity.shape() == CapacityShape::Point {
+        let at = pen
+            .camera
+            .place(plan.zero + plan.capacity.vertices[0].force * plan.scale);
+        ink.disc(at, DOT);
+        group = group.with(Path::filled(Outline::circle(at, DOT), colour));
+    }
+    if !plan.is_apart {
+        let at = pen.camera.place(plan.zero);
+        if !plan.capacity.contains([0.0, 0.0]) {
+            // One of the carried forces: it shows where their tail is.
+            let to = pen.camera.place(plan.middle());
+            let along = (to.x - at.x, to.y - at.y);
+            ink.arrow(at, along, 2.0);
+            group = group.with(Path::filled(straight(at, along, 2.0), colour));
+        }
+        ink.disc(at, DOT + 1.0);
+        group = group.with(dot(at, theme));
+    }
+    group
+}
+
+/// Draws a dotted line from the point to a polygon that is drawn apart, and a mark at the point or between both points.
+fn leader(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
+    let theme = &pen.context.options.theme;
+    let from = pen.camera.place(plan.point);
+    let nearest = plan.ring.iter().min_by(|a, b| a.x.total_cmp(&b.x));
+    let to = nearest.map_or(from, |p| pen.camera.place(*p));
+    ink.line(from, to, 1.0);
+    let dotted = Stroke::new(theme.faint, 1.0).dashed([1.5, 3.0]);
+    let mut group = Group::with_class("leader");
+    group = group.with(Path::stroked(Outline::line([from, to]), dotted));
+    let ends: Vec<PagePoint> = plan
+        .capacity
+        .at
+        .iter()
+        .map(|p| pen.camera.place(*p))
+        .collect();
+    if ends.len() > 1 {
+        let stroke = Stroke::new(edge_colour(theme), 3.2);
+        group = group.with(Path::stroked(Outline::line(ends), stroke));
+    } else {
+        group = group.with(dot(from, theme));
+    }
+    group
+}
+
+/// Draws the polygon of the step before.
+fn earlier(pen: &Pen<'_>, plan: &Plan<'_>) -> Group {
+    let theme = &pen.context.options.theme;
+    let ring = plan.ring.iter().map(|p| pen.camera.place(*p));
+    let path = Path::stroked(Outline::ring(ring), before_stroke(theme));
+    Group::with_class("before")
+        .titled("The forces that were carried in the step before")
+        .with(path)
+}
+
+fn before_stroke(theme: &Theme) -> Stroke {
+    Stroke::new(theme.faint, 1.0).dashed([4.0, 3.0])
+}
+
+/// Draws a small picture of a mechanism, with its number and the direction in which the point begins to move.
+fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> Group {
+    let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
+    let scene = &analysis.scene;
+    let place = |point: Point| pen.camera.place(small.place(point));
+    let shown = pen.camera.rect(small.bounds());
+    ink.rect(shown);
+    let ghost = falling(analysis, pen.number, &small.mechanism);
+    let moved = Course::new(&ghost, pen.number, pen.context.unit / small.scale.sqrt()).at(1.0);
+    let line = Stroke::new(theme.outline, (0.6 * pen.line).max(0.5));
+    let mut group = Group::with_class("mechanism");
+    group = group.titled(format!(
+        "How it begins to fall beyond edge {}",
+        small.number
+    ));
+    let mut ground = Group {
+        clip: Some(shown),
+        ..Group::with_class("ground")
+    };
+    for body in &scene.ground {
+        let mut outline = Outline::default();
+        for ring in body.body.polygon.rings() {
+            outline.extend(Outline::ring(ring.iter().map(|p| place(*p))));
+        }
+        ground = ground.with(Path::filled(outline, theme.ground));
+    }
+    group = group.with(ground);
+    let (mut rest, mut was, mut goes) =
+        (Outline::default(), Outline::default(), Outline::default());
+    for id in &scene.frames[pen.number].placed {
+        let displaced = moved.get(id.0).and_then(Option::as_ref);
+        for ring in scene.blocks[id.0].body.polygon.rings() {
+            let here = Outline::ring(ring.iter().map(|p| place(*p)));
+            match displaced {
+                None => rest.extend(here),
+                Some(d) => {
+                    was.extend(here);
+                    goes.extend(Outline::ring(ring.iter().map(|p| place(d.moved(*p)))));
+                }
+            }
+        }
+    }
+    let dashed = Stroke::new(theme.rule, 0.7).dashed([2.0, 1.6]);
+    group = group
+        .with(Path::stroked(was, dashed))
+        .with(Path::filled(rest, theme.block).with_stroke(line.clone()));
+    let fill = theme.page.mixed(theme.motion, DISPLACED_OPACITY);
+    let edge = theme.motion.mixed(theme.ink, 0.25);
+    group = group.with(Path::filled(goes, fill).with_stroke(Stroke::new(edge, line.width)));
+    // The direction of the force beyond the edge.
+    let own = moved.get(plan.capacity.block.0).and_then(Option::as_ref);
+    let from = place(own.map_or(plan.point, |d| d.moved(plan.point)));
+    // On a narrow page a shorter arrow would only be a head.
+    let length = (0.2 * shown.width.min(shown.height)).max(17.0);
+    let along = (small.outward.x * length, -small.outward.y * length);
+    group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
+    let at = PagePoint::new(shown.at.x + 2.0, shown.at.y + 0.8 * theme.sizes.amount);
+    let number = Text::new(
+        at,
+        small.number.to_string(),
+        Face::SansBold,
+        theme.sizes.amount,
+        edge_colour(theme),
+    );
+    group.with(number.anchored(Anchor::Start))
+}
+
+fn edge_colour(theme: &Theme) -> crate::drawing::Colour {
+    theme.safe.mixed(theme.ink, 0.15)
+}
+
+fn dot(at: PagePoint, theme: &Theme) -> Path {
+    Path::filled(Outline::circle(at, DOT), theme.page).with_stroke(Stroke::new(theme.ink, 1.5))
+}
+
+/// A small triangle at the end of a line that goes on.
+fn open_end(end: PagePoint, other: PagePoint) -> Outline {
+    let (x, y) = (end.x - other.x, end.y - other.y);
+    let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
+    let (x, y) = (x / length, y / length);
+    let size = 6.0;
+    Outline::ring([
+        end.moved(size * x, size * y),
+        end.moved(-0.5 * size * y, 0.5 * size * x),
+        end.moved(0.5 * size * y, -0.5 * size * x),
+    ])
+}
+
+fn area_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let swatch = PageRect {
+        at: at.moved(0.0, -6.5),
+        width: 20.0,
+        height: 13.0,
+    };
+    let outline = Outline::rounded(swatch, 0.0);
+    vec![
+        Path::filled(outline.clone(), theme.safe)
+            .with_opacity(AREA_OPACITY)
+            .into(),
+        Path::stroked(outline, Stroke::new(edge_colour(theme), EDGE.1)).into(),
+    ]
+}
+
+fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![dot(at.moved(5.0, 0.0), theme).into()]
+}
+
+fn open_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let end = at.moved(19.0, 0.0);
+    let stroke = Stroke::new(edge_colour(theme), EDGE.1);
+    vec![
+        Path::stroked(Outline::line([at, end]), stroke).into(),
+        Path::filled(open_end(end, at), edge_colour(theme)).into(),
+    ]
+}
+
+fn before_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(26.0, 0.0)]);
+    vec![Path::stroked(line, before_stroke(theme)).into()]
+}
+
+fn number_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let size = theme.sizes.amount;
+    let at = at.moved(2.0, 0.36 * size);
+    vec![Text::new(at, "1", Face::SansBold, size, edge_colour(theme)).into()]
+}

@@ -1,0 +1,371 @@
+//! [`Plan`]: where the polygon of forces and the small pictures of mechanisms are drawn, in metres.
+
+use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
+use crate::figure::view;
+use crate::geometry::{Bounds, Point, Vector};
+
+/// The polygon reaches at most this far from its point, as a share of the size of the structure.
+const REACH: f64 = 0.42;
+/// A polygon that is smaller than this share of its farthest force is drawn apart, in a scale of its own.
+const SMALL: f64 = 0.25;
+/// Size of a polygon that is drawn apart, as a share of the size of the structure.
+const APART: f64 = 0.4;
+/// Gap between the structure and what is drawn next to it, as a share of the size of the structure.
+const GAP: f64 = 0.1;
+/// Forces without end are cut off at this multiple of the largest force of a vertex.
+const CUT: f64 = 1.7;
+/// The largest number of small pictures.
+const MOST_PICTURES: usize = 4;
+/// Size of a small picture relative to the structure: next to it, and below it.
+const SMALLER: (f64, f64) = (0.36, 0.21);
+/// A structure wider than this multiple of its height has its small pictures below it.
+const WIDE: f64 = 1.5;
+/// No small pictures are drawn of structures with more blocks.
+const MOST_BLOCKS: usize = 300;
+/// The number of corners of the circle at which forces without end are cut off.
+const ROUND: usize = 48;
+
+/// The polygon of a frame, and what belongs to it.
+pub(super) struct Plan<'a> {
+    pub capacity: &'a LoadCapacity,
+    /// The point at which the force acts.
+    pub point: Point,
+    /// Where the force 0 is drawn: the point, unless the polygon is drawn apart.
+    pub zero: Point,
+    /// Whether the polygon is drawn apart.
+    pub is_apart: bool,
+    /// Metres per newton.
+    pub scale: f64,
+    /// The corners of the drawn set.
+    pub ring: Vec<Point>,
+    pub sides: Vec<Side>,
+    pub pictures: Vec<Small>,
+}
+
+/// A drawn edge.
+pub(super) struct Side {
+    pub ends: [Point; 2],
+    /// Whether the edge has no end there.
+    pub is_open: [bool; 2],
+    pub outward: Vector,
+    /// Its number in the figure, from 1, if it has a small picture.
+    pub number: Option<usize>,
+}
+
+/// A small picture of a mechanism.
+pub(super) struct Small {
+    pub number: usize,
+    pub mechanism: Vec<Motion>,
+    /// The direction in which the point begins to move.
+    pub outward: Vector,
+    /// The shown part of the scene, and the corner and the scale at which it is drawn.
+    pub view: Bounds,
+    pub corner: Point,
+    pub scale: f64,
+}
+
+impl Small {
+    /// Returns the position of a point of the scene in the small picture.
+    pub fn place(&self, point: Point) -> Point {
+        self.corner + (point - self.view.min) * self.scale
+    }
+
+    /// Returns the box of the small picture.
+    pub fn bounds(&self) -> Bounds {
+        Bounds {
+            min: self.corner,
+            max: self.place(self.view.max),
+        }
+    }
+}
+
+impl<'a> Plan<'a> {
+    /// Plans the drawing of a frame; `None` without forces that are carried. `unit` is the unit edge in metres.
+    pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
+        let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
+        let structure = structure(analysis)?;
+        let size = structure.width().max(structure.height());
+        let point = middle(&capacity.at);
+        let cut = cut(analysis);
+        let ring = ring(capacity, cut);
+        let first = *ring.first()?;
+        let extent = ring.iter().map(|f| (f - first).norm()).fold(0.0, f64::max);
+        let farthest = farthest(analysis, cut);
+        let is_bounded = capacity.rays.is_empty();
+        let is_apart = is_bounded
+            && extent < SMALL * farthest
+            && extent > 1e-6 * farthest
+            && analysis.frames.len() == 1;
+        let (scale, zero) = if is_apart {
+            let scale = APART * size / extent;
+            let own = bounds_of(&ring);
+            let right = right(analysis, structure, unit) + GAP * size;
+            let height = 0.5 * (own.min.y + own.max.y) * scale;
+            (
+                scale,
+                Point::new(right - own.min.x * scale, point.y - height),
+            )
+        } else {
+            (REACH * size / farthest, point)
+        };
+        let place = |force: &Vector| zero + force * scale;
+        let numbers = numbers(analysis, capacity);
+        let sides = sides(capacity, cut, &numbers, &place);
+        let mut plan = Plan {
+            capacity,
+            point,
+            zero,
+            is_apart,
+            scale,
+            ring: ring.iter().map(place).collect(),
+            sides,
+            pictures: Vec::new(),
+        };
+        plan.pictures = plan.small_pictures(analysis, frame, &numbers, structure, unit);
+        Some(plan)
+    }
+
+    /// Returns a box around all that is drawn.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
+        let pictures = self.pictures.iter().map(Small::bounds);
+        pictures.chain([polygon]).reduce(Bounds::union)
+    }
+
+    /// Returns the middle of the corners of the drawn set.
+    pub fn middle(&self) -> Point {
+        middle(&self.ring)
+    }
+
+    /// Arranges the small pictures to the right of all else, or below it.
+    fn small_pictures(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        numbers: &[usize],
+        structure: Bounds,
+        unit: f64,
+    ) -> Vec<Small> {
+        let source = source(analysis, frame, structure, unit);
+        let polygon = Bounds::from_points(self.ring.iter().copied()).unwrap_or(structure);
+        let whole = view::ground_shown(&analysis.scene, unit)
+            .map_or(structure, |ground| structure.union(ground))
+            .union(polygon);
+        let size = structure.width().max(structure.height());
+        let is_wide = whole.width() > WIDE * whole.height();
+        let (share, columns) = match (is_wide, numbers.len()) {
+            (true, n) => (SMALLER.1 * (whole.width() / source.width()).min(1.4), n),
+            (false, 1) => (SMALLER.0, 1),
+            (false, n) => (SMALLER.0, n.div_ceil(2)),
+        };
+        let step = Vector::new(source.width(), source.height()) * share
+            + Vector::new(0.08 * size, 0.12 * size);
+        let rows = numbers.len().div_ceil(columns.max(1));
+        let begin = if is_wide {
+            let used = columns as f64 * step.x - 0.08 * size;
+            let left = 0.5 * (whole.min.x + whole.max.x - used);
+            Point::new(left, whole.min.y - 0.05 * size - step.y)
+        } else {
+            let used = rows as f64 * step.y - 0.12 * size;
+            let middle = 0.5 * (whole.min.y + whole.max.y);
+            let top = (middle + 0.5 * used).max(whole.min.y + used);
+            Point::new(whole.max.x + 0.12 * size, top - source.height() * share)
+        };
+        let small = |(k, edge): (usize, &usize)| Small {
+            number: k + 1,
+            mechanism: analysis.edge_mechanism(frame, self.capacity, *edge),
+            outward: self.capacity.edges[*edge].normal,
+            view: source,
+            corner: begin
+                + Vector::new(
+                    (k % columns) as f64 * step.x,
+                    -((k / columns) as f64) * step.y,
+                ),
+            scale: share,
+        };
+        numbers.iter().enumerate().map(small).collect()
+    }
+}
+
+/// Returns the frame with its mechanism replaced, as an analysis that falls by it.
+pub(super) fn falling(analysis: &Analysis, frame: usize, mechanism: &[Motion]) -> Analysis {
+    let mut changed = analysis.clone();
+    changed.frames[frame].mechanism = mechanism.to_vec();
+    changed.frames[frame].verdict = Verdict::Unstable;
+    changed
+}
+
+/// The box around the blocks of all frames.
+fn structure(analysis: &Analysis) -> Option<Bounds> {
+    let scene = &analysis.scene;
+    let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
+    placed
+        .map(|id| scene.blocks[id.0].body.polygon.bounds())
+        .reduce(Bounds::union)
+}
+
+/// The right end of the structure and its ground.
+fn right(analysis: &Analysis, structure: Bounds, unit: f64) -> f64 {
+    view::ground_shown(&analysis.scene, unit)
+        .map_or(structure.max.x, |g| structure.max.x.max(g.max.x))
+}
+
+/// The part of the scene that a small picture shows: the blocks with a little ground, and space for their motion.
+fn source(analysis: &Analysis, frame: usize, structure: Bounds, unit: f64) -> Bounds {
+    let scene = &analysis.scene;
+    let placed = scene.frames[frame].placed.iter();
+    let own = placed
+        .map(|id| scene.blocks[id.0].body.polygon.bounds())
+        .reduce(Bounds::union)
+        .unwrap_or(structure);
+    own.grown((0.09 * own.diagonal()).max(0.4 * unit))
+}
+
+fn middle(points: &[Point]) -> Point {
+    let sum: Vector = points.iter().map(|p| p.coords).sum();
+    Point::from(sum / points.len().max(1) as f64)
+}
+
+fn bounds_of(ring: &[Vector]) -> Bounds {
+    let all = Bounds::from_points(ring.iter().map(|f| Point::from(*f)));
+    all.unwrap_or(Bounds {
+        min: Point::origin(),
+        max: Point::origin(),
+    })
+}
+
+/// The capacities of all frames: they have one scale.
+fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
+    let frames = analysis.frames.iter();
+    frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))
+}
+
+/// The largest force of a vertex in all frames, N; at least a fraction of the weight.
+fn largest(analysis: &Analysis) -> f64 {
+    let each = capacities(analysis).map(|(frame, capacity)| {
+        let forces = capacity.vertices.iter().map(|v| v.force.norm());
+        forces.fold(1e-3 * frame.weight, f64::max)
+    });
+    each.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// The force at which forces without end are cut off, N.
+fn cut(analysis: &Analysis) -> f64 {
+    CUT * largest(analysis)
+}
+
+/// The largest force that is drawn, N.
+fn farthest(analysis: &Analysis, cut: f64) -> f64 {
+    let is_open = capacities(analysis).any(|(_, capacity)| !capacity.rays.is_empty());
+    match is_open {
+        true => cut,
+        false => largest(analysis),
+    }
+}
+
+/// The corners of the set; forces without end are cut off at a circle.
+fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
+    if capacity.rays.is_empty() {
+        return capacity.vertices.iter().map(|v| v.force).collect();
+    }
+    let far = FAR * cut;
+    let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
+    let (Some(from), Some(to)) = (corners.first(), corners.last()) else {
+        return Vec::new();
+    };
+    let corner = |k: usize| {
+        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / ROUND as f64);
+        Vector::new(cos, sin) * cut
+    };
+    let mut ring: Vec<Vector> = (0..ROUND).map(corner).collect();
+    // The set as a polygon that ends far beyond the circle.
+    let mut outline = corners.clone();
+    match capacity.rays[..] {
+        [only] if corners.len() == 1 => return vec![*from, from + only * cut],
+        [only] => outline.extend([to + only * far, from + only * far]),
+        [first, second] => {
+            let angle = libm::atan2(first.perp(&second), first.dot(&second));
+            let angle = if angle <= 0.0 {
+                angle + std::f64::consts::TAU
+            } else {
+                angle
+            };
+            let (sin, cos) = libm::sincos(0.5 * angle);
+            let middle = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
+            outline.extend([to + first * far, to + middle * far, from + second * far]);
+        }
+        _ => return ring,
+    }
+    for (k, a) in outline.iter().enumerate() {
+        let along = outline[(k + 1) % outline.len()] - a;
+        if along.norm() > 0.0 {
+            let normal = Vector::new(along.y, -along.x).normalize();
+            ring = clipped(&ring, normal, normal.dot(a));
+        }
+    }
+    ring
+}
+
+/// Sets without end are taken to this multiple of the circle at which they are cut off.
+const FAR: f64 = 1e3;
+
+/// The part of a polygon in which normal · F ≤ limit.
+fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
+    let height = |force: &Vector| normal.dot(force) - limit;
+    let mut kept = Vec::with_capacity(ring.len() + 1);
+    for (k, from) in ring.iter().enumerate() {
+        let to = &ring[(k + 1) % ring.len()];
+        let (here, there) = (height(from), height(to));
+        if here <= 0.0 {
+            kept.push(*from);
+        }
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            kept.push(from + (to - from) * (here / (here - there)));
+        }
+    }
+    kept
+}
+
+/// The edges with small pictures, the longest first.
+fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
+    let frames = analysis.scene.frames.iter();
+    let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);
+    if analysis.frames.len() > 1 || most > MOST_BLOCKS {
+        return Vec::new();
+    }
+    let mut chosen: Vec<usize> = capacity.longest_edges();
+    // Of edges with the same mechanism, as both sides of a segment, the first.
+    chosen.truncate(MOST_PICTURES);
+    // Numbers run anticlockwise.
+    chosen.sort_unstable();
+    chosen
+}
+
+fn sides(
+    capacity: &LoadCapacity,
+    cut: f64,
+    numbers: &[usize],
+    place: &dyn Fn(&Vector) -> Point,
+) -> Vec<Side> {
+    let force = |vertex: Option<usize>| vertex.map(|k| capacity.vertices[k].force);
+    let mut sides = Vec::new();
+    for (k, edge) in capacity.edges.iter().enumerate() {
+        let along = Vector::new(-edge.normal.y, edge.normal.x);
+        let known = [force(edge.ends[0]), force(edge.ends[1])];
+        let base = known[0].or(known[1]).unwrap_or(edge.normal * edge.limit);
+        // Where the line of the edge leaves the circle.
+        let far = |sign: f64| {
+            let (b, c) = (base.dot(&along), base.norm_squared() - cut * cut);
+            let root = (b * b - c).max(0.0).sqrt();
+            base + along * (-b + sign * root)
+        };
+        let ends = [known[0].unwrap_or(far(-1.0)), known[1].unwrap_or(far(1.0))];
+        sides.push(Side {
+            ends: [place(&ends[0]), place(&ends[1])],
+            is_open: [edge.ends[0].is_none(), edge.ends[1].is_none()],
+            outward: edge.normal,
+            number: numbers.iter().position(|n| *n == k).map(|n| n + 1),
+        });
+    }
+    sides
+}

@@ -1,0 +1,101 @@
+//! Writes the forces that a block can carry as JSON.
+
+use serde::Serialize;
+
+use super::{Motion, Number, Pair, arrow, place};
+use crate::analysis::{CapacityEdge, CapacityVertex, LoadCapacity as Found};
+use crate::scene::Scene;
+use crate::text;
+
+/// Writes a capacity as one line of JSON, as in `capacity` of the frame's result.
+pub fn capacity_json(scene: &Scene, capacity: &Found) -> String {
+    let json = serde_json::to_string(&Capacity::new(scene, capacity));
+    text::json(&json.expect("plain structures with text keys always serialise into memory"))
+}
+
+#[derive(Serialize)]
+pub(super) struct Capacity<'a> {
+    block: &'a str,
+    at: Vec<Pair>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<&'a str>,
+    shape: &'static str,
+    stands_without: bool,
+    vertices: Vec<Pair>,
+    rays: Vec<Pair>,
+    edges: Vec<Edge<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    balances: Vec<Balance>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    mechanism: Vec<Motion<'a>>,
+    gap: Number,
+    cases: usize,
+}
+
+#[derive(Serialize)]
+struct Edge<'a> {
+    from: Option<usize>,
+    to: Option<usize>,
+    normal: Pair,
+    limit: Number,
+    mechanism: Vec<Motion<'a>>,
+    case: usize,
+}
+
+/// The forces that prove one vertex.
+#[derive(Serialize)]
+struct Balance {
+    torque: Number,
+    interfaces: Vec<Pressed>,
+}
+
+#[derive(Serialize)]
+struct Pressed {
+    interface: usize,
+    normal_forces: Pair,
+    friction_force: Number,
+}
+
+impl<'a> Capacity<'a> {
+    pub(super) fn new(scene: &'a Scene, found: &Found) -> Capacity<'a> {
+        let motions =
+            |list: &[crate::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
+        let edge = |edge: &CapacityEdge| Edge {
+            from: edge.ends[0],
+            to: edge.ends[1],
+            normal: arrow(edge.normal),
+            limit: Number(edge.limit),
+            mechanism: motions(&edge.mechanism),
+            case: edge.case,
+        };
+        let proved = found.vertices.iter().filter(|v| v.proof.is_some());
+        Capacity {
+            block: &scene.blocks[found.block.0].id,
+            at: found.at.iter().map(|p| place(*p)).collect(),
+            robot: found.robot.map(|r| scene.robots[r.0].id.as_str()),
+            shape: found.shape().word(),
+            stands_without: found.contains([0.0, 0.0]),
+            vertices: found.vertices.iter().map(|v| arrow(v.force)).collect(),
+            rays: found.rays.iter().map(|r| arrow(*r)).collect(),
+            edges: found.edges.iter().map(edge).collect(),
+            balances: proved.map(Balance::new).collect(),
+            mechanism: motions(&found.mechanism),
+            gap: Number(found.gap),
+            cases: found.cases,
+        }
+    }
+}
+
+impl Balance {
+    fn new(vertex: &CapacityVertex) -> Balance {
+        let pressed = vertex.contacts.iter().map(|forces| Pressed {
+            interface: forces.interface,
+            normal_forces: forces.normal.map(Number),
+            friction_force: Number(forces.friction),
+        });
+        Balance {
+            torque: Number(vertex.torque),
+            interfaces: pressed.collect(),
+        }
+    }
+}

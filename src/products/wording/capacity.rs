@@ -1,0 +1,107 @@
+//! Describes in words which forces a block can carry.
+
+use super::number::{digits, quantity};
+use crate::analysis::{CapacityShape, LoadCapacity};
+use crate::scene::Scene;
+use crate::text;
+
+/// Describes a capacity in one or two sentences: where the force acts, and how large it may be to each side.
+pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
+    let place = place(scene, capacity);
+    let what = match capacity.shape() {
+        CapacityShape::Empty => format!("no force {place} makes it stand"),
+        CapacityShape::Everything => format!("every force {place} is carried"),
+        _ => match sides(capacity) {
+            Some(sides) => format!("{place} it carries {sides}"),
+            None => format!(
+                "without a force {place} it falls; it stands with {} in some combinations",
+                ranges(capacity)
+            ),
+        },
+    };
+    match capacity.cases {
+        1 => what,
+        _ => format!("{what}, in every case of the given ranges"),
+    }
+}
+
+/// Names the point and the block: `at (1, 2) on block a`.
+pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
+    // A coordinate that is only the rounding of the block's size is 0.
+    let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
+    let plain = |v: f64| match v.abs() <= 1e-9 * bounds.diagonal() {
+        true => digits(0.0),
+        false => digits(v),
+    };
+    let point = |k: usize| {
+        let at = capacity.at[k];
+        format!("({}, {})", plain(at.x), plain(at.y))
+    };
+    let block = text::line(&scene.blocks[capacity.block.0].id);
+    match (capacity.robot, capacity.at.len()) {
+        (Some(robot), _) => {
+            let robot = text::line(&scene.robots[robot.0].id);
+            format!("of robot {robot} on block {block}")
+        }
+        (None, 1) => format!("at {} on block {block}", point(0)),
+        _ => format!("between {} and {} on block {block}", point(0), point(1)),
+    }
+}
+
+/// The directions and their words.
+const SIDES: [([f64; 2], &str); 4] = [
+    ([-1.0, 0.0], "to the left"),
+    ([1.0, 0.0], "to the right"),
+    ([0.0, 1.0], "up"),
+    ([0.0, -1.0], "down"),
+];
+
+/// Lists the largest force straight to each side; `None` if the frame does not stand without a force.
+pub fn sides(capacity: &LoadCapacity) -> Option<String> {
+    let each = SIDES.map(|(direction, word)| {
+        let most = capacity.reach(direction)?;
+        Some(match most.is_finite() {
+            true => format!("{} {word}", quantity(rounded(most, capacity), "N")),
+            false => format!("any force {word}"),
+        })
+    });
+    let each: Option<Vec<String>> = each.into_iter().collect();
+    each.map(|each| format!("at most {}", each.join(", ")))
+}
+
+/// Writes the ranges of both components: `Fx from −3 N to 2 N and Fy of at least 4 N`.
+pub fn ranges(capacity: &LoadCapacity) -> String {
+    let range = |name: &str, direction: [f64; 2]| {
+        let most = capacity.most(direction).map(|v| rounded(v, capacity));
+        let least = capacity
+            .most(direction.map(|v| -v))
+            .map(|v| rounded(-v, capacity));
+        let newtons = |v: f64| quantity(v, "N");
+        match (least, most) {
+            (None, None) => format!("any {name}"),
+            (Some(least), None) => format!("{name} of at least {}", newtons(least)),
+            (None, Some(most)) => format!("{name} of at most {}", newtons(most)),
+            (Some(least), Some(most)) if newtons(least) == newtons(most) => {
+                format!("{name} of {}", newtons(most))
+            }
+            (Some(least), Some(most)) => {
+                format!("{name} from {} to {}", newtons(least), newtons(most))
+            }
+        }
+    };
+    format!(
+        "{} and {}",
+        range("Fx", [1.0, 0.0]),
+        range("Fy", [0.0, 1.0])
+    )
+}
+
+/// A force that is only the rounding of larger ones is 0.
+fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
+    let sizes = capacity.vertices.iter().map(|v| v.force.norm());
+    let largest = sizes.chain(capacity.edges.iter().map(|e| e.limit.abs()));
+    match force.abs() <= 1e-7 * largest.fold(0.0, f64::max) {
+        true => 0.0,
+        false => force,
+    }
+}
