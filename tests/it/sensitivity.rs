@@ -183,14 +183,20 @@ impl Tally {
                 }
             }
             Slope::OneSided { backward, forward } => {
-                let step = change.step / 16.0;
-                let Some(sides) = (Change { step, ..*change }.slopes()) else {
+                // Very close to a kink the state at the end may not be computed.
+                let fine = Change {
+                    step: change.step / 16.0,
+                    ..*change
+                };
+                let found = fine.slopes().map(|sides| (sides, 1e-5));
+                let found = found.or_else(|| Some((change.slopes()?, 1e-3)));
+                let Some((sides, tolerance)) = found else {
                     self.skipped += 1;
                     return;
                 };
                 self.one_sided += 1;
                 for (own, other) in [backward, forward].into_iter().zip(sides) {
-                    if (own - other).abs() > 1e-5 * scale.max(own.abs()) {
+                    if (own - other).abs() > tolerance * scale.max(own.abs()) {
                         self.wrong.push(format!(
                             "{what}: {backward:.9} {forward:.9} against {sides:?}"
                         ));
