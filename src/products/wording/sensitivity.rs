@@ -251,11 +251,15 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
         lines.push(without(kind, reason));
     }
     for (is_high, end) in sensitivity.ends() {
-        let changes = most_effective(scene, found, end, is_high, 10);
         let before = value(kind, end.value);
+        let mut changes = most_effective(scene, found, end, is_high, 10);
+        // A change that is too small for the digits says nothing.
+        changes.retain(|change| value(kind, change.after) != before);
         let name = name(kind, is_high);
         lines.push(match changes.is_empty() {
-            true => format!("{name} {before}: no change of one number makes it better"),
+            true => {
+                format!("{name} {before}: no single change of a usual size makes it visibly better")
+            }
             false => format!("{name} {before}; what changes it most:"),
         });
         for change in &changes {
