@@ -36,6 +36,7 @@ class Scene:
         author: str | None = None,
         project: str | None = None,
         date: str | None = None,
+        units: Mapping[str, str] | None = None,
         friction: float | None = None,
         density: float | None = None,
         thickness: float | None = None,
@@ -52,6 +53,7 @@ class Scene:
             "author": author,
             "project": project,
             "date": date,
+            "units": units,
             "friction": friction,
             "density": density,
             "thickness": thickness,
@@ -136,6 +138,7 @@ class Scene:
         shape: str | None = None,
         at: Point | None = None,
         angle: float | None = None,
+        centre: Point | None = None,
         weight: float | None = None,
         mass: float | None = None,
         density: float | None = None,
@@ -211,6 +214,20 @@ class Scene:
     ) -> Scene:
         """Adds a load on a block: a force in N, a torque in N·m, or both."""
         return self._add("loads", _without(locals(), "self"))
+
+    def contact(
+        self,
+        bodies: Sequence[str],
+        at: Point,
+        normal: float,
+        *,
+        friction: float | None = None,
+    ) -> Scene:
+        """Adds a contact of two bodies at a point. The normal, in degrees, points into the first body.
+
+        If a scene lists contacts, no others are searched.
+        """
+        return self._add("contacts", _without(locals(), "self"))
 
     def step(
         self,

@@ -122,6 +122,8 @@ const DOORS: &[(&str, &[&str])] = &[
             "result/",
             "drawing/style/format/value.rs",
             "import/geojson.rs",
+            "import/compas.rs",
+            "import/contact_list.rs",
             "import/degrees.rs",
             "report/book.rs",
         ],

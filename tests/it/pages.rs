@@ -117,6 +117,8 @@ fn title(name: &str) -> &str {
         "LoadEntry" => "A load",
         "StepEntry" => "A step",
         "GripEntry" => "A grip",
+        "UnitsEntry" => "Units",
+        "ContactEntry" => "A contact",
         other => panic!("{other} has no title on the page"),
     }
 }
@@ -192,6 +194,8 @@ fn the_format_page_tells_every_key_of_a_scene_file() {
         "LoadEntry",
         "StepEntry",
         "GripEntry",
+        "UnitsEntry",
+        "ContactEntry",
     ];
     for name in order {
         let about = definitions[name]["description"]

@@ -4,6 +4,7 @@ mod accuracy;
 mod batch;
 mod broken;
 mod check;
+mod contacts;
 mod fault;
 mod figures;
 mod import;
@@ -11,6 +12,7 @@ mod readme;
 mod render;
 mod safety;
 mod silent;
+mod units;
 mod words;
 
 use std::fs;

@@ -24,16 +24,19 @@ use value::{DrawnAt, Unit, WrittenIn, gravity, scale, stone};
 /// At most this many moved bodies are listed; `--json` lists all.
 const LISTED: usize = 12;
 
-/// Turn a drawing (SVG, DXF, GeoJSON, WKT) into a scene
+/// Turn a drawing (SVG, DXF, GeoJSON, WKT), a contact list or a COMPAS assembly into a scene
 ///
 /// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with
 /// "ground" become ground, and those with "robot" become robots, which hold the block that contains their centre.
 /// Names with "ignore" or "guide" are left out. Edges that nearly touch are moved so that they touch. Elements that
 /// cannot be imported are reported.
+///
+/// A contact list (.csv, .json) has the centres and masses of bodies, and the points at which they touch. Of an
+/// assembly of COMPAS (.json) the section of its prismatic blocks is taken.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
-    /// The drawing: .svg, .dxf, .geojson, .json or .wkt; - reads standard input
+    /// The drawing: .svg, .dxf, .geojson, .json, .wkt or .csv; - reads standard input
     #[arg(value_name = "DRAWING")]
     drawing: PathBuf,
     /// The scene file to write; - or nothing prints the scene
@@ -111,6 +114,11 @@ impl Import {
             self.drawing.display().to_string()
         };
         let text = self.text(&name, format).map_err(|c| vec![c])?;
+        // The ending .json does not tell what is in the file.
+        let format = match (self.format, format) {
+            (None, Format::GeoJson) => Format::of_json(&text),
+            _ => format,
+        };
         let imported = match import::import(&text, format, &self.options()) {
             Ok(imported) => imported,
             Err(refusal) => {
@@ -170,6 +178,8 @@ impl Import {
                 WrittenIn::Dxf => Format::Dxf,
                 WrittenIn::Geojson => Format::GeoJson,
                 WrittenIn::Wkt => Format::Wkt,
+                WrittenIn::Contacts => Format::Contacts,
+                WrittenIn::Compas => Format::Compas,
             });
         }
         let ending = self
@@ -181,6 +191,7 @@ impl Import {
             Some("dxf") => Ok(Format::Dxf),
             Some("geojson" | "json") => Ok(Format::GeoJson),
             Some("wkt") => Ok(Format::Wkt),
+            Some("csv") => Ok(Format::Contacts),
             Some("svgz") => Err(CliError::CommandLine(format!(
                 "{} is packed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
@@ -190,7 +201,7 @@ impl Import {
                 self.drawing.display()
             ))),
             _ => Err(CliError::CommandLine(format!(
-                "the name {} does not tell what the drawing is written in; say --format svg, dxf, geojson or wkt",
+                "the name {} does not tell what the drawing is written in; say --format svg, dxf, geojson, wkt, contacts or compas",
                 self.drawing.display()
             ))),
         }

@@ -10,7 +10,7 @@ use crate::result::Timing;
 use crate::scene::format::Expectation;
 use crate::scene::{Frame, Scene};
 use crate::text::heading;
-use crate::wording::number::{digits, duration, letter, tenths};
+use crate::wording::number::{amount, duration, letter, tenths};
 use crate::wording::verdict::plain;
 use crate::wording::{capacity, failure, margin, proof};
 
@@ -287,8 +287,8 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
     vec![
         label,
         plain(frame.verdict).into(),
-        format!("{} N", digits(frame.weight)),
-        exists(format!("{} N", digits(largest.map_or(0.0, force)))),
+        amount(frame.weight, scene.units.force()),
+        exists(amount(largest.map_or(0.0, force), scene.units.force())),
         exists(between),
         exists(tenths(friction)),
         exists(match frame.robots.is_empty() {
@@ -299,15 +299,15 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
 }
 
 /// Writes the sums, the proof and the time in one line.
-fn sums(frame: &FrameAnalysis, timing: Timing) -> String {
+fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
     let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
         (true, _) => "unknown".into(),
         (_, true) => "none".into(),
-        _ => format!("{} N", digits(frame.total_sticking)),
+        _ => amount(frame.total_sticking, scene.units.force()),
     };
     let mut words = format!(
-        "forces {} N, sticking {sticking}; proof: {}",
-        digits(frame.total_force),
+        "forces {}, sticking {sticking}; proof: {}",
+        amount(frame.total_force, scene.units.force()),
         proof::short(frame.proof)
     );
     if timing == Timing::Included {
@@ -326,7 +326,7 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Detail::Full(timing) = detail {
-        remarks.push(sums(frame, timing));
+        remarks.push(sums(scene, frame, timing));
     }
     remarks.extend(match (state.expected, frame.verdict) {
         (Some(Expectation::Unstable), Verdict::Unstable) => Some("falls, as expected".to_owned()),

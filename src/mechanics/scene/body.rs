@@ -42,6 +42,8 @@ pub struct Body {
     pub gap: f64,
     /// The largest error of its coordinates, metres; 0 on a lattice.
     pub rounding: f64,
+    /// Whether the file gives no outline. The outline is then the hull of the centre and the contacts, for figures.
+    pub is_schematic: bool,
 }
 
 /// A part of the ground. It carries any load and never moves.
@@ -60,7 +62,7 @@ pub struct Block {
     pub id: String,
     /// Its body.
     pub body: Body,
-    /// Centroid of the polygon, where the weight acts; metres.
+    /// Centroid of the polygon, or the given centre, where the weight acts; metres.
     pub centroid: Point,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
@@ -125,6 +127,20 @@ pub struct Load {
     pub torque: f64,
     /// Whether it acts at the centroid because the file gives no point.
     pub(crate) at_centroid: bool,
+}
+
+/// A contact that the file lists: a point at which two bodies touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ListedContact {
+    /// The two bodies. The first is always a block; of two blocks it is the later one in the file.
+    pub bodies: [BodyId; 2],
+    /// The point, metres.
+    pub at: Point,
+    /// Unit normal into `bodies[0]`.
+    pub normal: Vector,
+    /// Friction coefficient.
+    pub friction: f64,
 }
 
 /// A material by name.

@@ -104,6 +104,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
                 may_be_meant: f.may_be_meant,
             },
             frame.as_deref(),
+            findings.units,
         )
         .at(problem::Place::Between(f.at, f.bodies[0]));
         findings.add(&list.index(block.0), wording);

@@ -2,6 +2,7 @@
 //!
 //! A block whose polygon could not be read is not also reported to have no polygon, or to overlap its neighbour.
 
+use super::format::UnitsEntry;
 use super::path::{Path, Segment, Trail};
 use super::problem::{self, Problem, SceneError, Wording};
 use super::source::{Mark, Source};
@@ -28,6 +29,8 @@ pub(super) struct Findings {
     pub(super) list: Vec<Finding>,
     /// Parts of the file that could not be read.
     pub(super) doubt: UnreadParts,
+    /// The units of the file, for messages.
+    pub(super) units: UnitsEntry,
 }
 
 impl Findings {
@@ -36,6 +39,7 @@ impl Findings {
         Findings {
             list: Vec::new(),
             doubt,
+            units: UnitsEntry::default(),
         }
     }
 

@@ -11,17 +11,19 @@ mod map;
 #[cfg(feature = "schema")]
 mod schema;
 mod step;
+mod unit;
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use body::{BlockEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry};
+pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry};
 pub(crate) use lines::Lines;
 pub use map::Map;
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
+pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 
 /// A position or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
@@ -51,6 +53,10 @@ pub struct SceneFile {
     /// Date of the calculation, for reports: any text. Reports never read a clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub date: Option<String>,
+    /// The units of this file: those of lengths and forces. Masses stay in kg, densities in kg/m³ and gravity in m/s².
+    /// Default: metres and newtons.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsEntry>,
     /// Gravity [x, y] in m/s². Weights act along it; at [0, 0] there are none. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
@@ -90,6 +96,10 @@ pub struct SceneFile {
     pub ground: Vec<GroundEntry>,
     /// The blocks.
     pub blocks: Vec<BlockEntry>,
+    /// The contacts between bodies, as points with a normal. If there are some, no other contacts are searched, and
+    /// outlines are only drawn.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<ContactEntry>,
     /// Robots, each of which can hold one block.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub robots: Vec<RobotEntry>,
@@ -154,6 +164,15 @@ impl SceneFile {
             .expect("plain structures with text keys always serialise into memory");
         bytes.push(b'\n');
         crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+    }
+}
+
+impl SceneFile {
+    /// Replaces the contact tolerance by one in metres, if there is one.
+    pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
+        let unit = self.units.unwrap_or_default().length();
+        let given = tolerance.map(|metres| unit.from_si(metres));
+        self.contact_tolerance = given.or(self.contact_tolerance);
     }
 }
 

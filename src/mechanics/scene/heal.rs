@@ -383,21 +383,24 @@ impl Scene {
             first_kept,
             ..
         } = self.healed;
-        let gap = self.tolerance.gap;
+        let unit = self.units.length();
+        let [gap, within, distance] =
+            [self.tolerance.gap, within, distance].map(|metres| unit.from_si(metres));
+        let unit = unit.symbol();
         let mut words = if within <= 0.0 {
-            format!("edges touch within {gap:.2e} m, a millionth of the scene's extent")
+            format!("edges touch within {gap:.2e} {unit}, a millionth of the scene's extent")
         } else if within < gap {
             format!(
-                "edges touch within {gap:.2e} m, a millionth of the scene's extent, and are joined within {within:.2e} m ({from})"
+                "edges touch within {gap:.2e} {unit}, a millionth of the scene's extent, and are joined within {within:.2e} {unit} ({from})"
             )
         } else {
-            format!("edges touch within {gap:.2e} m ({from})")
+            format!("edges touch within {gap:.2e} {unit} ({from})")
         };
         if corners > 0 {
             let of = if bodies == 1 { "body" } else { "bodies" };
             let corner = if corners == 1 { "corner" } else { "corners" };
             words += &format!(
-                "; {corners} {corner} of {bodies} {of} moved onto the edges they touch, by up to {distance:.1e} m"
+                "; {corners} {corner} of {bodies} {of} moved onto the edges they touch, by up to {distance:.1e} {unit}"
             );
         }
         if let Some(body) = first_kept {

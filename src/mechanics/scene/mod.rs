@@ -27,9 +27,11 @@ mod source;
 mod starter;
 mod syntax;
 mod tree;
+mod unit;
 
 pub use body::{
-    Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
+    Block, BlockId, Body, BodyId, Grip, Ground, Limits, ListedContact, Load, Material, Rgb, Robot,
+    RobotId,
 };
 pub use collision::Penetration;
 pub(crate) use fault::isolate;
@@ -43,6 +45,7 @@ pub use problem::{Code, Place, Problem, SceneError};
 pub use resolution::SketchedBody;
 pub use sketch::{Sketch, Spot};
 pub use starter::{falling_starter, starter};
+pub use unit::Unit;
 
 #[doc(inline)]
 pub use crate::geometry::{
@@ -61,6 +64,8 @@ pub struct Scene {
     pub(crate) project: String,
     /// Date of the calculation as written in the file, empty if the file gives none.
     pub(crate) date: String,
+    /// The units of the file, in which results are written for people. The scene itself is in metres and newtons.
+    pub(crate) units: format::UnitsEntry,
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
     pub(crate) gravity: Vector,
     /// Thickness of the structure perpendicular to the plane, metres.
@@ -93,6 +98,8 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
+    /// The contacts that the file lists. If there are some, no others are searched.
+    pub(crate) contacts: Vec<ListedContact>,
     /// Whether a corner that touches an edge or another corner carries force.
     pub(crate) corner_contacts: bool,
     /// The frames, one for each step; at least one.
@@ -124,6 +131,11 @@ impl Scene {
     /// Date of the calculation as written in the file, empty if the file gives none.
     pub fn date(&self) -> &str {
         &self.date
+    }
+
+    /// The units of the file, in which results are written for people. The scene itself is in metres and newtons.
+    pub fn units(&self) -> format::UnitsEntry {
+        self.units
     }
 
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
@@ -195,6 +207,16 @@ impl Scene {
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
     pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
         &self.friction_pairs
+    }
+
+    /// The contacts that the file lists. If there are some, no others are searched.
+    pub fn contacts(&self) -> &[ListedContact] {
+        &self.contacts
+    }
+
+    /// True if the file lists the contacts, so that no others are searched.
+    pub(crate) fn lists_contacts(&self) -> bool {
+        !self.contacts.is_empty()
     }
 
     /// Whether a corner that touches an edge or another corner carries force.

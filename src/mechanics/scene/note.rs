@@ -9,7 +9,7 @@ use super::format::{HoldEntry, Pair, SceneFile};
 use super::path::{Path, Trail};
 use super::problem::{Wording, codes, note as say};
 use super::source::{Mark, Source};
-use super::{BlockId, BodyId, RobotId, Scene};
+use super::{BlockId, Body, BodyId, RobotId, Scene};
 use crate::geometry::{Point, Polygon};
 
 /// Friction coefficients above this are probably mistakes: those of dry stone, brick, wood and rubber are lower.
@@ -117,7 +117,7 @@ pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -
     notes.loads(file);
     notes.unused(file);
     notes.weights(file);
-    if file.ground.is_empty() && !file.blocks.is_empty() {
+    if scene.ground.is_empty() && !file.blocks.is_empty() {
         let at = Trail::Top;
         notes.add(NoteCode::NoGround, &at.key("ground"), say::no_ground());
     }
@@ -226,10 +226,21 @@ impl Notes<'_> {
 
     fn grip(&mut self, path: &Trail<'_>, at: Pair, block: BlockId) {
         let held = &self.scene.blocks[block.0];
-        if let Some(distance) = outside(&held.body.polygon, at, held.body.gap) {
-            let wording = say::grip_outside(&held.id, at, distance);
+        if let Some(distance) = self.outside(&held.body, at) {
+            let unit = self.scene.units.length();
+            let wording = say::grip_outside(&held.id, at, distance, &unit.symbol());
             self.add(NoteCode::GripOutside, path, wording);
         }
+    }
+
+    /// The distance of a point from a body, both in the units of the file; `None` if it is on the body.
+    fn outside(&self, body: &Body, at: Pair) -> Option<f64> {
+        let unit = self.scene.units.length();
+        if body.is_schematic {
+            return None;
+        }
+        let at = at.map(|x| x * unit.size);
+        outside(&body.polygon, at, body.gap).map(|distance| unit.from_si(distance))
     }
 
     fn loads(&mut self, file: &SceneFile) {
@@ -237,9 +248,10 @@ impl Notes<'_> {
         for ((i, entry), load) in file.loads.iter().enumerate().zip(&self.scene.loads) {
             let loaded = &self.scene.blocks[load.block.0];
             if let Some(at) = entry.at
-                && let Some(distance) = outside(&loaded.body.polygon, at, loaded.body.gap)
+                && let Some(distance) = self.outside(&loaded.body, at)
             {
-                let wording = say::load_outside(&loaded.id, at, distance);
+                let unit = self.scene.units.length();
+                let wording = say::load_outside(&loaded.id, at, distance, &unit.symbol());
                 let loads = top.key("loads");
                 self.add(NoteCode::LoadOutside, &loads.index(i).key("at"), wording);
             }
@@ -287,7 +299,9 @@ impl Notes<'_> {
         let has_density =
             |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
         let light: Vec<usize> = (file.blocks.iter().enumerate())
-            .filter(|(_, b)| b.weight.is_none() && b.mass.is_none() && b.density.is_none())
+            .filter(|(_, b)| {
+                b.weight.is_none() && b.mass.is_none() && b.density.is_none() && b.centre.is_none()
+            })
             .filter(|(_, b)| !b.material.as_deref().is_some_and(has_density))
             .map(|(i, _)| i)
             .collect();

@@ -22,7 +22,7 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
             return false;
         }
         if x.abs() > LARGEST {
-            findings.add(at, problem::number::absurd(*x, LARGEST));
+            findings.add(at, problem::number::absurd(*x, LARGEST, findings.units));
             return false;
         }
     }
@@ -37,7 +37,7 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     }
     let largest = numbers.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
     if largest > 0.0 && largest < SMALLEST {
-        findings.add(at, problem::number::tiny(largest, SMALLEST));
+        findings.add(at, problem::number::tiny(largest, SMALLEST, findings.units));
         return false;
     }
     true

@@ -51,9 +51,10 @@ pub(super) fn polygon(
         Ok(polygon) => {
             let extent = polygon.bounds().diagonal();
             if extent < SMALLEST_EXTENT {
+                let units = findings.units;
                 findings.add(
                     &outer,
-                    problem::number::tiny_extent(extent, SMALLEST_EXTENT),
+                    problem::number::tiny_extent(extent, SMALLEST_EXTENT, units),
                 );
                 return None;
             }

@@ -48,7 +48,7 @@ impl Scene {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
         let (mut file, findings, doubt) = read(&source);
-        file.contact_tolerance = tolerance.or(file.contact_tolerance);
+        file.tolerate(tolerance);
         let all = match resolve(&file, doubt) {
             Ok(mut scene) if findings.is_empty() => {
                 scene.lines = Lines::new(&source);
@@ -160,14 +160,15 @@ mod tests {
         findings.is_empty().then_some(file)
     }
 
-    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "author": "A. Mason", "project": "Mill Lane", "date": "2026-11-23", "gravity": [1, -2], "friction": 0.5, "kernel": 0,
+    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "author": "A. Mason", "project": "Mill Lane", "date": "2026-11-23", "units": { "length": "mm", "force": "kN" }, "gravity": [1, -2], "friction": 0.5, "kernel": 0,
         "density": 2, "thickness": 3, "materials": { "oak": { "density": 700, "friction": 0.1, "fill": "#123" }, "b": {} },
         "friction_pairs": [{ "between": ["oak", "b"], "friction": 1e-3 }], "grid": { "kind": "square", "side": 2 },
         "shapes": { "s": { "polygon": [[0, 0], [1, 0], [1, 1]], "holes": [[[0.1, 0.1]]] }, "t": { "cells": [[0, 1]] } },
         "ground": [{ "shape": "s", "at": [1, 2], "angle": 90, "material": "b", "friction": 2, "fill": "#abc" },
                    { "polygon": [[0, 0]], "holes": [] }, { "cells": [[1, 2, "up"], [3, 4, "down"]] }],
         "blocks": [{ "id": "a", "polygon": [[0, 0]], "holes": [[[1, 2]]], "material": "oak", "weight": 1, "mass": 2, "density": 3,
-                     "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "cells": [[7, 8]] }, {}],
+                     "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "centre": [1, 2], "cells": [[7, 8]] }, {}],
+        "contacts": [{ "bodies": ["a", "ground"], "at": [1, 2], "normal": 90, "friction": 0.2 }],
         "robots": [{ "id": "r", "holds": "a", "at": [1, 1], "limits": { "fx": 1, "fy": 2, "torque": 3, "force": 4 } }, {}],
         "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5 }], "contact_tolerance": 1e-9,
         "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],

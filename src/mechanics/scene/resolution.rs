@@ -2,6 +2,7 @@
 
 mod body;
 mod closeness;
+mod contact;
 mod list;
 mod robot;
 mod sketch;
@@ -12,7 +13,7 @@ pub use self::sketch::SketchedBody;
 pub(super) use self::sketch::sketch;
 use super::collision::{self, Comparison, Penetration};
 use super::finding::{Finding, Findings, UnreadParts};
-use super::format::{self, Pair, SceneFile};
+use super::format::{self, Pair, SceneFile, UnitsEntry};
 use super::frame::{Frame, Hold};
 use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
@@ -22,6 +23,7 @@ use super::path::Trail;
 use super::play::{self, StepContext};
 use super::problem;
 use super::shape;
+use super::unit;
 use super::{Block, BlockId, BodyId, Ground, Material, Rgb, Robot, RobotId, Scene};
 use crate::geometry::{Lattice, LatticeKind, Point, Vector};
 
@@ -36,9 +38,13 @@ const GRAVITY: Pair = [0.0, -9.81];
 /// must then not use the scene.
 pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec<Finding>> {
     let mut findings = Findings::doubting(doubt);
+    findings.units = file.units.unwrap_or_default();
     let scene = Resolution::new(&mut findings, file).scene(&mut findings);
     match scene {
-        Some(scene) if findings.list.is_empty() => Ok(scene),
+        Some(mut scene) if findings.list.is_empty() => {
+            unit::to_si(&mut scene);
+            Ok(scene)
+        }
         _ => Err(findings.list),
     }
 }
@@ -46,6 +52,7 @@ pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec
 /// The values of the whole file that its bodies use.
 struct Resolution<'f> {
     file: &'f SceneFile,
+    units: UnitsEntry,
     gravity: Vector,
     kernel: f64,
     friction: f64,
@@ -83,6 +90,7 @@ impl<'f> Resolution<'f> {
         let (materials, shapes) = list_names(findings, file);
         let mut resolution = Resolution {
             file,
+            units: file.units.unwrap_or_default(),
             gravity,
             kernel,
             friction: at_least_zero(findings, &top, "friction", file.friction).unwrap_or(FRICTION),
@@ -110,10 +118,14 @@ impl<'f> Resolution<'f> {
     /// Returns the scene if all its bodies are valid. The calls are in the order in which problems are listed.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
+        let names = self.body_names(findings);
+        let mut contacts = self.contacts(findings, &names.blocks);
+        if self.has_schematic_bodies() {
+            self.add_schematic_outlines(&mut ground, &mut blocks, &mut contacts);
+        }
         let closeness = self.heal(findings, &mut ground, &mut blocks);
         self.check_ids(findings);
         let friction_pairs = self.friction_pairs(findings);
-        let names = self.body_names(findings);
         let centroids: Vec<Point> = (blocks.iter())
             .map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid))
             .collect();
@@ -130,6 +142,7 @@ impl<'f> Resolution<'f> {
             author: self.file.author.clone().unwrap_or_default(),
             project: self.file.project.clone().unwrap_or_default(),
             date: self.file.date.clone().unwrap_or_default(),
+            units: self.units,
             gravity: self.gravity,
             thickness: self.thickness,
             kernel: self.kernel,
@@ -145,7 +158,9 @@ impl<'f> Resolution<'f> {
             loads,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
-            corner_contacts: self.file.corner_contacts.unwrap_or(false),
+            // A listed contact acts at one point, like a corner.
+            corner_contacts: self.file.corner_contacts.unwrap_or(false) || !contacts.is_empty(),
+            contacts,
             frames,
             notes: Vec::new(),
             silenced: silenced(findings, self.file),
@@ -223,6 +238,9 @@ impl<'f> Resolution<'f> {
             .filter_map(|(i, g)| g.as_ref().map(|g| (BodyId::Ground(i), &g.body)));
         let blocks = (blocks.iter().enumerate())
             .filter_map(|(i, b)| b.as_ref().map(|b| (BodyId::Block(BlockId(i)), &b.body)));
+        if self.has_schematic_bodies() {
+            return Vec::new();
+        }
         let comparison = Comparison {
             bodies: grounds.chain(blocks).collect(),
             names: &self.ids,
@@ -305,7 +323,8 @@ fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option
         return None;
     }
     if side < SMALLEST_EXTENT {
-        findings.add(&at, problem::number::tiny_extent(side, SMALLEST_EXTENT));
+        let wording = problem::number::tiny_extent(side, SMALLEST_EXTENT, findings.units);
+        findings.add(&at, wording);
         return None;
     }
     let kind = match entry.kind {

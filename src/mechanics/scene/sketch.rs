@@ -2,13 +2,14 @@
 //!
 //! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
+use super::format::UnitsEntry;
 use super::problem::{Place, SceneError};
 use super::resolution::{self, SketchedBody};
 use super::source::Source;
 use super::{BlockId, BodyId, Scene, reading};
 use crate::geometry::{Bounds, Point};
 
-/// The outlines of a scene file, and its problems.
+/// The outlines of a scene file, and its problems. All coordinates are in the units of the file.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Sketch {
@@ -22,13 +23,15 @@ pub struct Sketch {
     pub places: Vec<Option<Spot>>,
     /// The scene, if each of its bodies is valid. The bodies may overlap.
     pub(crate) scene: Option<Scene>,
+    /// The units of the file, in which all coordinates of the sketch are.
+    pub(crate) units: UnitsEntry,
 }
 
 /// The place of a problem.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
-    /// The place, metres.
+    /// The place, in the units of the file.
     pub at: Point,
     /// The bodies that it concerns.
     pub bodies: Vec<BodyId>,
@@ -54,12 +57,14 @@ impl Sketch {
             problems: problems.unwrap_or_default(),
             places: Vec::new(),
             scene: None,
+            units: UnitsEntry::default(),
         };
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = String::from_utf8_lossy(bytes);
         if let Ok(source) = Source::parse(&text) {
             let (mut file, _, doubt) = reading::read(&source);
-            file.contact_tolerance = tolerance.or(file.contact_tolerance);
+            file.tolerate(tolerance);
+            sketch.units = file.units.unwrap_or_default();
             (sketch.bodies, sketch.scene) = resolution::sketch(&file, doubt);
             sketch.title = file.title.unwrap_or_default();
         }

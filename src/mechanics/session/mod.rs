@@ -10,7 +10,7 @@
 
 mod error;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use error::SessionError;
 
@@ -102,6 +102,7 @@ impl Session {
                 ground: Vec::new(),
                 robots: Vec::new(),
                 loads: Vec::new(),
+                contacts: Vec::new(),
                 ..file.clone()
             },
             lookup: Lookup::new(&scene),
@@ -338,7 +339,15 @@ impl Session {
 
     /// Reads all placed blocks again as one scene. If this fails, the current scene is kept.
     fn read_again(&mut self) -> Result<(), SceneError> {
-        let mut scene = Scene::new(self.file.clone())?;
+        let mut file = self.file.clone();
+        // Contacts of blocks that were removed do not exist.
+        let names: BTreeSet<&str> = (self.file.blocks.iter())
+            .filter_map(|b| b.id.as_deref())
+            .chain(["ground"])
+            .collect();
+        let exists = |name: &String| names.contains(name.as_str());
+        file.contacts.retain(|c| c.bodies.iter().all(exists));
+        let mut scene = Scene::new(file)?;
         self.lookup = Lookup::new(&scene);
         let grips = self.grips.iter();
         let holds = grips.filter_map(|(robot, (block, at))| {

@@ -7,6 +7,7 @@ use super::words::{counted, listed, quantity};
 use crate::drawing::Colour;
 use crate::drawing::arrow::{HEAD_LENGTH, head_size};
 use crate::geometry::{Point, Vector};
+use crate::scene::format::UnitsEntry;
 use crate::scene::{BodyId, RobotId};
 
 /// What a straight arrow shows.
@@ -151,7 +152,7 @@ pub struct Marks {
 impl Marks {
     /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
     /// all arrows are visible. `unit` is the unit edge in metres; `scale` is in pixels per metre.
-    pub(crate) fn unseen(&self, unit: f64, scale: f64) -> Option<String> {
+    pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
         let least = LEAST_SEEN / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
@@ -160,7 +161,10 @@ impl Marks {
         let torques = torques.filter(|t| t.arc.abs() < least).count();
         // One scale serves forces in N and torques in N·m.
         let amount = round_above(least / unit * self.newtons_per_unit);
-        let parts = [("force", forces, "N"), ("torque", torques, "N·m")];
+        let parts = [
+            ("force", forces, units.force()),
+            ("torque", torques, units.torque()),
+        ];
         let parts = parts.into_iter().filter(|part| part.1 > 0);
         let parts = parts.map(|(what, count, of)| {
             format!("{} under {}", counted(count, what), quantity(amount, of))

@@ -163,8 +163,9 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
         let number = sketch.problems.list.len().min(SHOWN) + i + 1;
         let name = |id| sketch.body(id).map_or("", |body| body.name.as_str());
         let words = format!(
-            "A gap of at most {} m between {} and {}, which carries nothing.",
+            "A gap of at most {} {} between {} and {}, which carries nothing.",
             digits(gap.distance),
+            sketch.units.length().symbol(),
             name(gap.bodies[0]),
             name(gap.bodies[1])
         );

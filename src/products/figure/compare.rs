@@ -151,7 +151,9 @@ impl PanelContent for Comparison {
             let [force_then, force_now] = change.forces;
             let at = camera.place(now.resultant.at);
             let pair = description::pair(scene, now.interface.bodies);
-            let [was, is] = change.amounts().map(|amount| quantity(amount, "N"));
+            let [was, is] = change
+                .amounts()
+                .map(|amount| quantity(amount, scene.units.force()));
             let title = format!("Between {pair}: {was} before, {is} now");
             ink.disc(at, radius + 1.0);
             let stroke = Stroke::new(theme.motion, 1.6);

@@ -15,7 +15,7 @@ pub(crate) fn block(
     place: usize,
     block: &Block,
 ) -> String {
-    let weight = quantity(block.weight, "N");
+    let weight = quantity(block.weight, context.analysis.scene.units.force());
     if !context.colours_show_amplitudes {
         return format!("weight {weight}");
     }
@@ -43,8 +43,14 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-    let (on, amount) = (named(arrow.on), force(arrow.force));
-    let torque = quantity(arrow.force.norm() * context.unit, "N·m");
+    let (on, amount) = (
+        named(arrow.on),
+        force(arrow.force, context.analysis.scene.units),
+    );
+    let torque = quantity(
+        arrow.force.norm() * context.unit,
+        context.analysis.scene.units.torque(),
+    );
     match arrow.kind {
         ArrowKind::Weight => format!("Weight of {on}: {amount}"),
         ArrowKind::Load => format!("Load on {on}: {amount}"),
@@ -80,7 +86,10 @@ pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     } else {
         "clockwise"
     };
-    let amount = format!("{} {direction}", quantity(turn.torque.abs(), "N·m"));
+    let amount = format!(
+        "{} {direction}",
+        quantity(turn.torque.abs(), context.analysis.scene.units.torque())
+    );
     let on = scene.name(turn.on);
     match turn.kind {
         TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),

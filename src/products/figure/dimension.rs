@@ -36,7 +36,7 @@ pub(crate) fn lines(
     let (page, measured) = (camera.rect(view), camera.rect(all));
     let size = theme.sizes.reason;
     let stroke = || Stroke::new(theme.faint, 0.8);
-    let words = |value: f64| quantity(value, "m");
+    let words = |value: f64| quantity(value, scene.units.length());
 
     let y = page.at.y + page.height + 0.5 * BELOW;
     let (left, right) = (measured.at.x, measured.at.x + measured.width);

@@ -9,6 +9,7 @@ use super::option::Fill;
 use super::words::quantity;
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::drawing::{Colour, PLASMA, Theme};
+use crate::scene::format::UnitsEntry;
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// The quantity that colours show, and its value for a share of 1.
@@ -34,6 +35,7 @@ pub(crate) struct Fills {
     /// For each frame the shares of its placed blocks, in placing order.
     pub shares: Vec<Vec<f64>>,
     rule: Fill,
+    units: UnitsEntry,
 }
 
 impl Fills {
@@ -62,6 +64,7 @@ impl Fills {
             scale,
             shares,
             rule,
+            units: scene.units,
         }
     }
 
@@ -90,19 +93,19 @@ impl Fills {
         let ends = |most: String| ["0".to_owned(), most];
         match self.scale {
             FillScale::Limit(limit) => {
-                let limit = quantity(limit, "N");
+                let limit = quantity(limit, self.units.force());
                 let what = format!("of the robots' limit of {limit}, the source's rule");
                 (ends("100 %".into()), what)
             }
             FillScale::Largest(largest) => (
-                ends(quantity(largest, "N")),
+                ends(quantity(largest, self.units.force())),
                 "weight or largest normal force of a block".into(),
             ),
             FillScale::Stress(largest, thickness) => {
-                let thickness = quantity(thickness, "m");
+                let thickness = quantity(thickness, self.units.length());
                 let what =
                     format!("largest mean pressure on a joint of a block, {thickness} thick");
-                (ends(quantity(largest, "N/m²")), what)
+                (ends(quantity(largest, self.units.stress())), what)
             }
             FillScale::Friction => (
                 ends("100 %".into()),
@@ -118,11 +121,13 @@ impl Fills {
             FillScale::Limit(limit) => format!(
                 "colour: {:.1} % of the robots' limit of {}",
                 100.0 * share,
-                quantity(limit, "N")
+                quantity(limit, self.units.force())
             ),
-            FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
+            FillScale::Largest(largest) => {
+                format!("colour: {}", quantity(share * largest, self.units.force()))
+            }
             FillScale::Stress(largest, _) => {
-                format!("colour: {}", quantity(share * largest, "N/m²"))
+                format!("colour: {}", quantity(share * largest, self.units.stress()))
             }
             FillScale::Friction => {
                 format!("colour: {:.1} % of the friction available", 100.0 * share)

@@ -325,7 +325,7 @@ impl<'a> Picture<'a> {
             Callout {
                 at: self.pen.camera.place(contact.resultant.at),
                 clear: 0.5 * self.scale * force + 3.0,
-                words: format!("largest: {}", quantity(force, "N")),
+                words: format!("largest: {}", quantity(force, self.scene.units.force())),
                 colour: carried(self.theme, self.found.verdict),
             }
         };

@@ -175,8 +175,8 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
         let pair = description::pair(scene, contact.interface.bodies);
         let title = format!(
             "Between {pair}: {} of {} safe",
-            quantity((1.0 - scene.kernel) * length, "m"),
-            quantity(length, "m")
+            quantity((1.0 - scene.kernel) * length, scene.units.length()),
+            quantity(length, scene.units.length())
         );
         let mut drawn = Group::with_class("interface").titled(title);
         if !rests.segments.is_empty() {
@@ -223,7 +223,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
             continue;
         }
         let pair = description::pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.resultant.force.norm(), "N");
+        let amount = quantity(contact.resultant.force.norm(), scene.units.force());
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             let share = percent(share);
             format!(", {share} of the way from the middle to the end of the safe stretch")

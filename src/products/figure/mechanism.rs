@@ -251,7 +251,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         .map(|(id, motion)| {
             let title = description::motion(scene, motion);
             let mut group = Group::with_class("displaced").titled(title);
-            let weight = quantity(scene.blocks[id.0].weight, "N");
+            let weight = quantity(scene.blocks[id.0].weight, scene.units.force());
             group.description = format!("weight {weight}");
             drawn(group, outline(id))
         })

@@ -1,5 +1,6 @@
 //! [`Pen`]: draws the parts of a frame's picture: ground, blocks, plans and robots here, arrows in `pen/stroke`.
 
+mod listed;
 mod stroke;
 
 use super::arrow::ForceArrow;
@@ -219,13 +220,17 @@ impl<'a> Pen<'a> {
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
             body = body.with(Path::stroked(seams, self.seam(fill)));
-            group.items.push(
-                body.with(Path::stroked(
-                    outline,
-                    Stroke::new(theme.outline, self.line),
-                ))
-                .into(),
-            );
+            let mut edge = Stroke::new(theme.outline, self.line);
+            if block.body.is_schematic {
+                edge = edge.dashed([4.0, 3.0]);
+                body = body.with(self.centre(block.centroid));
+            }
+            group
+                .items
+                .push(body.with(Path::stroked(outline, edge)).into());
+        }
+        if scene.lists_contacts() {
+            group.items.push(self.listed_contacts().into());
         }
         group
     }

@@ -47,6 +47,7 @@ impl<'n> SheetShape<'n> {
             fill: None,
             gap: 0.0,
             rounding: 0.0,
+            is_schematic: false,
         };
         Some(SheetShape { name, body, view })
     }

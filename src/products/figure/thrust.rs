@@ -122,7 +122,7 @@ impl PanelContent for ThrustLine {
         if context.options.scale == ArrowScale::Strip {
             entries.extend(legend::shared_scale(context, unit));
         }
-        let largest = quantity(largest(context), "N");
+        let largest = quantity(largest(context), context.analysis.scene.units.force());
         if stands {
             let line = match central(context) {
                 Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),

@@ -274,12 +274,12 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
     let pair = description::pair(scene, contact.interface.bodies);
-    let pressed = quantity(bearing.pressed, "N");
+    let pressed = quantity(bearing.pressed, scene.units.force());
     let title = match bearing.friction {
         Some(share) => format!(
             "Between {pair}: {} of the friction available, {} under {pressed}",
             percent(share),
-            quantity(contact.friction_force.abs(), "N"),
+            quantity(contact.friction_force.abs(), scene.units.force()),
         ),
         None => format!("Between {pair}: {pressed}, no friction available"),
     };

@@ -23,6 +23,7 @@ fn scene() -> Scene {
         fill: None,
         gap: 3e-6,
         rounding: 0.0,
+        is_schematic: false,
     };
     let block = |id: &str| Block {
         id: id.into(),
@@ -36,6 +37,7 @@ fn scene() -> Scene {
         author: String::new(),
         project: String::new(),
         date: String::new(),
+        units: Default::default(),
         gravity: Vector::new(0.0, -9.81),
         thickness: 1.0,
         kernel: 0.0,
@@ -55,6 +57,7 @@ fn scene() -> Scene {
         loads: vec![],
         materials: vec![],
         friction_pairs: vec![],
+        contacts: Vec::new(),
         corner_contacts: false,
         frames: vec![Step {
             title: "Only".into(),

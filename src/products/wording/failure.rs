@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::number::{NO_BREAK, digits, listed, place, quantity};
+use super::number::{self, NO_BREAK, digits, listed, place, quantity};
 use crate::analysis::{Failure, FrameAnalysis};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::scene::{BlockId, BodyId, Scene, Unit};
 
 /// At most this many unsupported blocks are named; the rest is counted.
 const MAX_LISTED_BLOCKS: usize = 6;
@@ -45,28 +45,30 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
 
 /// Describes a failure and its place, as a sentence without a full stop.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
+    let units = scene.units;
+    let newtons = |value: f64| number::amount(value, units.force());
     match *failure {
         Failure::Tension {
             bodies: [a, b],
             at,
             force,
         } => format!(
-            "{} comes off {} at {}: to hold it would need a pull of {} N",
+            "{} comes off {} at {}: to hold it would need a pull of {}",
             scene.name(a),
             scene.name(b),
-            place(at),
-            digits(force.norm())
+            place(at, units),
+            newtons(force.norm())
         ),
         Failure::Friction {
             bodies: [a, b],
             at,
             force,
         } => format!(
-            "{} slides along {} at {}: to hold it would need {} N more than friction can give",
+            "{} slides along {} at {}: to hold it would need {} more than friction can give",
             scene.name(a),
             scene.name(b),
-            place(at),
-            digits(force.norm())
+            place(at, units),
+            newtons(force.norm())
         ),
         Failure::RobotForce {
             robot,
@@ -74,11 +76,12 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             force,
             ..
         } => format!(
-            "robot {} cannot hold {}: it would have to give ({}, {}) N beyond its limits",
+            "robot {} cannot hold {}: it would have to give ({}, {}) {} beyond its limits",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            digits(force.x),
-            digits(force.y)
+            digits(units.force().from_si(force.x)),
+            digits(units.force().from_si(force.y)),
+            units.force().symbol()
         ),
         Failure::RobotTorque {
             robot,
@@ -86,10 +89,10 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             torque,
             ..
         } => format!(
-            "robot {} cannot hold {}: it would have to give {} N·m beyond its limit",
+            "robot {} cannot hold {}: it would have to give {} beyond its limit",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            digits(torque)
+            number::amount(torque, units.torque())
         ),
     }
 }
@@ -99,22 +102,22 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     match failure {
         Failure::Tension { bodies, force, .. } => format!(
             "a pull of {} between {}",
-            unbroken(force.norm(), "N"),
+            unbroken(force.norm(), scene.units.force()),
             pair(scene, *bodies)
         ),
         Failure::Friction { bodies, force, .. } => format!(
             "friction of {} between {}",
-            unbroken(force.norm(), "N"),
+            unbroken(force.norm(), scene.units.force()),
             pair(scene, *bodies)
         ),
         Failure::RobotForce { robot, force, .. } => format!(
             "a force of {} from robot{NO_BREAK}{}",
-            unbroken(force.norm(), "N"),
+            unbroken(force.norm(), scene.units.force()),
             scene.robots[robot.0].id
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
             "a torque of {} from robot{NO_BREAK}{}",
-            unbroken(torque.abs(), "N·m"),
+            unbroken(torque.abs(), scene.units.torque()),
             scene.robots[robot.0].id
         ),
     }
@@ -125,7 +128,7 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
 pub fn missing_sentence(
     scene: &Scene,
     failure: &Failure,
-    write: &dyn Fn(f64, &str) -> String,
+    write: &dyn Fn(f64, Unit) -> String,
 ) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
@@ -137,7 +140,7 @@ pub fn missing_sentence(
             "{} would have to stick to {} with {}",
             named(a),
             named(b),
-            write(force.norm(), "N")
+            write(force.norm(), scene.units.force())
         ),
         Failure::Friction {
             bodies: [a, b],
@@ -147,17 +150,17 @@ pub fn missing_sentence(
             "{} slides along {}, and friction would have to give {} more",
             named(a),
             named(b),
-            write(force.norm(), "N")
+            write(force.norm(), scene.units.force())
         ),
         Failure::RobotForce { robot, force, .. } => format!(
             "robot {} would have to give {} more",
             scene.robots[robot.0].id,
-            write(force.norm(), "N")
+            write(force.norm(), scene.units.force())
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
             "robot {} would have to give a torque of {}",
             scene.robots[robot.0].id,
-            write(torque.abs(), "N·m")
+            write(torque.abs(), scene.units.torque())
         ),
     }
 }
@@ -245,6 +248,6 @@ pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
 }
 
 /// Writes a number and its unit, joined by no-break spaces.
-fn unbroken(value: f64, unit: &str) -> String {
+fn unbroken(value: f64, unit: Unit) -> String {
     quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

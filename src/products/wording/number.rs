@@ -1,12 +1,42 @@
 //! Formats numbers with units and directions.
 
 use crate::geometry::{Point, Vector};
+use crate::scene::Unit;
+use crate::scene::format::UnitsEntry;
 
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// Writes a value with three significant digits, an SI prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
-pub fn quantity(value: f64, unit: &str) -> String {
+/// Writes a value in an SI unit with three significant digits, a prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
+/// In a unit that the scene chooses there is no prefix: `0.0024 kN`.
+pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
+    let unit = unit.into();
+    match unit.is_chosen {
+        true => in_chosen_unit(unit.from_si(value), &unit.symbol()),
+        false => with_prefix(value, &unit.symbol()),
+    }
+}
+
+/// Writes a number with three significant digits and its unit, without a prefix.
+fn in_chosen_unit(value: f64, unit: &str) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return with_prefix(value, unit);
+    }
+    // Equal forces get equal digits: see `with_prefix`.
+    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
+    let sign = if value < 0.0 { "−" } else { "" };
+    let size: f64 = rounded.parse().unwrap_or(value);
+    if (1e-4..1e7).contains(&size) {
+        // The shortest decimal that reads back as the rounded number.
+        return format!("{sign}{size} {unit}");
+    }
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+    let exponent = superscript(exponent.parse().unwrap_or(0));
+    format!("{sign}{mantissa}×10{exponent} {unit}")
+}
+
+fn with_prefix(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 {
             format!("0 {unit}")
@@ -63,10 +93,10 @@ fn superscript(value: i32) -> String {
 }
 
 /// Writes the norm and direction of a force: `7.1 N at 30°`, anticlockwise from the positive x axis.
-pub fn force(force: Vector) -> String {
+pub fn force(force: Vector, units: UnitsEntry) -> String {
     // Round before reducing to 0 … 359, so that an angle just below 0 gives 0° and neither −0° nor 360°.
     let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
-    format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
+    format!("{} at {degrees:.0}°", quantity(force.norm(), units.force()))
 }
 
 /// Writes an angle in degrees with two digits: `5.3°`, `12°`.
@@ -113,6 +143,14 @@ pub fn round_below(value: f64) -> f64 {
         _ => '1',
     };
     format!("{lead}e{exponent}").parse().unwrap_or(0.0)
+}
+
+/// Like [`round_below`], for a number in an SI unit that is round in another unit.
+pub fn round_below_in(value: f64, unit: Unit) -> f64 {
+    match unit.size {
+        1.0 => round_below(value),
+        size => size * round_below(unit.from_si(value)),
+    }
 }
 
 /// Joins parts to a list: `a`, `a and b`, `a, b and c`.
@@ -226,9 +264,17 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Writes a point in metres: `(2, 1.5) m`.
-pub fn place(p: Point) -> String {
-    format!("({}, {}) m", digits(p.x), digits(p.y))
+/// Writes a point: `(2, 1.5) m`.
+pub fn place(p: Point, units: UnitsEntry) -> String {
+    let unit = units.length();
+    let [x, y] = [p.x, p.y].map(|x| digits(unit.from_si(x)));
+    format!("({x}, {y}) {}", unit.symbol())
+}
+
+/// Writes a value with four significant digits and its unit, without a prefix: `1234 N`.
+pub fn amount(value: f64, unit: impl Into<Unit>) -> String {
+    let unit = unit.into();
+    format!("{} {}", digits(unit.from_si(value)), unit.symbol())
 }
 
 #[cfg(test)]
@@ -261,6 +307,29 @@ mod tests {
     }
 
     #[test]
+    fn a_chosen_unit_has_no_prefix() {
+        use crate::scene::format::{ForceUnit, LengthUnit};
+        let units = UnitsEntry::default()
+            .of_length(LengthUnit::Millimetre)
+            .of_force(ForceUnit::Kilonewton);
+        let cases = [
+            (2400.0, units.force(), "2.4 kN"),
+            (-2.4, units.force(), "−0.0024 kN"),
+            (0.012_345, units.force(), "1.23×10⁻⁵ kN"),
+            (12.3456, units.length(), "12300 mm"),
+            (0.0, units.length(), "0 mm"),
+            (2.5e6, units.stress(), "0.0025 kN/mm²"),
+            (3.0, units.torque(), "3 kN·mm"),
+        ];
+        for (value, unit, expected) in cases {
+            assert_eq!(quantity(value, unit), expected);
+        }
+        assert_eq!(place(Point::new(0.25, -1.0), units), "(250, -1000) mm");
+        assert_eq!(round_below_in(7.0, units.length()), 5.0);
+        assert_eq!(amount(1500.0, units.force()), "1.5 kN");
+    }
+
+    #[test]
     fn a_column_has_one_prefix() {
         assert_eq!(prefixed(184_439.0, "N"), ("kN".to_owned(), 1e-3));
         assert_eq!(prefixed(60.0, "N"), ("N".to_owned(), 1.0));
@@ -278,9 +347,18 @@ mod tests {
 
     #[test]
     fn directions_go_anticlockwise_from_the_right() {
-        assert_eq!(force(Vector::new(0.0, -6.0)), "6 N at 270°");
-        assert_eq!(force(Vector::new(3.0, 3.0)), "4.24 N at 45°");
-        assert_eq!(force(Vector::new(1.0, -1e-9)), "1 N at 0°");
+        assert_eq!(
+            force(Vector::new(0.0, -6.0), UnitsEntry::default()),
+            "6 N at 270°"
+        );
+        assert_eq!(
+            force(Vector::new(3.0, 3.0), UnitsEntry::default()),
+            "4.24 N at 45°"
+        );
+        assert_eq!(
+            force(Vector::new(1.0, -1e-9), UnitsEntry::default()),
+            "1 N at 0°"
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, uns
 use super::number::{listed, quantity};
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::scene::Scene;
+use crate::scene::Unit;
 
 /// A sentence names at most this many failures and counts the rest.
 const MAX_FAILURES_IN_SENTENCE: usize = 4;
@@ -66,13 +67,13 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 /// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty if it
 /// stands otherwise.
 pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
-    reasons_with(scene, found, &quantity)
+    reasons_with(scene, found, &|value, unit| quantity(value, unit))
 }
 
 fn reasons_with(
     scene: &Scene,
     found: &FrameAnalysis,
-    write: &dyn Fn(f64, &str) -> String,
+    write: &dyn Fn(f64, Unit) -> String,
 ) -> String {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, found));
@@ -95,14 +96,14 @@ fn reasons_with(
 
 /// Writes a sentence with the verdict and its reasons, for readers who do not program.
 pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
-    sentence_with(scene, found, &quantity)
+    sentence_with(scene, found, &|value, unit| quantity(value, unit))
 }
 
 /// The same; `write` writes an amount with its unit.
 pub fn sentence_with(
     scene: &Scene,
     found: &FrameAnalysis,
-    write: &dyn Fn(f64, &str) -> String,
+    write: &dyn Fn(f64, Unit) -> String,
 ) -> String {
     match found.verdict {
         Verdict::Stable if found.only_by_wedging == Some(true) => {

@@ -1,4 +1,4 @@
-//! Imports drawings as scene files: SVG, DXF, GeoJSON or well-known text.
+//! Imports drawings as scene files: SVG, DXF, GeoJSON or well-known text. Also imports contact lists and assemblies of COMPAS.
 //!
 //! | step | file |
 //! |---|---|
@@ -19,6 +19,8 @@ mod degrees;
 mod draft;
 mod dxf;
 mod scene_file;
+mod compas;
+mod contact_list;
 mod scale;
 mod snapping;
 mod geojson;
@@ -59,6 +61,23 @@ pub enum Format {
     GeoJson,
     /// Well-known text: one geometry per line.
     Wkt,
+    /// A list of bodies with mass and centre, and of their contacts: rows of numbers, or JSON.
+    Contacts,
+    /// An assembly of `compas_assembly`, as JSON.
+    Compas,
+}
+
+impl Format {
+    /// Returns the format of a JSON text by its content: a contact list, an assembly of COMPAS, or else GeoJSON.
+    pub fn of_json(text: &str) -> Format {
+        if contact_list::is_contact_list(text) {
+            Format::Contacts
+        } else if compas::is_assembly(text) {
+            Format::Compas
+        } else {
+            Format::GeoJson
+        }
+    }
 }
 
 /// The options of an import, and the properties of a scene that no drawing contains.
@@ -183,8 +202,39 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
             "--frame needs a figure by drystone; this drawing has no frames".into(),
         ));
     }
-    let draft = with_ground(text, format, options).map_err(refused)?;
-    build_scene(draft, options)
+    match format {
+        Format::Contacts => complete(contact_list::read(text, options)),
+        Format::Compas => complete(compas::read(text, options)),
+        _ => {
+            let draft = with_ground(text, format, options).map_err(refused)?;
+            build_scene(draft, options)
+        }
+    }
+}
+
+/// Checks a scene that was not read from a drawing.
+fn complete(
+    read: Result<(SceneFile, Vec<String>), Vec<Remark>>,
+) -> Result<Imported, DrawingProblems> {
+    let refused = |problems: Vec<Remark>| DrawingProblems {
+        problems,
+        remarks: Vec::new(),
+    };
+    let (scene, notes) = read.map_err(refused)?;
+    if let Err(problems) = Scene::from_json(&scene.to_json()) {
+        let remark = |p: &crate::scene::Problem| Remark {
+            element: p.path.clone(),
+            message: p.message.clone(),
+            help: p.help.clone(),
+        };
+        return Err(refused(problems.list.iter().map(remark).collect()));
+    }
+    Ok(Imported {
+        scene,
+        notes,
+        remarks: Vec::new(),
+        snapped: Vec::new(),
+    })
 }
 
 /// Reads the drawing. A drawing without ground is read again, with words such as "abutment" for the ground.
@@ -256,6 +306,7 @@ fn read_draft(
             scaled(&|metres| geojson::read(text, metres, is_given, naming))
         }
         Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
+        Format::Contacts | Format::Compas => Err("it is not a drawing".into()),
     }
 }
 

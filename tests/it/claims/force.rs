@@ -88,7 +88,7 @@ fn the_blocks_of_a_frame_are_those_placed_with_their_weights_and_outlines() {
     let analysis = Analysis::new(&scene);
     let written = to_json_with_blocks(None, &analysis, Timing::LeftOut, Layout::OneLine);
     let result: Value = serde_json::from_str(&written).expect("JSON");
-    let blocks = |frame: usize| list(&result["frames"][frame]["blocks"]).clone();
+    let blocks = |frame: usize| list(&result["frames"][frame]["blocks"]).to_vec();
     assert_eq!(blocks(0).len(), 1);
     assert_eq!(
         blocks(1),

@@ -117,7 +117,7 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
             file(json!({ "zzzzzz": 1 })),
             Refused(
                 "unknown_key",
-                "known keys are author, blocks, contact_tolerance, corner_contacts",
+                "known keys are author, blocks, contact_tolerance, contacts, corner_contacts",
             ),
         ),
         Claim(
@@ -291,6 +291,31 @@ fn defaults_and_units_are_those_of_the_page() {
             "Torque in N·m, anticlockwise positive. Default 0.",
             pushed(json!({ "block": "a", "torque": 1 })),
             Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0])),
+        ),
+        Claim(
+            "With `\"units\": { \"length\": \"mm\", \"force\": \"kN\" }` all lengths of the file are in millimetres",
+            json!({ "drystone": 1, "units": { "length": "mm", "force": "kN" },
+                "ground": [{ "polygon": rectangle(-2000.0, -1000.0, 6000.0, 1000.0) }],
+                "blocks": [{ "polygon": rectangle(0.0, 0.0, 1000.0, 1000.0), "weight": 3 }] }),
+            Result(
+                "/frames/0/interfaces/0/resultant",
+                json!({ "at": [0.5, 0.0], "force": [0.0, 3000.0] }),
+            ),
+        ),
+        Claim(
+            "Masses stay in kg, densities in kg/m³ and gravity in m/s².",
+            json!({ "drystone": 1, "units": { "length": "mm", "force": "kN" }, "density": 1000, "thickness": 500,
+                "ground": [{ "polygon": rectangle(-2000.0, -1000.0, 6000.0, 1000.0) }],
+                "blocks": [{ "polygon": rectangle(0.0, 0.0, 1000.0, 1000.0) }] }),
+            Result(WEIGHT, json!(4905.0)),
+        ),
+        Claim(
+            "The unit of torques is the unit of forces times that of lengths: kN·mm.",
+            json!({ "drystone": 1, "units": { "length": "mm", "force": "kN" },
+                "ground": [{ "polygon": rectangle(-2000.0, -1000.0, 6000.0, 1000.0) }],
+                "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 1000.0, 1000.0), "weight": 1 }],
+                "loads": [{ "block": "a", "torque": 100 }] }),
+            Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0.0])),
         ),
         Claim(
             "Edge length of a cell in metres, more than 0. Default 1.",

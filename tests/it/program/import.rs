@@ -66,7 +66,9 @@ fn standard_input_and_output_want_the_format() {
     let untold = bench.run_with("import -", DRAWING.as_bytes());
     assert_eq!(untold.code, 2);
     assert!(
-        untold.err.contains("say --format svg, dxf, geojson or wkt"),
+        untold
+            .err
+            .contains("say --format svg, dxf, geojson, wkt, contacts or compas"),
         "{}",
         untold.err
     );

@@ -68,6 +68,14 @@ fn every_command_of_the_page_does_its_work() {
             "bridge.dxf",
             include_str!("../../../assets/import/arch.dxf"),
         ),
+        (
+            "contacts.csv",
+            include_str!("../../../assets/import/contacts.csv"),
+        ),
+        (
+            "assembly-compas.json",
+            include_str!("../../../assets/import/compas.json"),
+        ),
     ] {
         fs::write(bench.path(name), text).expect("writable");
     }

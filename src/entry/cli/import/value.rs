@@ -11,6 +11,8 @@ pub(super) enum WrittenIn {
     Dxf,
     Geojson,
     Wkt,
+    Contacts,
+    Compas,
 }
 
 /// A unit of length in drawings.

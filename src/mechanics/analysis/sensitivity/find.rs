@@ -35,7 +35,11 @@ pub(in crate::mechanics::analysis) fn find(
         MarginKind::LoadFactor => &intervals.load_factor,
         MarginKind::Robots => &None,
     };
-    let (low, high) = match interval {
+    // Listed contacts do not follow the corners of schematic outlines.
+    let (low, high) = match interval
+        .as_ref()
+        .filter(|_| !context.scene.lists_contacts())
+    {
         None => (
             Err(NoSensitivity::NotApplicable),
             Err(NoSensitivity::NotApplicable),

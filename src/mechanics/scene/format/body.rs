@@ -53,7 +53,8 @@ pub struct GroundEntry {
     pub fill: Option<String>,
 }
 
-/// A rigid block; one of `polygon`, `cells` and `shape` gives its outline.
+/// A rigid block; one of `polygon`, `cells` and `shape` gives its outline. A block with listed `contacts` may give its
+/// `centre` instead.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -91,6 +92,10 @@ pub struct BlockEntry {
     /// Name of its material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Point [x, y] in metres at which the weight acts, for a block without an outline. Such a block needs a `mass` or a
+    /// `weight`, and touches other bodies only at the `contacts` of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre: Option<Pair>,
     /// Weight in newtons along gravity, at least 0. Takes precedence over `mass` and `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
@@ -156,6 +161,24 @@ pub struct LimitsEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub force: Option<f64>,
+}
+
+/// A point at which two bodies touch, in a scene that lists its contacts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct ContactEntry {
+    /// Names of the two bodies; `ground` is the ground.
+    pub bodies: [String; 2],
+    /// The point [x, y] in metres.
+    pub at: Pair,
+    /// Direction of the normal, which points into the first body: degrees anticlockwise from the x axis.
+    pub normal: f64,
+    /// Friction coefficient, at least 0. Default: that of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
+    pub friction: Option<f64>,
 }
 
 /// A load on a block, in addition to its weight.

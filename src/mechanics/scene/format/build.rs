@@ -5,9 +5,9 @@
 //! once.
 
 use super::{
-    BlockEntry, CellEntry, FrictionPairEntry, GridEntry, GridKind, GripEntry, GroundEntry,
-    HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry,
-    StepEntry,
+    BlockEntry, CellEntry, ContactEntry, ForceUnit, FrictionPairEntry, GridEntry, GridKind,
+    GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair,
+    RobotEntry, SceneFile, ShapeEntry, StepEntry, UnitsEntry,
 };
 use crate::scene::{NoteCode, Scene, SceneError};
 
@@ -93,6 +93,12 @@ impl SceneFile {
         date, "Date of the calculation, for reports: any text.";
     }
 
+    /// Sets the units of the lengths and forces of the scene.
+    pub fn units(mut self, length: LengthUnit, force: ForceUnit) -> Self {
+        self.units = Some(UnitsEntry::default().of_length(length).of_force(force));
+        self
+    }
+
     /// Sets the lattice and the edge length of its cells in metres.
     pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
         let side = Some(side);
@@ -135,6 +141,12 @@ impl SceneFile {
     /// Adds a robot.
     pub fn robot(mut self, robot: RobotEntry) -> Self {
         self.robots.push(robot);
+        self
+    }
+
+    /// Adds a contact. If a scene lists contacts, no others are searched.
+    pub fn contact(mut self, contact: ContactEntry) -> Self {
+        self.contacts.push(contact);
         self
     }
 
@@ -191,6 +203,7 @@ impl BlockEntry {
 
     body!();
     optional_setters! {
+        centre: Pair, "Point [x, y] in metres at which the weight acts, for a block without an outline.";
         weight: f64, "Weight in newtons along gravity, at least 0. Takes precedence over mass and density.";
         mass: f64, "Mass in kg, at least 0. Takes precedence over density.";
         density: f64, "Its own density in kg/m³, at least 0.";
@@ -222,6 +235,28 @@ impl LimitsEntry {
         fy: f64, "Largest vertical force in newtons, at least 0.";
         torque: f64, "Largest torque in N·m, at least 0.";
         force: f64, "Limit for `fx` and `fy` if they are not given; newtons, at least 0.";
+    }
+}
+
+impl ContactEntry {
+    /// Creates a contact of two bodies at a point [x, y] in metres. The normal points into the first body; it is given
+    /// in degrees anticlockwise from the x axis. The name `ground` stands for the ground.
+    pub fn between(
+        first: impl Into<String>,
+        second: impl Into<String>,
+        at: Pair,
+        normal: f64,
+    ) -> ContactEntry {
+        ContactEntry {
+            bodies: [first.into(), second.into()],
+            at,
+            normal,
+            friction: None,
+        }
+    }
+
+    optional_setters! {
+        friction: f64, "Friction coefficient, at least 0; that of the scene otherwise.";
     }
 }
 

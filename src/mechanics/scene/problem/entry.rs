@@ -174,3 +174,11 @@ pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
         help,
     )
 }
+
+pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {
+    say(
+        Code::UnknownChoice,
+        "a contact of a body with itself",
+        "name two different bodies; `ground` is the ground",
+    )
+}

@@ -21,15 +21,16 @@ pub(in crate::mechanics::scene) fn grip_outside(
     block: &str,
     at: [f64; 2],
     distance: f64,
+    unit: &str,
 ) -> Wording {
     note(
         format!(
-            "the grip point {} lies {} m outside the block `{}`",
+            "the grip point {} lies {} {unit} outside the block `{}`",
             pair(at),
             digits(distance),
             shortened(block)
         ),
-        "give a point of the block in metres, or leave `at` out for its centroid",
+        "give a point of the block, or leave `at` out for its centroid",
     )
 }
 
@@ -37,15 +38,16 @@ pub(in crate::mechanics::scene) fn load_outside(
     block: &str,
     at: [f64; 2],
     distance: f64,
+    unit: &str,
 ) -> Wording {
     note(
         format!(
-            "the load acts at {}, {} m outside the block `{}`",
+            "the load acts at {}, {} {unit} outside the block `{}`",
             pair(at),
             digits(distance),
             shortened(block)
         ),
-        "give a point of the block in metres, or leave `at` out for its centroid",
+        "give a point of the block, or leave `at` out for its centroid",
     )
 }
 

@@ -1,5 +1,7 @@
 //! The messages about numbers and colours.
 
+use crate::scene::format::UnitsEntry;
+
 use super::{Code, Wording, digits, say, shortened};
 
 pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
@@ -18,15 +20,24 @@ pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64) -> Wording {
+pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
     say(
         Code::TooLarge,
         format!("the number {} is beyond ±{}", digits(x), digits(largest)),
-        "check the units: metres, kilograms, newtons",
+        check_units(units),
     )
 }
 
-pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64) -> Wording {
+/// Returns the remedy for a number of a strange size.
+fn check_units(units: UnitsEntry) -> String {
+    format!(
+        "check the units: {}, kilograms, {}",
+        units.length.unwrap_or_default().name(),
+        units.force.unwrap_or_default().name()
+    )
+}
+
+pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry) -> Wording {
     say(
         Code::TooSmall,
         format!(
@@ -34,19 +45,27 @@ pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64) -> Wording {
             digits(x),
             digits(smallest)
         ),
-        "write 0, or check the units: metres, kilograms, newtons",
+        format!("write 0, or {}", check_units(units)),
     )
 }
 
-pub(in crate::mechanics::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wording {
+pub(in crate::mechanics::scene) fn tiny_extent(
+    extent: f64,
+    smallest: f64,
+    units: UnitsEntry,
+) -> Wording {
+    let unit = units.length().symbol();
     say(
         Code::TooSmall,
         format!(
-            "its extent is {} m, less than {} m",
+            "its extent is {} {unit}, less than {} {unit}",
             digits(extent),
             digits(smallest)
         ),
-        "check the units: lengths are in metres",
+        format!(
+            "check the units: lengths are in {}",
+            units.length.unwrap_or_default().name()
+        ),
     )
 }
 
@@ -70,7 +89,7 @@ pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
     say(
         Code::OutOfRange,
         format!("the grid's side {} is not more than 0", digits(x)),
-        "give the edge length of a cell in metres",
+        "give the edge length of a cell",
     )
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{Code, Wording, digits, pair, point, say};
 use crate::geometry::Point;
+use crate::scene::format::UnitsEntry;
 
 /// A side of an outline, given by the numbers of its corners.
 pub(in crate::mechanics::scene) struct Side {
@@ -67,6 +68,14 @@ pub(in crate::mechanics::scene) fn no_outline() -> Wording {
         Code::NoOutline,
         "it has no `polygon`, no `cells` and no `shape`",
         "give one of the three",
+    )
+}
+
+pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
+    say(
+        Code::MissingKey,
+        "it has a `centre`, but no `mass` and no `weight`",
+        "give one of the two; without an outline no weight follows from a density",
     )
 }
 
@@ -191,7 +200,9 @@ pub(in crate::mechanics::scene) fn overlap(
     b: &str,
     common: &Common,
     frame: Option<&str>,
+    units: UnitsEntry,
 ) -> Wording {
+    let unit = units.length().symbol();
     let when = frame.map_or(String::new(), |f| format!(" in {f}"));
     let Common {
         depth, area, at, ..
@@ -202,7 +213,7 @@ pub(in crate::mechanics::scene) fn overlap(
     say(
         Code::Overlap,
         format!(
-            "{a} and {b} overlap {} m deep, {} m² in all, around {}{when}",
+            "{a} and {b} overlap {} {unit} deep, {} {unit}² in all, around {}{when}",
             digits(*depth),
             digits(*area),
             point(*at)

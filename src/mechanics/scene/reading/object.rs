@@ -3,9 +3,9 @@
 //! A test in `format::schema` compares the lists of keys with the fields of the types.
 
 use super::super::format::{
-    BlockEntry, CellEntry, CellHalf, Expectation, FrictionPairEntry, GridEntry, GridKind,
-    GripEntry, GroundEntry, HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry,
-    SceneFile, ShapeEntry, StepEntry, Version,
+    BlockEntry, CellEntry, CellHalf, ContactEntry, Expectation, ForceUnit, FrictionPairEntry,
+    GridEntry, GridKind, GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry,
+    MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry, StepEntry, UnitsEntry, Version,
 };
 use super::super::path::Trail;
 use super::super::tree::{Node, NodeKind};
@@ -26,6 +26,8 @@ pub(in crate::mechanics::scene) const KEYS: &[(&str, &[&str])] = &[
     ("LoadEntry", LOAD),
     ("StepEntry", STEP),
     ("GripEntry", GRIP),
+    ("UnitsEntry", UNITS),
+    ("ContactEntry", CONTACT),
 ];
 
 const SCENE: &[&str] = &[
@@ -33,6 +35,7 @@ const SCENE: &[&str] = &[
     "author",
     "blocks",
     "contact_tolerance",
+    "contacts",
     "corner_contacts",
     "date",
     "density",
@@ -53,6 +56,7 @@ const SCENE: &[&str] = &[
     "steps",
     "thickness",
     "title",
+    "units",
 ];
 const MATERIAL: &[&str] = &["density", "fill", "friction"];
 const FRICTION_PAIR: &[&str] = &["between", "friction"];
@@ -62,8 +66,8 @@ const GROUND: &[&str] = &[
     "angle", "at", "cells", "fill", "friction", "holes", "material", "polygon", "shape",
 ];
 const BLOCK: &[&str] = &[
-    "angle", "at", "cells", "density", "fill", "friction", "holes", "id", "mass", "material",
-    "polygon", "shape", "weight",
+    "angle", "at", "cells", "centre", "density", "fill", "friction", "holes", "id", "mass",
+    "material", "polygon", "shape", "weight",
 ];
 const ROBOT: &[&str] = &["at", "holds", "id", "limits"];
 const LIMITS: &[&str] = &["force", "fx", "fy", "torque"];
@@ -72,6 +76,8 @@ const STEP: &[&str] = &[
     "expect", "hold", "place", "plan", "release", "remove", "title",
 ];
 const GRIP: &[&str] = &["at", "block"];
+const CONTACT: &[&str] = &["at", "bodies", "friction", "normal"];
+const UNITS: &[&str] = &["force", "length"];
 
 const CELL: &str = "[x, y, \"up\"], [x, y, \"down\"] or [x, y]";
 
@@ -90,6 +96,7 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         author: text(r, o, at, "author"),
         project: text(r, o, at, "project"),
         date: text(r, o, at, "date"),
+        units: r.optional(o, at, "units", units),
         gravity: r.optional(o, at, "gravity", |r, n, at| r.vector(n, at)),
         friction: number(r, o, at, "friction"),
         kernel: number(r, o, at, "kernel"),
@@ -102,6 +109,7 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         ground: r.list(o, at, "ground", ground),
         blocks: (r.required(o, at, "blocks", |r, n, at| r.entries(n, at, block)))
             .unwrap_or_default(),
+        contacts: r.list(o, at, "contacts", contact),
         robots: r.list(o, at, "robots", robot),
         loads: r.list(o, at, "loads", load),
         contact_tolerance: number(r, o, at, "contact_tolerance"),
@@ -155,6 +163,44 @@ fn version<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Ver
     }
     r.wrong(node, at, "a whole number");
     None
+}
+
+fn contact<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<ContactEntry> {
+    let o = r.object(node, at, CONTACT)?;
+    let bodies = r.required(o, at, "bodies", |r, n, at| match &n.kind {
+        NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
+        _ => {
+            r.wrong(n, at, "a list of the names of two bodies");
+            None
+        }
+    });
+    Some(ContactEntry {
+        bodies: bodies.and_then(|b| b.try_into().ok()).unwrap_or_default(),
+        at: (r.required(o, at, "at", |r, n, at| r.point(n, at))).unwrap_or_default(),
+        normal: (r.required(o, at, "normal", |r, n, at| r.number(n, at))).unwrap_or_default(),
+        friction: number(r, o, at, "friction"),
+    })
+}
+
+fn units<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<UnitsEntry> {
+    let o = r.object(node, at, UNITS)?;
+    let lengths = [
+        ("m", LengthUnit::Metre),
+        ("cm", LengthUnit::Centimetre),
+        ("mm", LengthUnit::Millimetre),
+        ("in", LengthUnit::Inch),
+        ("ft", LengthUnit::Foot),
+    ];
+    let forces = [
+        ("N", ForceUnit::Newton),
+        ("kN", ForceUnit::Kilonewton),
+        ("MN", ForceUnit::Meganewton),
+        ("lbf", ForceUnit::PoundForce),
+    ];
+    Some(UnitsEntry {
+        length: r.optional(o, at, "length", |r, n, at| r.choice(n, at, &lengths)),
+        force: r.optional(o, at, "force", |r, n, at| r.choice(n, at, &forces)),
+    })
 }
 
 fn material<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<MaterialEntry> {
@@ -252,6 +298,7 @@ fn block<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Block
         at: point(r, o, at, "at"),
         angle: number(r, o, at, "angle"),
         material: text(r, o, at, "material"),
+        centre: point(r, o, at, "centre"),
         weight: number(r, o, at, "weight"),
         mass: number(r, o, at, "mass"),
         density: number(r, o, at, "density"),

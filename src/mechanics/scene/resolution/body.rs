@@ -1,6 +1,7 @@
 //! Resolves blocks and parts of the ground: their outlines, positions and weights.
 
 use super::Resolution;
+use crate::geometry::{Point, Vector};
 use crate::scene::finding::Findings;
 use crate::scene::format::{self, Pair};
 use crate::scene::number::{LARGEST, at_least_zero, is_sane};
@@ -122,6 +123,7 @@ impl Resolution<'_> {
             fill: fill.or(values.and_then(|v| v.fill)),
             gap: 0.0,
             rounding: 0.0,
+            is_schematic: false,
         })
     }
 
@@ -164,6 +166,11 @@ impl Resolution<'_> {
         let weight = at_least_zero(findings, at, "weight", entry.weight);
         let mass = at_least_zero(findings, at, "mass", entry.mass);
         let density = at_least_zero(findings, at, "density", entry.density);
+        if let Some(centre) = entry.centre {
+            let newtons = weight.map(|w| w * self.units.force().size);
+            let weight = newtons.or(mass.map(|mass| mass * self.gravity.norm()));
+            return self.schematic_block(findings, at, entry, i, centre, weight);
+        }
         let body = self.body(findings, at, &entry.into())?;
         let area = match (&body.cells, self.lattice) {
             (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
@@ -173,9 +180,13 @@ impl Resolution<'_> {
             .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
             .unwrap_or(self.density);
         let weighs_by_area = weight.is_none() && mass.is_none();
-        let weight = weight.unwrap_or_else(|| {
-            mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
-        });
+        // Weights in newtons, from lengths and forces in the units of the file.
+        let [length, force] = [self.units.length().size, self.units.force().size];
+        let volume = || area * self.thickness * (length * length * length);
+        let weight = match weight {
+            Some(weight) => weight * force,
+            None => mass.unwrap_or_else(|| density * volume()) * self.gravity.norm(),
+        };
         if !weight.is_finite() || weight > LARGEST {
             findings.add(at, problem::number::too_heavy(weight, LARGEST));
             return None;
@@ -186,6 +197,59 @@ impl Resolution<'_> {
             body,
             weight,
             weighs_by_area,
+        })
+    }
+}
+
+impl Resolution<'_> {
+    /// A block that gives its centre instead of an outline. The weight is in newtons.
+    fn schematic_block(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        entry: &format::BlockEntry,
+        i: usize,
+        centre: Pair,
+        weight: Option<f64>,
+    ) -> Option<Block> {
+        let others = [
+            ("polygon", entry.polygon.is_some()),
+            ("cells", entry.cells.is_some()),
+            ("shape", entry.shape.is_some()),
+            ("at", entry.at.is_some()),
+            ("angle", entry.angle.is_some()),
+        ];
+        let other = others.iter().find(|other| other.1);
+        if let Some((other, _)) = other {
+            findings.add(at, problem::outline::two_outlines("centre", other));
+        }
+        if weight.is_none() && entry.weight.is_none() && entry.mass.is_none() {
+            findings.add(at, problem::outline::centre_without_mass());
+        }
+        let material = entry.material.as_deref();
+        let material = material.and_then(|m| self.materials.find(findings, &at.key("material"), m));
+        let fill = entry.fill.as_deref();
+        let fill = fill.and_then(|f| colour(findings, &at.key("fill"), f));
+        let is_sound = is_sane(findings, &at.key("centre"), &centre);
+        let weight = weight.filter(|_| is_sound && other.is_none())?;
+        if !weight.is_finite() || weight > LARGEST {
+            findings.add(at, problem::number::too_heavy(weight, LARGEST));
+            return None;
+        }
+        let centroid = Point::new(centre[0], centre[1]);
+        let beside = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)].map(|v| centroid + v);
+        let values = material.map(|m| self.material_entries[m]);
+        Some(Block {
+            id: self.ids[i].clone(),
+            centroid,
+            body: Body {
+                material,
+                fill: fill.or(values.and_then(|v| v.fill)),
+                // The contacts are not known yet; see `add_schematic_outlines`.
+                ..self.schematic([vec![centroid], beside.to_vec()].concat())
+            },
+            weight,
+            weighs_by_area: false,
         })
     }
 }

@@ -69,7 +69,10 @@ impl Resolution<'_> {
             (HealingReach::EXACT, healed)
         } else {
             let reach = reach(given, rounding, blocks);
-            (reach, heal::heal(ground, blocks, reach))
+            match self.has_schematic_bodies() {
+                true => (reach, Healed::default()),
+                false => (reach, heal::heal(ground, blocks, reach)),
+            }
         };
         Closeness {
             exact,

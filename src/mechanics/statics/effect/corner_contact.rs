@@ -23,6 +23,12 @@ impl Effect for CornerContacts {
                 Applicability::skipped("not asked for; tips are unreliable")
             }
             0 => Applicability::skipped("no tip touches another body"),
+            1 if context.scene.lists_contacts() => {
+                Applicability::Applies("the scene lists 1 contact".to_owned())
+            }
+            n if context.scene.lists_contacts() => {
+                Applicability::Applies(format!("the scene lists {n} contacts"))
+            }
             1 => Applicability::Applies("1 tip touches another body".to_owned()),
             n => Applicability::Applies(format!("{n} tips touch another body")),
         }

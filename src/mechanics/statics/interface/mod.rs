@@ -133,11 +133,14 @@ pub struct Interfaces {
 }
 
 impl Interfaces {
-    /// Finds all contacts of a scene: exactly if it is made of lattice cells, otherwise within its tolerance.
+    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if it is made of lattice cells, otherwise within its tolerance.
     ///
     /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched
     /// only if the scene requests them.
     pub fn new(scene: &Scene) -> Interfaces {
+        if !scene.contacts.is_empty() {
+            return Interfaces::listed(scene);
+        }
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),
@@ -152,6 +155,26 @@ impl Interfaces {
             let corners = corner::find(scene, &found.all);
             found.all.extend(corners);
         }
+        found.sort();
+        found
+    }
+
+    /// The contacts that the scene lists: each is a point, like the contact of a corner.
+    fn listed(scene: &Scene) -> Interfaces {
+        let contacts = scene.contacts.iter().map(|contact| Interface {
+            bodies: contact.bodies,
+            kind: ContactKind::Corner,
+            ends: [contact.at; 2],
+            normal: contact.normal,
+            friction: contact.friction,
+        });
+        let mut found = Interfaces {
+            all: contacts.collect(),
+            near_misses: Vec::new(),
+            slivers: Vec::new(),
+            pinned_gaps: Vec::new(),
+            notices: Vec::new(),
+        };
         found.sort();
         found
     }

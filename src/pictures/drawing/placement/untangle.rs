@@ -28,18 +28,25 @@ pub(super) fn untangle(
         let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
         free.then(|| Placed::with_leader(rect, request.anchor))
     };
+    // Thousands of labels may have no position. They cross nothing, so only the others are compared.
+    let numbers: Vec<usize> = (0..placed.len()).filter(|i| placed[*i].is_some()).collect();
+    let mut present: Vec<Option<Placed>> = numbers.iter().map(|i| placed[*i]).collect();
+    let moved = |number: usize, to: PageRect| moved(numbers[number], to);
     let mut any_moved = false;
     for _ in 0..MAX_ROUNDS {
         let mut improved = false;
-        for i in 0..placed.len() {
+        for i in 0..present.len() {
             for j in 0..i {
-                improved |= exchange(placed, i, j, &moved);
+                improved |= exchange(&mut present, i, j, &moved);
             }
         }
         any_moved |= improved;
         if !improved {
             break;
         }
+    }
+    for (number, label) in numbers.iter().zip(present) {
+        placed[*number] = label;
     }
     any_moved
 }

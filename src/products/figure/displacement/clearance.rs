@@ -21,8 +21,15 @@ impl<'a> Clearance<'a> {
         let blocks = frame.placed.iter();
         let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
         let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
+        // Schematic outlines overlap at rest already.
+        let is_drawn =
+            |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
+        let is_listed = scene.lists_contacts();
         Clearance {
-            bodies: blocks.chain(ground).collect(),
+            bodies: blocks
+                .chain(ground)
+                .filter(|body| !is_listed && is_drawn(body.0))
+                .collect(),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::super::context::FigureContext;
 use super::super::legend::{self, Entry};
 use super::super::option::ArrowScale;
-use super::super::words::{quantity, round_below};
+use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
 use super::{LEAST_WIDTH, MANY_STRANDS, carried, colour, dot_sign, largest, widest};
 use crate::analysis::Verdict;
@@ -45,7 +45,8 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
     let mut entries = Vec::new();
     let any = |kind: StrandKind| all.iter().find(|s| s.1.kind == kind).map(|s| s.0);
     let largest = largest(context);
-    let amount = round_below(largest);
+    let newtons = context.analysis.scene.units.force();
+    let amount = round_below_in(largest, newtons);
     if let Some(verdict) = any(StrandKind::Carried).or(any(StrandKind::Weight)) {
         let width = widest(unit) * amount / largest.max(f64::MIN_POSITIVE);
         let what = match verdict {
@@ -55,10 +56,10 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         let thin = LEAST_WIDTH / widest(unit) * largest;
         let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
         let least = match all.iter().any(|s| thinner(&s.1)) {
-            true => format!(", equally thin under {}", quantity(thin, "N")),
+            true => format!(", equally thin under {}", quantity(thin, newtons)),
             false => String::new(),
         };
-        let words = format!("{what}, this wide for {}{least}", quantity(amount, "N"));
+        let words = format!("{what}, this wide for {}{least}", quantity(amount, newtons));
         entries.push(Entry::Line(carried(theme, verdict), width, words));
     }
     if let Some(verdict) = any(StrandKind::Weight) {

@@ -16,7 +16,7 @@ const ALIKE: f64 = 1e-3;
 /// Describes a band.
 pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
-    let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), "N");
+    let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), scene.units.force());
     let name = |origin| name(scene, found, BodyId::Block(strand.on), origin);
     format!(
         "In block {on}: {} from {}, {} to {}",
@@ -42,7 +42,7 @@ fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> Str
 /// Describes the resultant of a joint.
 pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
     let pair = description::pair(scene, contact.interface.bodies);
-    let amount = quantity(contact.resultant.force.norm(), "N");
+    let amount = quantity(contact.resultant.force.norm(), scene.units.force());
     format!("Between {pair}: {amount}")
 }
 
@@ -71,6 +71,6 @@ fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
     };
     format!(
         "largest contact force {} between {pair}{others}",
-        quantity(most, "N")
+        quantity(most, scene.units.force())
     )
 }

@@ -114,7 +114,7 @@ impl Diagram<'_> {
             }
             let straight = Arrow {
                 symbol: Some(force.symbol.clone()),
-                title: force.title(self.block_name()),
+                title: force.title(self.block_name(), self.analysis.scene.units),
                 at: force.at,
                 along: (0.0, 0.0),
                 turn: None,

@@ -12,14 +12,14 @@ use crate::figure::legend;
 use crate::figure::option::Corners;
 use crate::figure::unit::unit;
 use crate::figure::verdict;
-use crate::figure::words::{quantity, round_below};
+use crate::figure::words::{quantity, round_below_in};
 
 impl Sheet<'_> {
     /// Returns the list of forces, with moments about the centroid of the block.
     pub(super) fn table(&self) -> Table {
         let body = &self.analysis.scene.blocks[self.block.0];
         let size = body.body.polygon.bounds().diagonal();
-        Table::new(&self.forces, body.centroid, size)
+        Table::new(&self.forces, body.centroid, size, self.analysis.scene.units)
     }
 
     /// Draws the verdict, the scale, the notes and the list of forces below `top` (pixels). `nameless` is the number of
@@ -96,11 +96,15 @@ impl Sheet<'_> {
     /// Returns an arrow for a round force as scale; `None` if the lengths of the arrows do not show magnitudes.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
-        let amount = round_below(largest);
+        let amount = round_below_in(largest, self.analysis.scene.units.force());
         let longest = longest(self.analysis, self.block, &self.camera);
         (amount > 0.0).then(|| {
             let length = amount / largest * longest;
-            legend::Entry::Scale(length, WIDTH, quantity(amount, "N"))
+            legend::Entry::Scale(
+                length,
+                WIDTH,
+                quantity(amount, self.analysis.scene.units.force()),
+            )
         })
     }
 
@@ -115,7 +119,10 @@ impl Sheet<'_> {
         if unseen > 0 {
             let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
             let longest = longest(self.analysis, self.block, &self.camera);
-            let amount = quantity(round_above(largest * LEAST_SEEN / longest), "N");
+            let amount = quantity(
+                round_above(largest * LEAST_SEEN / longest),
+                self.analysis.scene.units.force(),
+            );
             let forces = if unseen == 1 { "force" } else { "forces" };
             notes.push(format!("{unseen} {forces} under {amount} not drawn"));
         }

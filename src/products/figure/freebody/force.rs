@@ -7,6 +7,7 @@ use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::drawing::Colour;
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::scene::format::UnitsEntry;
 use crate::scene::{BlockId, BodyId};
 
 /// With at most this many interfaces the forces at both ends of each are drawn, unless the options say otherwise.
@@ -40,11 +41,11 @@ impl Force {
     }
 
     /// Describes the force and its magnitude; `on` is the name of the block.
-    pub(super) fn title(&self, on: &str) -> String {
+    pub(super) fn title(&self, on: &str, units: UnitsEntry) -> String {
         let amount = if self.force.norm() > 0.0 || self.torque == 0.0 {
-            amount(self.force)
+            amount(self.force, units)
         } else {
-            quantity(self.torque, "N·m")
+            quantity(self.torque, units.torque())
         };
         format!(
             "{} {} on block {on}: {amount}",

@@ -9,6 +9,8 @@ use crate::drawing::{
     Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 use crate::geometry::{Point, Vector};
+use crate::scene::Unit;
+use crate::scene::format::UnitsEntry;
 
 /// Space between columns, pixels.
 const BETWEEN: f64 = 14.0;
@@ -27,7 +29,7 @@ const NOISE: f64 = 1e-9;
 pub(super) struct Table {
     rows: Vec<Row>,
     /// The headings of the columns of numbers: symbol and unit.
-    heads: Vec<(Symbol, &'static str)>,
+    heads: Vec<(Symbol, String)>,
 }
 
 struct Row {
@@ -37,38 +39,39 @@ struct Row {
     from: String,
 }
 
-/// A unit: its name, its value in the base unit as a power of ten, and the number of decimals.
-#[derive(Clone, Copy)]
-struct Unit {
-    power: i32,
+/// The unit of a column: its name, the factor for numbers in the SI unit, and the number of decimals.
+#[derive(Clone)]
+struct Column {
+    size: f64,
     decimals: usize,
-    name: &'static str,
+    name: String,
 }
 
-impl Unit {
-    /// Returns the unit in which the largest number of a column has one to three digits before the decimal point, as
-    /// far as `names` allow it. `names` are the units from 10⁻⁶ to 10⁶ in steps of 1000.
-    fn new(largest: f64, names: [&'static str; 5]) -> Unit {
+impl Column {
+    /// Chooses the prefix with which the largest number of a column has one to three digits before the decimal point, as
+    /// far as prefixes from 10⁻⁶ to 10⁶ allow it. A unit that the scene chooses has no prefix.
+    fn new(largest: f64, unit: Unit) -> Column {
+        let largest = unit.from_si(largest);
         let digits = if largest > 0.0 && largest.is_finite() {
             libm::floor(libm::log10(largest)) as i32
         } else {
             0
         };
-        let step = digits.div_euclid(3).clamp(-2, 2);
+        let step = match unit.is_chosen {
+            true => 0,
+            false => digits.div_euclid(3).clamp(-2, 2),
+        };
         let before = digits - 3 * step + 1;
-        Unit {
-            power: 3 * step,
+        let prefix = ["µ", "m", "", "k", "M"][(step + 2) as usize];
+        Column {
+            size: unit.size * libm::pow(10.0, f64::from(3 * step)),
             decimals: (DIGITS - before).clamp(0, 12) as usize,
-            name: names[(step + 2) as usize],
+            name: format!("{prefix}{}", unit.symbol()),
         }
     }
 
-    fn write(self, value: f64) -> String {
-        let number = format!(
-            "{:.*}",
-            self.decimals,
-            value / libm::pow(10.0, f64::from(self.power))
-        );
+    fn write(&self, value: f64) -> String {
+        let number = format!("{:.*}", self.decimals, value / self.size);
         match number.strip_prefix('-') {
             Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
             Some(rest) => format!("−{rest}"),
@@ -79,7 +82,7 @@ impl Unit {
 
 impl Table {
     /// Creates the list of these forces. Moments are about `centroid`; `size` is the size of the block in metres.
-    pub(super) fn new(forces: &[Force], centroid: Point, size: f64) -> Table {
+    pub(super) fn new(forces: &[Force], centroid: Point, size: f64, units: UnitsEntry) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
             let moment = f.moment(centroid);
@@ -90,8 +93,8 @@ impl Table {
             }
         };
         let turns = forces.iter().map(|f| moment(f).abs()).fold(0.0, f64::max);
-        let force_unit = Unit::new(most, ["µN", "mN", "N", "kN", "MN"]);
-        let moment_unit = Unit::new(turns, ["µN·m", "mN·m", "N·m", "kN·m", "MN·m"]);
+        let force_unit = Column::new(most, units.force());
+        let moment_unit = Column::new(turns, units.torque());
         let row = |force: &Force| Row {
             symbol: Some(force.symbol.clone()),
             numbers: [
@@ -115,23 +118,24 @@ impl Table {
             ],
             from: String::new(),
         });
-        let head = |letter: &str, below: &str, unit: Unit| {
-            (Symbol::new(letter, Accent::None, below), unit.name)
+        let head = |letter: &str, below: &str, unit: &Column| {
+            let symbol = Symbol::new(letter, Accent::None, below);
+            (symbol, unit.name.clone())
         };
         Table {
             rows,
             heads: vec![
-                head("F", "", force_unit),
-                head("F", "x", force_unit),
-                head("F", "y", force_unit),
-                head("M", "c", moment_unit),
+                head("F", "", &force_unit),
+                head("F", "x", &force_unit),
+                head("F", "y", &force_unit),
+                head("M", "c", &moment_unit),
             ],
         }
     }
 
     /// Returns a sentence for each row.
     pub(super) fn stated(&self) -> Vec<String> {
-        let (force, moment) = (self.heads[0].1, self.heads[3].1);
+        let (force, moment) = (&self.heads[0].1, &self.heads[3].1);
         let row = |row: &Row| {
             let [amount, x, y, turning] = &row.numbers;
             let parts = format!("({x}; {y}) {force}, moment {turning} {moment}");

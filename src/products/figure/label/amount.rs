@@ -64,7 +64,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         seen && (is_first(arrow) || written)
     };
     let straight = marks.arrows.iter().filter(wanted).map(|arrow| {
-        let amount = quantity(arrow.force.norm(), "N");
+        let amount = quantity(arrow.force.norm(), pen.context.analysis.scene.units.force());
         let words = match is_first(arrow) && !options.amounts {
             true => format!("largest: {amount}"),
             false => amount,
@@ -117,7 +117,7 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
     };
-    let words = quantity(turn.torque.abs(), "N·m");
+    let words = quantity(turn.torque.abs(), pen.context.analysis.scene.units.torque());
     Label {
         colour: Some(turn.colour),
         ..label(words, Face::Sans, amount_size(pen), "amount", request)

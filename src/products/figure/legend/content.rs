@@ -6,11 +6,12 @@ use super::super::description;
 use super::super::limit;
 use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
-use super::super::words::{counted, quantity, round_below};
+use super::super::words::{counted, quantity, round_below_in};
 use super::entry::Entry;
 use super::sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
+use crate::scene::format::UnitsEntry;
 
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
@@ -135,9 +136,15 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
 
 /// Returns an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit` pixels) long, and
 /// the largest force is `largest` N. Returns `None` if there is no force.
-pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) -> Option<Entry> {
+pub(crate) fn scale(
+    newtons: f64,
+    largest: f64,
+    unit: f64,
+    options: &Options,
+    units: UnitsEntry,
+) -> Option<Entry> {
     let largest = if options.printed() { newtons } else { largest };
-    let amount = round_below(largest);
+    let amount = round_below_in(largest, units.force());
     let width = options.theme.widths.force * unit;
     // The arrow of the scale has the same form as the other arrows.
     let beyond = if options.printed() {
@@ -147,7 +154,7 @@ pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) ->
     };
     (amount > 0.0).then(|| {
         let length = amount / newtons * unit + beyond;
-        Entry::Scale(length, width, quantity(amount, "N"))
+        Entry::Scale(length, width, quantity(amount, units.force()))
     })
 }
 
@@ -156,14 +163,15 @@ pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options) ->
 pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
     let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
     let newtons = most(|m| m.newtons_per_unit);
-    scale(newtons, most(Marks::largest), unit, context.options)
+    let units = context.analysis.scene.units;
+    scale(newtons, most(Marks::largest), unit, context.options, units)
 }
 
 /// Returns a scale bar of a round number of metres. It is at most a quarter of `content` pixels long; `scale` is in
 /// pixels per metre.
-pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
-    let metres = round_below(0.25 * content / scale);
-    (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, "m")))
+pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entry> {
+    let metres = round_below_in(0.25 * content / scale, units.length());
+    (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, units.length())))
 }
 
 /// Returns the sign of joints at their limit; `None` if no frame has such a joint.
@@ -183,7 +191,8 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
     let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
     let most = amounts.iter().copied().fold(0.0, f64::max);
-    let (least, most) = (quantity(least, "N"), quantity(most, "N"));
+    let unit = scene.units.force();
+    let (least, most) = (quantity(least, unit), quantity(most, unit));
     let words = match amounts.len() {
         0 if turns => return Some(Entry::Note(TURNING.into())),
         0 => return None,

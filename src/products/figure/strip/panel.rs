@@ -142,7 +142,14 @@ impl Strip<'_> {
         }
         let marks = &context.marks[frame];
         let unit = self.layout.scale * context.unit;
-        legend::scale(marks.newtons_per_unit, marks.largest(), unit, options)
+        let units = self.context.analysis.scene.units;
+        legend::scale(
+            marks.newtons_per_unit,
+            marks.largest(),
+            unit,
+            options,
+            units,
+        )
     }
 
     /// Draws the mark of a verdict and its text, with their left end at `start`.
@@ -183,7 +190,8 @@ impl Strip<'_> {
         let size = theme.sizes.reason;
         let broken =
             |words: &str, most| text::balanced(words, Face::Sans, size, layout.panel, most);
-        let unseen = context.marks[frame].unseen(context.unit, layout.scale);
+        let unseen =
+            context.marks[frame].unseen(context.unit, layout.scale, context.analysis.scene.units);
         let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));
         let notes = unseen.into_iter().chain(cramped);
         let notes = notes.flat_map(|note| broken(&note, 2));

@@ -32,7 +32,11 @@ impl Strip<'_> {
             entries.push(legend::Entry::Note(left_out));
         }
         if options.scale_bar {
-            entries.extend(legend::metres(self.layout.scale, self.layout.content));
+            entries.extend(legend::metres(
+                self.layout.scale,
+                self.layout.content,
+                self.context.analysis.scene.units,
+            ));
         }
         entries
     }
@@ -120,7 +124,7 @@ impl Strip<'_> {
             &self.context.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");
-        let weight = quantity(found.weight, "N");
+        let weight = quantity(found.weight, scene.units.force());
         let what = format!(
             "{blocks}, {weight} in all, {}",
             verdict::word(found.verdict)

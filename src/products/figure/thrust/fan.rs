@@ -12,7 +12,8 @@ use crate::geometry::{Bounds, Point, Vector, quarter_turn};
 use crate::scene::{Frame, Scene};
 
 use super::super::view;
-use super::super::words::{force, quantity, round_below};
+use super::super::words::{force, quantity, round_below_in};
+use crate::scene::Unit;
 
 /// Width of the fans, as a share of the structure's width.
 const WIDTH: f64 = 0.42;
@@ -130,19 +131,26 @@ impl Fans {
             fan.number_joints(found, number, middle, (camera, theme), ink, &mut group);
             number += fan.vertices.len();
         }
-        self.draw_scale(camera, theme, page, &mut group);
+        self.draw_scale(camera, theme, page, scene.units.force(), &mut group);
         group
     }
 
     /// Draws a bar of a round force below the fans.
-    fn draw_scale(&self, camera: &Camera, theme: &Theme, page: PageRect, group: &mut Group) {
+    fn draw_scale(
+        &self,
+        camera: &Camera,
+        theme: &Theme,
+        page: PageRect,
+        unit: Unit,
+        group: &mut Group,
+    ) {
         let points = self.fans.iter().flat_map(|f| &f.vertices);
         let all = points.chain(self.fans.iter().map(|fan| &fan.pole)).copied();
         let Some(all) = Bounds::from_points(all) else {
             return;
         };
-        let newtons = round_below(0.7 * all.width() * self.newtons_per_metre);
-        let amount = quantity(newtons, "N");
+        let newtons = round_below_in(0.7 * all.width() * self.newtons_per_metre, unit);
+        let amount = quantity(newtons, unit);
         let length = camera.length(newtons / self.newtons_per_metre);
         let low = camera.place(Point::new(all.min.x, all.min.y));
         let wide = length + 5.0 + text::width(&amount, Face::Sans, AMOUNT_SIZE);
@@ -178,7 +186,7 @@ impl Fan {
         for (k, (vertex, ray)) in self.vertices.iter().zip(&self.chain.forces).enumerate() {
             let width = if k == 0 || k == last { 1.8 } else { 0.9 };
             let line = Outline::line([pole, camera.place(*vertex)]);
-            let title = format!("Ray {}: {}", before + k + 1, force(*ray));
+            let title = format!("Ray {}: {}", before + k + 1, force(*ray, scene.units));
             let drawn = Group::with_class("ray").titled(title);
             let path = Path::stroked(line, Stroke::new(theme.motion, width));
             group.items.push(drawn.with(path).into());
@@ -209,7 +217,7 @@ impl Fan {
         }
         // The pole distance is the thrust.
         let across = quarter_turn(scene.down());
-        let thrust = quantity(self.chain.thrust(across), "N");
+        let thrust = quantity(self.chain.thrust(across), scene.units.force());
         let ends = self.vertices.iter().copied().chain([self.pole]);
         let Some(all) = Bounds::from_points(ends) else {
             return;
@@ -241,7 +249,11 @@ impl Fan {
             for (amount, colour, what) in pieces {
                 let end = at + amount * self.metres;
                 let line = Outline::line([at, end].map(|p| camera.place(p)));
-                let title = format!("{what} on block {}: {}", block.id, force(amount));
+                let title = format!(
+                    "{what} on block {}: {}",
+                    block.id,
+                    force(amount, scene.units)
+                );
                 let path = Path::stroked(line, Stroke::new(colour, LOAD_WIDTH));
                 let drawn = Group::with_class("load").titled(title).with(path);
                 group.items.push(drawn.into());

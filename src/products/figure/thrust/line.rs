@@ -146,7 +146,7 @@ fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> Strin
         ForceOrigin::Load(_) => "a load".to_owned(),
         ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
     };
-    let force = force(segment.force);
+    let force = force(segment.force, scene.units);
     if segment.through {
         format!("Force on block {on} from {by}: {force}")
     } else {
@@ -176,7 +176,7 @@ pub(super) fn dots(
             continue;
         }
         let pair = description::pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.resultant.force.norm(), "N");
+        let amount = quantity(contact.resultant.force.norm(), scene.units.force());
         let dot = Group::with_class("resultant").titled(format!("Between {pair}: {amount}"));
         group.items.push(dot.with(dot_at(at, radius, theme)).into());
     }

@@ -21,7 +21,10 @@ const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 /// differ.
 fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     if context.analysis.frames.len() == 1 {
-        format!(", horizontal thrust {}", quantity(thrust, "N"))
+        format!(
+            ", horizontal thrust {}",
+            quantity(thrust, context.analysis.scene.units.force())
+        )
     } else {
         String::new()
     }
@@ -60,7 +63,7 @@ pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
 pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let family = context.thrust_states(frame);
     family.least.as_ref()?;
-    let present = quantity(family.present, "N");
+    let present = quantity(family.present, context.analysis.scene.units.force());
     Some(format!(
         "other figures show the forces of least sum, with a horizontal thrust of {present}"
     ))
@@ -101,7 +104,7 @@ pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Gr
             ink.line(from, to, THIN);
             outline.extend(Outline::line([from, to]));
         }
-        let thrust = quantity(state.thrust, "N");
+        let thrust = quantity(state.thrust, scene.units.force());
         let title = format!("{name}: {thrust} horizontally");
         let group = Group::with_class(class).titled(title);
         group.with(thin(outline, dashes, &pen.context.options.theme))

@@ -1,7 +1,7 @@
 //! [`whole`] and [`of_block`]: tables of balanced forces for a check by hand. One is for the whole structure with its
 //! reactions, the other for one block as a free body.
 
-use super::unit::{Column, Units};
+use super::unit::Units;
 use super::{Grid, TableCell};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::geometry::{Point, Vector, cross};
@@ -231,13 +231,13 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
     let newtons = units.newtons(forces.iter().flat_map(|f| [f.force.x, f.force.y]));
     let moments = units.torques(forces.iter().map(|f| f.moment));
     let places = forces.iter().filter_map(|f| f.at);
-    let metres = Column::metres(places.flat_map(|p| [p.x, p.y]));
+    let metres = units.lengths(places.flat_map(|p| [p.x, p.y]));
     let mut grid = Grid::new(
         caption,
         &[
             "force".to_owned(),
-            "#x, m".to_owned(),
-            "#y, m".to_owned(),
+            metres.head("x"),
+            metres.head("y"),
             newtons.head("right"),
             newtons.head("up"),
             moments.head("moment"),

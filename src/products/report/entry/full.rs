@@ -40,7 +40,10 @@ fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
     }
     let units = Units::new(scene, found);
     for (number, failed) in found.failures.iter().enumerate() {
-        let cells = [line(&missing(scene, failed, units)), place(failed.at())];
+        let cells = [
+            line(&missing(scene, failed, units)),
+            place(failed.at(), scene.units),
+        ];
         grid.add(format!("f{number}"), cells);
     }
     grid

@@ -1,11 +1,11 @@
 //! Tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
 
 use super::Grid;
-use super::unit::{Column, Units};
+use super::unit::Units;
 use crate::geometry::Vector;
 use crate::scene::{BlockId, Limits, Scene};
 use crate::text::line;
-use crate::wording::number::{counted, digits, place, tenths};
+use crate::wording::number::{amount, counted, digits, place, tenths};
 
 /// A table lists at most this many loads, robots or pairs of materials.
 const MAX_ROWS: usize = 12;
@@ -78,6 +78,9 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
 /// Returns the density of a block in kg/m³, computed from its weight. `None` if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
+    if own.body.is_schematic {
+        return None;
+    }
     let volume = own.body.polygon.area() * scene.thickness;
     let density = own.weight / (scene.gravity.norm() * volume);
     // Seven digits remove the rounding error of this division, so that equal densities compare as equal.
@@ -97,12 +100,12 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
         .collect();
     let newtons = units.newtons(loads.iter().map(|l| l.force.norm()));
     let torques = units.torques(loads.iter().map(|l| l.torque));
-    let metres = Column::metres(loads.iter().flat_map(|l| [l.at.x, l.at.y]));
+    let metres = units.lengths(loads.iter().flat_map(|l| [l.at.x, l.at.y]));
     let turns = loads.iter().any(|l| l.torque != 0.0);
     let mut heads = vec![
         "load on".to_owned(),
-        "#x, m".to_owned(),
-        "#y, m".to_owned(),
+        metres.head("x"),
+        metres.head("y"),
         newtons.head("force"),
         "direction".to_owned(),
     ];
@@ -177,7 +180,7 @@ pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
         let cells = [
             line(&robot.id),
             line(&scene.blocks[hold.block.0].id),
-            place(hold.at),
+            place(hold.at, scene.units),
             limits(robot.limits, units),
         ];
         grid.add("", cells);
@@ -190,14 +193,14 @@ pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
 }
 
 fn limits(limits: Limits, units: Units) -> String {
-    let limit = |value: f64, unit: &str| match value.is_finite() {
-        true => units.words(value, unit),
+    let limit = |value: f64, words: String| match value.is_finite() {
+        true => words,
         false => "none".to_owned(),
     };
     let parts = [
-        limit(limits.fx, "N"),
-        limit(limits.fy, "N"),
-        limit(limits.torque, "N·m"),
+        limit(limits.fx, units.force(limits.fx)),
+        limit(limits.fy, units.force(limits.fy)),
+        limit(limits.torque, units.torque(limits.torque)),
     ];
     parts.join(", ")
 }
@@ -215,7 +218,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
     if !scene.loads.iter().any(|l| placed.contains(&l.block)) {
         add("loads", "none but the weights".to_owned());
     }
-    add("thickness", format!("{} m", digits(scene.thickness)));
+    add("thickness", amount(scene.thickness, scene.units.length()));
     add(
         "joints",
         "dry: no tension, no cohesion; rigid blocks".to_owned(),
@@ -247,7 +250,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         let moved = scene.tolerance_words().unwrap_or_default();
         add("tolerance", line(&moved));
     }
-    let [force, torque] = ["N", "N·m"].map(|unit| units.unit(unit));
-    add("units", format!("m, {force}, {torque}, degrees"));
+    let [length, force, torque] = units.symbols();
+    add("units", format!("{length}, {force}, {torque}, degrees"));
     grid
 }

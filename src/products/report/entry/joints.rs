@@ -1,10 +1,11 @@
 //! [`Ranking`]: the joints of a frame, sorted by how near they are to opening or sliding. [`robots`] lists the forces
 //! of robots.
 
-use super::unit::{Column, Units};
+use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, touch};
 use crate::analysis::{Contact, Failure, FrameAnalysis, Verdict};
 use crate::interface::ContactKind;
+use crate::scene::Unit;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::text::line;
 use crate::wording::failure;
@@ -122,9 +123,13 @@ impl<'a> Ranking<'a> {
         let newtons = self
             .units
             .newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
-        let metres = Column::metres(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
+        let metres = self
+            .units
+            .lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // As exact as the lengths of the joints, in which it is counted.
-        let offs = Column::metres(contacts().map(|c| 0.5 * c.interface.length()));
+        let offs = self
+            .units
+            .lengths(contacts().map(|c| 0.5 * c.interface.length()));
         let mut grid = Grid::new(
             if all {
                 "All joints that carry force"
@@ -229,7 +234,7 @@ impl<'a> Ranking<'a> {
 
 /// A failure in words, in the unit of the sheet.
 pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
-    let write = |value: f64, unit: &str| units.words(value, unit);
+    let write = |value: f64, unit: Unit| units.words(value, unit);
     failure::missing_sentence(scene, failed, &write)
 }
 

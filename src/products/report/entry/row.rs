@@ -6,6 +6,7 @@ use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Camera;
 use crate::drawing::{Outline, PagePoint, Segment};
 use crate::geometry::Bounds;
+use crate::scene::format::UnitsEntry;
 use crate::scene::{BlockId, Scene};
 use crate::text;
 use crate::wording::failure;
@@ -44,6 +45,8 @@ pub struct Row {
     pub friction: Option<f64>,
     /// The largest force of an interface or robot in N, among the steps that stand; `None` if no step stands.
     pub largest: Option<f64>,
+    /// The units in which its forces are written.
+    pub units: UnitsEntry,
     /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps stand.
     pub fails: String,
     /// A small picture.
@@ -103,6 +106,7 @@ impl Row {
                 .map(|f| f.contacts.iter().map(|c| c.friction_used))
                 .map(|shares| shares.fold(0.0, f64::max))
                 .reduce(f64::max),
+            units: scene.units,
             largest: standing()
                 .map(|f| {
                     let contacts = f.contacts.iter().map(|c| c.resultant.force.norm());
@@ -143,7 +147,7 @@ impl Row {
 
     /// Returns the largest force as text, with its unit.
     pub(crate) fn largest_words(&self) -> String {
-        let words = |largest| quantity(largest, "N");
+        let words = |largest| quantity(largest, self.units.force());
         self.largest.map_or_else(|| "none stands".into(), words)
     }
 }

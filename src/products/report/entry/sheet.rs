@@ -12,6 +12,7 @@ use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
 use crate::drawing::Drawing;
 use crate::figure::{self, Kind, Options};
 use crate::scene::Scene;
+use crate::scene::Unit;
 use crate::text::line;
 use crate::wording::number::letter;
 use crate::wording::verdict::plain;
@@ -129,7 +130,7 @@ pub(super) fn others(
 /// The verdict with its reasons, in the unit of the sheet.
 fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     let units = Units::new(scene, found);
-    let write = |value: f64, unit: &str| units.words(value, unit);
+    let write = |value: f64, unit: Unit| units.words(value, unit);
     line(&verdict::sentence_with(scene, found, &write))
 }
 

@@ -83,7 +83,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
         let contact = &contacts[joint.contact];
         match joint.hinge {
             Some(point) => {
-                let at = place(point).replace('-', "−");
+                let at = place(point, scene.units).replace('-', "−");
                 format!("{} at {at}", name(scene, contact))
             }
             None => name(scene, contact),

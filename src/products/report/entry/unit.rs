@@ -1,7 +1,8 @@
 //! [`Units`]: the prefix that all forces of a sheet share; [`Column`]: the decimals that all numbers of a column share.
 
 use crate::analysis::FrameAnalysis;
-use crate::scene::Scene;
+use crate::scene::format::UnitsEntry;
+use crate::scene::{Scene, Unit};
 use crate::wording::failure;
 use crate::wording::number::three;
 
@@ -17,11 +18,12 @@ pub(super) struct Column {
 /// Significant digits of the largest number of a column.
 const DIGITS: i32 = 4;
 
-/// The SI prefix that all forces and torques of a sheet share.
+/// The SI prefix that all forces and torques of a sheet share. Units that the scene chooses have no prefix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
     prefix: &'static str,
     factor: f64,
+    scene: UnitsEntry,
 }
 
 impl Units {
@@ -33,10 +35,13 @@ impl Units {
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);
         let given = loads.chain(weights);
-        Units::of(contacts.chain(robots).chain(missing).chain(given))
+        Units::of(
+            contacts.chain(robots).chain(missing).chain(given),
+            scene.units,
+        )
     }
 
-    fn of(forces: impl IntoIterator<Item = f64>) -> Units {
+    fn of(forces: impl IntoIterator<Item = f64>, scene: UnitsEntry) -> Units {
         let (prefix, factor) = match largest(forces) {
             x if x > 1e8 => ("M", 1e-6),
             x if x > 1e3 => ("k", 1e-3),
@@ -44,45 +49,84 @@ impl Units {
             x if x >= 1e-5 => ("m", 1e3),
             _ => ("µ", 1e6),
         };
-        Units { prefix, factor }
+        Units {
+            prefix,
+            factor,
+            scene,
+        }
     }
 
     /// The column for numbers in newtons.
     pub fn newtons(self, numbers: impl IntoIterator<Item = f64>) -> Column {
-        self.column(numbers, "N")
+        self.column(numbers, self.scene.force())
     }
 
     /// The column for numbers in newton metres.
     pub fn torques(self, numbers: impl IntoIterator<Item = f64>) -> Column {
-        self.column(numbers, "N·m")
+        self.column(numbers, self.scene.torque())
     }
 
-    /// A unit with the prefix.
-    pub fn unit(self, unit: &str) -> String {
-        format!("{}{unit}", self.prefix)
+    /// The units of lengths, forces and torques, the last two with the prefix.
+    pub fn symbols(self) -> [String; 3] {
+        let length = self.scene.length().symbol();
+        let [force, torque] = [self.scene.force(), self.scene.torque()].map(|u| self.symbol(u));
+        [length, force, torque]
     }
 
-    fn column(self, numbers: impl IntoIterator<Item = f64>, unit: &str) -> Column {
+    /// The column for coordinates.
+    pub fn lengths(self, numbers: impl IntoIterator<Item = f64>) -> Column {
+        Column::lengths(numbers, self.scene)
+    }
+
+    fn symbol(self, unit: Unit) -> String {
+        match unit.is_chosen {
+            true => unit.symbol(),
+            false => format!("{}{}", self.prefix, unit.symbol()),
+        }
+    }
+
+    fn factor(self, unit: Unit) -> f64 {
+        match unit.is_chosen {
+            true => 1.0 / unit.size,
+            false => self.factor,
+        }
+    }
+
+    fn column(self, numbers: impl IntoIterator<Item = f64>, unit: Unit) -> Column {
+        let factor = self.factor(unit);
         Column {
-            unit: self.unit(unit),
-            factor: self.factor,
-            decimals: decimals(largest(numbers) * self.factor),
+            unit: self.symbol(unit),
+            factor,
+            decimals: decimals(largest(numbers) * factor),
         }
     }
 
     /// An amount in a sentence: three significant digits and its unit.
-    pub fn words(self, value: f64, unit: &str) -> String {
-        format!("{} {}", three(value * self.factor), self.unit(unit))
+    pub fn words(self, value: f64, unit: Unit) -> String {
+        let number = three(value * self.factor(unit));
+        format!("{number} {}", self.symbol(unit))
+    }
+
+    /// A force in a sentence.
+    pub fn force(self, value: f64) -> String {
+        self.words(value, self.scene.force())
+    }
+
+    /// A torque in a sentence.
+    pub fn torque(self, value: f64) -> String {
+        self.words(value, self.scene.torque())
     }
 }
 
 impl Column {
-    /// Chooses the decimals for coordinates in metres.
-    pub fn metres(numbers: impl IntoIterator<Item = f64>) -> Column {
+    /// Chooses the decimals for coordinates in metres, which are written in the unit of the scene.
+    pub fn lengths(numbers: impl IntoIterator<Item = f64>, units: UnitsEntry) -> Column {
+        let unit = units.length();
+        let factor = 1.0 / unit.size;
         Column {
-            unit: "m".to_owned(),
-            factor: 1.0,
-            decimals: decimals(largest(numbers)),
+            unit: unit.symbol(),
+            factor,
+            decimals: decimals(largest(numbers) * factor),
         }
     }
 
@@ -127,7 +171,8 @@ mod tests {
 
     #[test]
     fn a_sheet_has_one_unit_and_a_column_the_same_decimals() {
-        let units = Units::of([110_395.0, 7.5]);
+        let si = UnitsEntry::default();
+        let units = Units::of([110_395.0, 7.5], si);
         let column = units.newtons([110_395.0, -42.0, 0.0]);
         assert_eq!(column.unit, "kN");
         assert_eq!(column.write(110_395.0), "110.4");
@@ -137,7 +182,10 @@ mod tests {
         );
         assert_eq!(column.write(-420.0), "−0.4");
         assert_eq!(units.torques([7.5]).with_unit(7.5), "0.007500 kN·m");
-        assert_eq!(units.words(504.8, "N"), "0.505 kN");
-        assert_eq!(Units::of([7.5]).newtons([7.5]).with_unit(7.5), "7.500 N");
+        assert_eq!(units.force(504.8), "0.505 kN");
+        assert_eq!(
+            Units::of([7.5], si).newtons([7.5]).with_unit(7.5),
+            "7.500 N"
+        );
     }
 }

@@ -72,15 +72,16 @@ fn robot_limits<'a>(
     intervals: &'a Intervals,
     position: Position,
 ) -> Vec<StatedMargin<'a>> {
-    use Parameter::{RobotForce, RobotTorque};
+    let force = Parameter::RobotForce(scene.units.force());
+    let torque = Parameter::RobotTorque(scene.units.torque());
     let mut list = Vec::new();
     for robot in &intervals.robots {
         let arm = &scene.robots[robot.robot.0];
         let (id, limits) = (text::line(&arm.id), arm.limits);
         let all = [
-            (RobotForce, "horizontal force", &robot.fx, limits.fx),
-            (RobotForce, "vertical force", &robot.fy, limits.fy),
-            (RobotTorque, "torque", &robot.torque, limits.torque),
+            (force, "horizontal force", &robot.fx, limits.fx),
+            (force, "vertical force", &robot.fy, limits.fy),
+            (torque, "torque", &robot.torque, limits.torque),
         ];
         list.extend(all.map(|(parameter, name, interval, limit)| StatedMargin {
             parameter,

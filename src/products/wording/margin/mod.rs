@@ -10,12 +10,12 @@ pub use falls::falls_headline;
 pub use list::stated;
 pub use range::stands;
 
-use super::number::digits;
+use super::number::{amount, digits};
 use crate::analysis::{End, FrameAnalysis, Interval};
-use crate::scene::Scene;
+use crate::scene::{Scene, Unit};
 
 /// The parameter that a margin varies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parameter {
     /// One friction coefficient for every interface.
     Friction,
@@ -27,19 +27,17 @@ pub enum Parameter {
     Kernel,
     /// The factor on the listed loads.
     LoadFactor,
-    /// The limit of a robot's force, N.
-    RobotForce,
-    /// The limit of a robot's torque, N·m.
-    RobotTorque,
+    /// The limit of a robot's force, N, and the unit in which it is written.
+    RobotForce(Unit),
+    /// The limit of a robot's torque, N·m, and the unit in which it is written.
+    RobotTorque(Unit),
 }
 
 impl Parameter {
-    /// Returns the unit of a value, with a space before it if needed.
+    /// Returns the unit of a value.
     fn unit(self) -> &'static str {
         match self {
             Parameter::Tilt => "°",
-            Parameter::RobotForce => " N",
-            Parameter::RobotTorque => " N·m",
             _ => "",
         }
     }
@@ -51,6 +49,9 @@ impl Parameter {
 
     /// Writes a value with its unit and, for a signed parameter, its side: `5° left`.
     fn value(self, value: f64) -> String {
+        if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
+            return amount(value, unit);
+        }
         let unit = self.unit();
         if !self.is_signed() {
             return format!("{}{unit}", digits(value));

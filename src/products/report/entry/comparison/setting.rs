@@ -3,10 +3,12 @@
 
 use super::Side;
 use crate::report::entry::Grid;
+use crate::scene::Unit;
+use crate::scene::format::UnitsEntry;
 use crate::scene::{Limits, Scene};
 use crate::text::line;
 use crate::wording::failure::shortened;
-use crate::wording::number::{digits, listed, place};
+use crate::wording::number::{amount, digits, listed, place};
 
 /// A sentence names at most this many differences.
 const MOST_NAMED: usize = 4;
@@ -97,12 +99,14 @@ fn given(scene: &Scene, number: usize) -> Given {
         let loads = scene.loads.iter().filter(|load| load.block == *block);
         let words: Vec<String> = loads
             .map(|load| {
-                let force = vector(load.force.x, load.force.y, "N");
+                let newtons = scene.units.force();
+                let [x, y] = [load.force.x, load.force.y].map(|f| newtons.from_si(f));
+                let force = vector(x, y, &newtons.symbol());
                 let torque = match load.torque {
                     0.0 => String::new(),
-                    torque => format!(", torque {} N·m", digits(torque)),
+                    torque => format!(", torque {}", amount(torque, scene.units.torque())),
                 };
-                format!("{force} at {}{torque}", place(load.at))
+                format!("{force} at {}{torque}", place(load.at, scene.units))
             })
             .collect();
         if !words.is_empty() {
@@ -115,8 +119,8 @@ fn given(scene: &Scene, number: usize) -> Given {
         let held = line(&scene.blocks[hold.block.0].id);
         let words = format!(
             "holds {held} at {}, {}",
-            place(hold.at),
-            limits(robot.limits)
+            place(hold.at, scene.units),
+            limits(robot.limits, scene.units)
         );
         given.push((
             format!("robot {}", line(&robot.id)),
@@ -131,15 +135,15 @@ fn vector(x: f64, y: f64, unit: &str) -> String {
     format!("({}, {}) {unit}", digits(x), digits(y))
 }
 
-fn limits(of: Limits) -> String {
-    let limit = |value: f64, unit: &str| match value {
-        value if value.is_finite() => format!("{} {unit}", digits(value)),
+fn limits(of: Limits, units: UnitsEntry) -> String {
+    let limit = |value: f64, unit: Unit| match value {
+        value if value.is_finite() => amount(value, unit),
         _ => "any".to_owned(),
     };
     format!(
         "limits {} across, {} up, {} torque",
-        limit(of.fx, "N"),
-        limit(of.fy, "N"),
-        limit(of.torque, "N·m")
+        limit(of.fx, units.force()),
+        limit(of.fy, units.force()),
+        limit(of.torque, units.torque())
     )
 }

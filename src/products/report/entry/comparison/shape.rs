@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use super::Side;
 use crate::geometry::Point;
 use crate::report::entry::Grid;
+use crate::scene::format::UnitsEntry;
 use crate::scene::{Block, Scene};
 use crate::text::line;
 use crate::wording::failure::shortened;
-use crate::wording::number::{digits, listed};
+use crate::wording::number::{amount, digits, listed, place};
 
 /// A block counts as moved if its centroid moved by more than this times the largest coordinate of both scenes.
 const MOVED: f64 = 1e-6;
@@ -51,7 +52,7 @@ impl Shapes {
                 shapes.gone_or_changed.push(*old);
                 continue;
             };
-            let how = differs(&was.blocks[*old], &is.blocks[*new], reach);
+            let how = differs(&was.blocks[*old], &is.blocks[*new], reach, is.units);
             if !how.is_empty() {
                 shapes.gone_or_changed.push(*old);
                 shapes.new_or_changed.push(*new);
@@ -112,7 +113,7 @@ fn reach(scene: &Scene) -> f64 {
 }
 
 /// Describes how a block differs between two scenes; empty if it does not. `reach` is the largest coordinate, m.
-fn differs(was: &Block, is: &Block, reach: f64) -> String {
+fn differs(was: &Block, is: &Block, reach: f64, units: UnitsEntry) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
     let near = MOVED * reach;
@@ -129,12 +130,12 @@ fn differs(was: &Block, is: &Block, reach: f64) -> String {
         how.push("another outline".to_owned());
     }
     if moved.norm() > near {
-        let (x, y) = (digits(moved.x), digits(moved.y));
-        how.push(format!("centroid moved by ({x}, {y}) m"));
+        let by = place(Point::from(moved), units);
+        how.push(format!("centroid moved by {by}"));
     }
     if (is.weight - was.weight).abs() > 1e-9 * is.weight.abs().max(was.weight.abs()) {
-        let (a, b) = (digits(was.weight), digits(is.weight));
-        how.push(format!("weight {a} N → {b} N"));
+        let [a, b] = [was.weight, is.weight].map(|w| amount(w, units.force()));
+        how.push(format!("weight {a} → {b}"));
     }
     if is.body.friction != was.body.friction {
         let (a, b) = (digits(was.body.friction), digits(is.body.friction));

@@ -1,0 +1,173 @@
+//! Resolves the listed contacts, and gives bodies without an outline a schematic one.
+
+use super::Resolution;
+use crate::geometry::{Bounds, Point, Polygon, Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::scene::finding::Findings;
+use crate::scene::name::Names;
+use crate::scene::number::{at_least_zero, is_sane};
+use crate::scene::path::Trail;
+use crate::scene::problem;
+use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
+
+/// The size of a schematic centre or support, as a share of the diagonal around all centres and contacts.
+const SIGN: f64 = 0.03;
+/// Corners of the schematic disc around a centre.
+const DISC: usize = 8;
+
+impl Resolution<'_> {
+    /// True if the file lists contacts, or has a block without an outline. Contacts are then not searched, and bodies
+    /// are used as written.
+    pub(super) fn has_schematic_bodies(&self) -> bool {
+        !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
+    }
+
+    /// Returns the listed contacts that are valid.
+    pub(super) fn contacts(
+        &self,
+        findings: &mut Findings,
+        blocks: &Names<'_>,
+    ) -> Vec<ListedContact> {
+        let top = Trail::Top;
+        let list = top.key("contacts");
+        let mut contacts = Vec::new();
+        for (i, entry) in self.file.contacts.iter().enumerate() {
+            let at = list.index(i);
+            let sound = is_sane(findings, &at.key("at"), &entry.at)
+                & is_sane(findings, &at.key("normal"), &[entry.normal]);
+            let friction = at_least_zero(findings, &at, "friction", entry.friction);
+            let names = at.key("bodies");
+            let mut bodies = [0, 1].map(|side| match entry.bodies[side].as_str() {
+                "ground" => Some(BodyId::Ground(0)),
+                name => {
+                    let number = blocks.find(findings, &names.index(side), name);
+                    number.map(|number| BodyId::Block(BlockId(number)))
+                }
+            });
+            if let [Some(a), Some(b)] = bodies
+                && a == b
+            {
+                findings.add(&names, problem::entry::contact_of_one());
+                bodies[0] = None;
+            }
+            let ([Some(a), Some(b)], true) = (bodies, sound) else {
+                continue;
+            };
+            let (sin, cos) = sin_cos_degrees(entry.normal);
+            let normal = Vector::new(cos, sin);
+            // The later block comes first, the ground last, as in every interface.
+            let (bodies, normal) = match a > b {
+                true => ([a, b], normal),
+                false => ([b, a], -normal),
+            };
+            contacts.push(ListedContact {
+                bodies,
+                at: Point::new(entry.at[0], entry.at[1]),
+                normal,
+                friction: friction.unwrap_or(self.friction),
+            });
+        }
+        contacts
+    }
+
+    /// Replaces the outline of each block without one by the hull of its centre and its contacts. If the scene has no
+    /// ground, adds a small support below each contact with the ground.
+    pub(super) fn add_schematic_outlines(
+        &self,
+        ground: &mut Vec<Option<Ground>>,
+        blocks: &mut [Option<Block>],
+        contacts: &mut [ListedContact],
+    ) {
+        let centres = blocks.iter().flatten().map(|b| b.centroid);
+        let points = centres.chain(contacts.iter().map(|c| c.at));
+        let extent = Bounds::from_points(points).map_or(0.0, Bounds::diagonal);
+        let sign = SIGN * if extent > 0.0 { extent } else { 1.0 };
+        for (i, block) in blocks.iter_mut().enumerate() {
+            let Some(block) = block.as_mut().filter(|b| b.body.is_schematic) else {
+                continue;
+            };
+            let own = BodyId::Block(BlockId(i));
+            let touching = contacts.iter().filter(|c| c.bodies.contains(&own));
+            let disc = (0..DISC).map(|k| {
+                let (sin, cos) = sin_cos_degrees(360.0 / DISC as f64 * k as f64);
+                block.centroid + Vector::new(cos, sin) * sign
+            });
+            let outline = hull(touching.map(|c| c.at).chain(disc).collect());
+            block.body.polygon = Polygon::from_valid_rings(vec![outline]);
+        }
+        if ground.is_empty() {
+            for contact in contacts {
+                if let BodyId::Ground(number) = &mut contact.bodies[1] {
+                    *number = ground.len();
+                    let body = self.support(contact.at, contact.normal, sign);
+                    ground.push(Some(Ground { body }));
+                }
+            }
+        }
+    }
+
+    /// A schematic support behind a contact with the ground.
+    fn support(&self, at: Point, normal: Vector, size: f64) -> Body {
+        let along = quarter_turn(normal) * size;
+        let back = normal * (-0.8 * size);
+        let corners = vec![at - along, at - along + back, at + along + back, at + along];
+        self.schematic(corners)
+    }
+
+    /// A body with this outline, which does not come from the file.
+    pub(super) fn schematic(&self, corners: Vec<Point>) -> Body {
+        Body {
+            polygon: Polygon::from_valid_rings(vec![hull(corners)]),
+            cells: None,
+            material: None,
+            friction: self.friction,
+            fill: None,
+            gap: 0.0,
+            rounding: 0.0,
+            is_schematic: true,
+        }
+    }
+}
+
+/// Returns the corners of the convex hull, anticlockwise.
+fn hull(mut points: Vec<Point>) -> Vec<Point> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup();
+    let mut ring: Vec<Point> = Vec::with_capacity(points.len() + 1);
+    for pass in 0..2 {
+        let begin = ring.len();
+        for p in &points {
+            while ring.len() >= begin + 2 && {
+                let [a, b] = [ring[ring.len() - 2], ring[ring.len() - 1]];
+                cross(b - a, *p - b) <= 0.0
+            } {
+                ring.pop();
+            }
+            ring.push(*p);
+        }
+        ring.pop();
+        if pass == 0 {
+            points.reverse();
+        }
+    }
+    ring
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hull_has_no_inner_corners_and_runs_anticlockwise() {
+        let points = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [1.0, 0.0],
+            [2.0, 2.0],
+            [1.0, 1.0],
+            [0.0, 2.0],
+        ];
+        let ring = hull(points.map(|[x, y]| Point::new(x, y)).to_vec());
+        let expected = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        assert_eq!(ring, expected.map(|[x, y]| Point::new(x, y)).to_vec());
+    }
+}

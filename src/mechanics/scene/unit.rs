@@ -1,0 +1,209 @@
+//! [`Unit`]: the units in which a scene file gives lengths and forces, and in which results are written for people.
+//!
+//! A scene is resolved in the units of its file, because tolerances depend on how coordinates are written. It is then
+//! converted to metres and newtons ([`to_si`]), so that all other modules compute in SI units.
+
+use super::format::{ForceUnit, LengthUnit, UnitsEntry};
+use super::{Body, Scene};
+use crate::geometry::{Point, Polygon};
+
+/// A unit in which a quantity is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Unit {
+    /// The parts of its symbol, for example `kN`, `·` and `mm`.
+    symbol: [&'static str; 3],
+    /// Its size in the SI unit.
+    pub(crate) size: f64,
+    /// Whether the scene chooses it. Otherwise it is the SI unit, and gets a prefix where the number needs one.
+    pub(crate) is_chosen: bool,
+}
+
+impl Unit {
+    /// The symbol, without a prefix.
+    pub(crate) fn symbol(&self) -> String {
+        self.symbol.concat()
+    }
+
+    /// Converts a value from the SI unit.
+    pub(crate) fn from_si(&self, value: f64) -> f64 {
+        // Without chosen units, the value stays exactly as it is.
+        if self.size == 1.0 {
+            value
+        } else {
+            value / self.size
+        }
+    }
+}
+
+/// An SI unit, such as `"N"`.
+impl From<&'static str> for Unit {
+    fn from(symbol: &'static str) -> Unit {
+        Unit {
+            symbol: [symbol, "", ""],
+            size: 1.0,
+            is_chosen: false,
+        }
+    }
+}
+
+impl LengthUnit {
+    /// The symbol, the symbol of its square, and the length in metres.
+    fn parts(self) -> (&'static str, &'static str, f64) {
+        match self {
+            LengthUnit::Metre => ("m", "m²", 1.0),
+            LengthUnit::Centimetre => ("cm", "cm²", 1e-2),
+            LengthUnit::Millimetre => ("mm", "mm²", 1e-3),
+            LengthUnit::Inch => ("in", "in²", 0.0254),
+            LengthUnit::Foot => ("ft", "ft²", 0.3048),
+        }
+    }
+}
+
+impl ForceUnit {
+    /// The symbol, and the force in newtons.
+    fn parts(self) -> (&'static str, f64) {
+        match self {
+            ForceUnit::Newton => ("N", 1.0),
+            ForceUnit::Kilonewton => ("kN", 1e3),
+            ForceUnit::Meganewton => ("MN", 1e6),
+            ForceUnit::PoundForce => ("lbf", 4.448_221_615_260_5),
+        }
+    }
+}
+
+impl UnitsEntry {
+    /// The unit of lengths.
+    pub fn length(&self) -> Unit {
+        let (symbol, _, size) = self.length.unwrap_or_default().parts();
+        Unit {
+            symbol: [symbol, "", ""],
+            size,
+            is_chosen: self.length.is_some(),
+        }
+    }
+
+    /// The unit of forces and weights.
+    pub fn force(&self) -> Unit {
+        let (symbol, size) = self.force.unwrap_or_default().parts();
+        Unit {
+            symbol: [symbol, "", ""],
+            size,
+            is_chosen: self.force.is_some(),
+        }
+    }
+
+    /// The unit of torques: that of forces times that of lengths.
+    pub fn torque(&self) -> Unit {
+        let (length, force) = (self.length(), self.force());
+        Unit {
+            symbol: [force.symbol[0], "·", length.symbol[0]],
+            size: force.size * length.size,
+            is_chosen: force.is_chosen || length.is_chosen,
+        }
+    }
+
+    /// The unit of stresses: that of forces per square of that of lengths.
+    pub fn stress(&self) -> Unit {
+        let (length, force) = (self.length(), self.force());
+        let (_, square, _) = self.length.unwrap_or_default().parts();
+        Unit {
+            symbol: [force.symbol[0], "/", square],
+            size: force.size / (length.size * length.size),
+            is_chosen: force.is_chosen || length.is_chosen,
+        }
+    }
+}
+
+/// Converts a scene from the units of its file to metres and newtons. Weights are in newtons already.
+pub(super) fn to_si(scene: &mut Scene) {
+    let [length, force, torque] = [
+        scene.units.length().size,
+        scene.units.force().size,
+        scene.units.torque().size,
+    ];
+    if length == 1.0 && force == 1.0 {
+        return;
+    }
+    for x in [
+        &mut scene.thickness,
+        &mut scene.misfit,
+        &mut scene.healed.within,
+        &mut scene.healed.distance,
+        &mut scene.tolerance.gap,
+        &mut scene.tolerance.min_length,
+        &mut scene.tolerance.rounding,
+    ] {
+        *x *= length;
+    }
+    if let Some(lattice) = &mut scene.lattice {
+        lattice.side *= length;
+    }
+    let grounds = scene.ground.iter_mut().map(|g| &mut g.body);
+    let blocks = scene.blocks.iter_mut().map(|b| &mut b.body);
+    let lattice = scene.lattice.filter(|_| scene.exact);
+    for body in grounds.chain(blocks) {
+        convert(body, length);
+        // The corners of cells are computed from the lattice everywhere, with the same rounding.
+        let cells = body.cells.as_ref().zip(lattice);
+        if let Some(polygon) = cells.and_then(|(cells, lattice)| lattice.polygon(cells)) {
+            body.polygon = polygon;
+        }
+    }
+    let points = (scene.blocks.iter_mut().map(|b| &mut b.centroid))
+        .chain(scene.loads.iter_mut().map(|l| &mut l.at))
+        .chain(scene.contacts.iter_mut().map(|c| &mut c.at))
+        .chain(scene.penetrations.iter_mut().map(|p| &mut p.at))
+        .chain((scene.robots.iter_mut()).filter_map(|r| r.holds.as_mut().map(|g| &mut g.at)))
+        .chain((scene.frames.iter_mut()).flat_map(|f| f.holds.iter_mut().map(|h| &mut h.at)));
+    for point in points {
+        *point = Point::from(point.coords * length);
+    }
+    for penetration in &mut scene.penetrations {
+        penetration.depth *= length;
+    }
+    for load in &mut scene.loads {
+        load.force *= force;
+        load.torque *= torque;
+    }
+    for limits in scene.robots.iter_mut().map(|r| &mut r.limits) {
+        limits.fx *= force;
+        limits.fy *= force;
+        limits.torque *= torque;
+    }
+}
+
+fn convert(body: &mut Body, length: f64) {
+    let ring = |ring: &Vec<Point>| {
+        ring.iter()
+            .map(|p| Point::from(p.coords * length))
+            .collect()
+    };
+    body.polygon = Polygon::from_valid_rings(body.polygon.rings().iter().map(ring).collect());
+    body.gap *= length;
+    body.rounding *= length;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn torques_and_stresses_combine_both_units() {
+        let units = UnitsEntry {
+            length: Some(LengthUnit::Millimetre),
+            force: Some(ForceUnit::Kilonewton),
+        };
+        assert_eq!(
+            (units.torque().symbol(), units.torque().size),
+            ("kN·mm".into(), 1.0)
+        );
+        assert_eq!(
+            (units.stress().symbol(), units.stress().size),
+            ("kN/mm²".into(), 1e9)
+        );
+        let si = UnitsEntry::default();
+        assert_eq!(si.torque().symbol(), "N·m");
+        assert!(!si.stress().is_chosen);
+    }
+}

@@ -1,0 +1,249 @@
+//! Reads a contact list: bodies with centre and mass, and the points at which they touch, as rows of numbers or as JSON.
+//!
+//! A row of three numbers is a body: x, y, mass. A row of six numbers is a contact: the numbers of the two bodies from 1
+//! (0 is the ground), x, y, the direction of the normal into the first body in radians, and the friction coefficient.
+
+use serde_json::Value;
+
+use super::Options;
+use super::draft::Remark;
+use crate::scene::format::{BlockEntry, ContactEntry, SceneFile};
+
+/// Directions larger than this, in radians, are most likely degrees.
+const MAX_DIRECTION: f64 = 7.0;
+/// A direction within this many degrees of a multiple of 15° was meant to be that multiple: π is often written as 3.1416.
+const SNAP: f64 = 0.01;
+
+/// One body or contact, with a description of its place in the file.
+struct Row {
+    place: String,
+    numbers: Vec<f64>,
+}
+
+/// True if a JSON text is a contact list.
+pub(super) fn is_contact_list(text: &str) -> bool {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let value: Value = serde_json::from_str(text).unwrap_or_default();
+    value["bodies"].is_array() && value["contacts"].is_array()
+}
+
+/// Reads a contact list. Also returns sentences about how it was read.
+///
+/// # Errors
+/// All rows that are neither a body nor a contact, or that name a body that does not exist.
+pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let (rows, mut problems) = match text.trim_start().starts_with('{') {
+        true => json_rows(text),
+        false => written_rows(text),
+    };
+    let metres = options.scale.unwrap_or(1.0) * options.ratio.unwrap_or(1.0);
+    let is_body = |row: &&Row| row.numbers.len() == 3;
+    let bodies = rows.iter().filter(is_body).count();
+    let mut scene = options.scene.clone();
+    for row in &rows {
+        match row.numbers[..] {
+            [x, y, mass] => {
+                let id = (scene.blocks.len() + 1).to_string();
+                let block = BlockEntry::new(id)
+                    .centre([x * metres, y * metres])
+                    .mass(mass);
+                scene.blocks.push(block);
+            }
+            [i, j, x, y, normal, friction] => {
+                let names = [i, j].map(|number| name(number, bodies));
+                let [Some(first), Some(second)] = names else {
+                    let message =
+                        format!("it names the bodies {i} and {j}, but there are {bodies}");
+                    problems.push(problem(
+                        &row.place,
+                        message,
+                        "bodies count from 1; 0 is the ground",
+                    ));
+                    continue;
+                };
+                if normal.abs() > MAX_DIRECTION {
+                    let message =
+                        format!("the direction {normal} of its normal is more than a full turn");
+                    problems.push(problem(
+                        &row.place,
+                        message,
+                        "give directions in radians: π/2 points up",
+                    ));
+                    continue;
+                }
+                let at = [x * metres, y * metres];
+                let contact = ContactEntry::between(first, second, at, degrees(normal));
+                scene.contacts.push(contact.friction(friction));
+            }
+            _ => {
+                let message = format!("it has {} numbers", row.numbers.len());
+                problems.push(problem(&row.place, message, FORM));
+            }
+        }
+    }
+    if problems.is_empty() && (scene.blocks.is_empty() || scene.contacts.is_empty()) {
+        let message = "it has no body, or no contact";
+        problems.push(problem("", message.into(), FORM));
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let notes = vec![
+        format!("a unit of length is {metres} m, masses are in kg"),
+        "normals are read in radians and point into the first body of a contact; body 0 is the ground".into(),
+    ];
+    Ok((scene, notes))
+}
+
+const FORM: &str = "a body has three numbers: x, y, mass; a contact has six: first body, second body, x, y, direction of the \
+    normal in radians, friction";
+
+fn problem(element: &str, message: String, help: &str) -> Remark {
+    Remark {
+        element: element.into(),
+        message,
+        help: help.into(),
+    }
+}
+
+/// The name of a body by its number; `None` if there is no such body.
+fn name(number: f64, bodies: usize) -> Option<String> {
+    let is_body = number.fract() == 0.0 && (0.0..=bodies as f64).contains(&number);
+    is_body.then(|| match number {
+        0.0 => "ground".to_owned(),
+        n => format!("{n:.0}"),
+    })
+}
+
+/// Converts a direction to degrees.
+fn degrees(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    let near = 15.0 * (degrees / 15.0).round();
+    match (degrees - near).abs() <= SNAP {
+        true => near,
+        false => degrees,
+    }
+}
+
+/// Reads rows of numbers, separated by commas, semicolons, tabs or spaces. Lines without a number, such as headings, and
+/// comments are skipped.
+fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
+    let (mut rows, mut problems) = (Vec::new(), Vec::new());
+    for (number, line) in text.lines().enumerate() {
+        let line = line.split(['#', '%']).next().unwrap_or("");
+        let is_gap = |c: char| matches!(c, ',' | ';' | '[' | ']' | '"') || c.is_whitespace();
+        let cells: Vec<&str> = line.split(is_gap).filter(|cell| !cell.is_empty()).collect();
+        let labelled = cells.first().is_some_and(|cell| {
+            let word = cell.trim_end_matches(':').to_lowercase();
+            matches!(word.as_str(), "body" | "contact")
+        });
+        let cells = &cells[usize::from(labelled)..];
+        let numbers: Vec<Option<f64>> = cells.iter().map(|cell| value(cell)).collect();
+        if numbers.iter().all(Option::is_none) {
+            continue;
+        }
+        let place = format!("line {}", number + 1);
+        match numbers.into_iter().collect() {
+            Some(numbers) => rows.push(Row { place, numbers }),
+            None => problems.push(problem(&place, "it has words between numbers".into(), FORM)),
+        }
+    }
+    (rows, problems)
+}
+
+/// Reads a number, also with π: `pi`, `-pi/2`, `3*pi/2`.
+fn value(cell: &str) -> Option<f64> {
+    let cell = cell.replace('π', "pi").to_lowercase();
+    if let Ok(number) = cell.parse::<f64>() {
+        return number.is_finite().then_some(number);
+    }
+    let (numerator, denominator) = match cell.split_once('/') {
+        Some((n, d)) => (n, d.parse::<f64>().ok().filter(|d| *d != 0.0)?),
+        None => (cell.as_str(), 1.0),
+    };
+    let factor = numerator.strip_suffix("pi")?.trim_end_matches('*');
+    let factor = match factor {
+        "" | "+" => 1.0,
+        "-" => -1.0,
+        number => number.parse::<f64>().ok()?,
+    };
+    let number = factor * std::f64::consts::PI / denominator;
+    number.is_finite().then_some(number)
+}
+
+/// Reads the bodies and contacts of a JSON object: each a list of numbers, or an object with names.
+fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
+    let file: Value = match serde_json::from_str(text) {
+        Ok(file) => file,
+        Err(error) => {
+            let help = "correct the JSON text";
+            return (Vec::new(), vec![problem("", error.to_string(), help)]);
+        }
+    };
+    let (mut rows, mut problems) = (Vec::new(), Vec::new());
+    let body: &[&[&str]] = &[
+        &["x", "centre.0", "center.0"],
+        &["y", "centre.1", "center.1"],
+        &["mass", "m"],
+    ];
+    let contact: &[&[&str]] = &[
+        &["i", "bodies.0"],
+        &["j", "bodies.1"],
+        &["x", "at.0"],
+        &["y", "at.1"],
+        &["normal", "theta", "angle"],
+        &["friction", "mu"],
+    ];
+    for (list, names) in [("bodies", body), ("contacts", contact)] {
+        for (i, entry) in file[list].as_array().into_iter().flatten().enumerate() {
+            let place = format!("{list}[{i}]");
+            let numbers: Option<Vec<f64>> = match entry.as_array() {
+                Some(cells) => cells.iter().map(Value::as_f64).collect(),
+                None => names.iter().map(|names| named(entry, names)).collect(),
+            };
+            match numbers.filter(|numbers| numbers.len() == names.len()) {
+                Some(numbers) => rows.push(Row { place, numbers }),
+                None => problems.push(problem(&place, "its numbers cannot be read".into(), FORM)),
+            }
+        }
+    }
+    (rows, problems)
+}
+
+/// The number under the first of these names that exists; `centre.0` is the first entry of `centre`.
+fn named(entry: &Value, names: &[&str]) -> Option<f64> {
+    names.iter().find_map(|name| match name.split_once('.') {
+        Some((list, number)) => entry[list][number.parse::<usize>().ok()?].as_f64(),
+        None => entry[*name].as_f64(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_and_json_say_the_same() {
+        let rows = "x, y, mass\n25, 35, 2\n66 42 5 # the second\ncontact; 1; 2; 60; 60; pi; 0.5\n\
+            1,0,0,0,pi/2,0.1\n2 0 60 0 1.5708 0.5\n[2, 0, 72, 0, 0.5*pi, 0.5]\n";
+        let json = r#"{ "bodies": [[25, 35, 2], { "centre": [66, 42], "mass": 5 }],
+            "contacts": [[1, 2, 60, 60, 3.14159265, 0.5], { "i": 1, "j": 0, "x": 0, "y": 0, "normal": 1.5707963, "mu": 0.1 },
+                { "bodies": [2, 0], "at": [60, 0], "theta": 1.5707963, "friction": 0.5 }, [2, 0, 72, 0, 1.5707963, 0.5]] }"#;
+        let options = Options::default();
+        let (first, _) = read(rows, &options).expect("read");
+        let (second, _) = read(json, &options).expect("read");
+        assert_eq!(first, second);
+        assert_eq!((first.blocks.len(), first.contacts.len()), (2, 4));
+        assert_eq!(first.contacts[0].normal, 180.0);
+        assert_eq!(first.contacts[1].bodies, ["1", "ground"]);
+    }
+
+    #[test]
+    fn wrong_rows_are_named() {
+        let text = "25 35 2\n1 2 60 60\n1 0 0 0 90 0.5\n1 7 0 0 0 0.5\n1 0 x 0 0 0.5";
+        let problems = read(text, &Options::default()).expect_err("refused");
+        let places: Vec<&str> = problems.iter().map(|p| p.element.as_str()).collect();
+        assert_eq!(places, ["line 5", "line 2", "line 3", "line 4"]);
+    }
+}
