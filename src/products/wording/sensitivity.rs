@@ -281,7 +281,9 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
     let name = name(kind, true);
     match reason {
         NoSensitivity::NotApplicable => {
-            format!("no sensitivity of the {name}: there are no loads on placed blocks, or the scene lists its contacts")
+            format!(
+                "no sensitivity of the {name}: there are no loads on placed blocks, or the scene lists its contacts"
+            )
         }
         NoSensitivity::Empty => {
             format!("no sensitivity of the {name}: the frame falls at every value")
