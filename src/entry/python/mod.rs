@@ -344,7 +344,7 @@ fn check_many(
         return Err(error);
     }
     let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
-    let one = |answer| match answer {
+    let one = |answer: Result<analysis::Analysis, Refusal>| match answer {
         Ok(found) => Ok(Py::new(py, Analysis::new(found))?.into_any()),
         Err(why) => Ok(why.raised(py, options.located).into_value(py).into_any()),
     };

@@ -195,6 +195,7 @@ struct Frame<'a> {
     margins: Option<Margins<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     sensitivity: Option<Sensitivity<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
