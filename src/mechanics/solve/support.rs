@@ -1,8 +1,8 @@
-//! The largest force of an unlimited grip in a direction, by one linear program.
+//! Computes the largest force of an unlimited grip in a direction, by one linear program.
 //!
-//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip. Its dual is kinematic: max loadsᵀy s.t. columnᵀy ≤ 0,
-//! and the grip point moves along −y with the velocity d. The multipliers of these last rows are F. The velocities are the
-//! mechanism by which the structure gives way to a larger force.
+//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip. The dual is kinematic: max loadsᵀy s.t.
+//! columnᵀy ≤ 0, and the grip point moves along −y with the velocity d. The multipliers of the rows of this last
+//! condition are F. The velocities are the mechanism by which the structure fails under a larger force.
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};
@@ -14,22 +14,23 @@ use crate::program::{Column, Force, Program, kinematic_dual};
 /// The largest force of a grip in a direction.
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// It is finite.
+    /// The largest force is finite.
     At {
-        /// Forces that balance the loads, with the largest force of the grip.
+        /// Forces that balance the loads and contain the largest force of the grip.
         forces: Amounts,
-        /// The mechanism: three velocities for each block.
+        /// The mechanism: three velocities for each block, in units of the program.
         motion: Vec<f64>,
     },
-    /// The force may grow without end.
+    /// Forces of any size are possible.
     Unbounded,
-    /// No force of the grip allows a balance.
+    /// No force of the grip balances the loads.
     Never,
     /// The solver ended without a result.
     Unsolved,
 }
 
-/// The tolerances and conditionings that are tried in turn. Plain conditioning is faster; a proof checks each result.
+/// The tolerances and conditionings that are tried in this order. Plain conditioning is faster. A proof checks each
+/// result.
 const ATTEMPTS: [(f64, Conditioning); 4] = [
     (TOLERANCE, Conditioning::Plain),
     (TOLERANCE, Conditioning::Full),
@@ -37,8 +38,8 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. The other forces have no cost. If `is_again`,
-/// plain conditioning has given a result without a proof and is not tried.
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. Set
+/// `is_again` if the result with plain conditioning had no proof: this conditioning is then left out.
 pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,
@@ -68,7 +69,7 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool
                     motion: answer.x[..loads.len()].iter().map(|v| -v).collect(),
                 };
             }
-            // No motion with this velocity of the grip point exists: nothing limits the force.
+            // No mechanism moves the grip point with this velocity, so nothing limits the force.
             Status::Infeasible => return Support::Unbounded,
             Status::Unbounded => return Support::Never,
             Status::Unsolved => {}

@@ -1,20 +1,20 @@
-//! The forces that are carried in every case of some ranges: the intersection over a few extreme cases.
+//! Computes the forces that are carried in every case of given ranges, as the intersection over a few extreme cases.
 //!
-//! For a fixed force, the values of a parameter at which the frame stands form an interval if the loads are linear in the
-//! parameter. A force that is carried at both ends of a range is then carried within it:
+//! If the loads are linear in a parameter, the values at which the frame stands under a fixed force form an interval. A
+//! force that is carried at both ends of a range is therefore carried at every value between them:
 //!
-//! - *Horizontal load*: the loads are linear in it, so its two ends are enough.
+//! - *Horizontal load*: the loads are linear in it, so the two ends of the range are enough.
 //! - *Friction*: more friction only adds admissible forces, so the lowest value is enough.
-//! - *Tilt*: the loads turn, so they are not linear in the angle, and the ends alone are not enough: between them
-//!   gravity leaves the chord on the outer side of its arc. The tangents of the arc enclose it. Their corners have the
-//!   same direction as gravity at the middle of each piece of the arc, and a strength of 1/cos(half the piece). The ends and
-//!   these corners are therefore enough. They ask for slightly more than the arc does: at most 4·10⁻⁵ of the weights with
-//!   pieces of 1°. The result is on the safe side.
-//! - *Several of them*: the loads are linear in gravity at a fixed horizontal fraction, and linear in the fraction at fixed
-//!   gravity. All combinations of the extreme values of both enclose every case.
+//! - *Tilt*: the loads rotate, so they are not linear in the angle and the ends alone are not enough. The tip of the
+//!   gravity vector moves on an arc. The polygon of the tangents of this arc encloses it. Each of its corners has the
+//!   direction of gravity at the middle of a piece of the arc, and the strength 1/cos(half the piece). The ends and
+//!   these corners are therefore enough. They are slightly more severe than the arc: by at most 4·10⁻⁵ of the weights
+//!   with pieces of 1°. The result is on the safe side.
+//! - *Several ranges*: the loads are linear in gravity at a fixed horizontal fraction, and linear in the fraction at
+//!   fixed gravity. All combinations of the extreme values of both therefore enclose every case.
 //!
-//! Tilts over more than 90° are refused. Quantities in which the loads or the contacts are not linear, such as
-//! the positions of corners, cannot be given.
+//! Ranges of tilt wider than 90° are refused. A range cannot be given for a quantity in which the loads or the contacts
+//! are not linear, such as the position of a corner.
 
 use super::refine;
 use super::region::{clipped, close, corners, cut_off, square};
@@ -22,13 +22,13 @@ use super::{CapacityEdge, CapacityError, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 
-/// The longest piece of an arc of tilts, degrees.
+/// The longest piece into which an arc of tilts is divided, degrees.
 const LONGEST_PIECE: f64 = 1.0;
 
 /// Rays are cut off at this multiple of the size of the sets.
 const FAR: f64 = 1e5;
 
-/// Computes the capacity in each extreme case with `one`, and intersects them.
+/// Computes the capacity in each extreme case with the function `one`, and intersects the capacities.
 pub(super) fn intersected(
     assembly: &Assembly,
     cases: &Cases,
@@ -43,7 +43,7 @@ pub(super) fn intersected(
         }
         let is_empty = capacity.vertices.is_empty();
         all.push(capacity);
-        // Nothing is carried in this case, so nothing is carried in every case.
+        // No force is carried in this case, so no force is carried in all cases.
         if is_empty {
             break;
         }
@@ -66,7 +66,7 @@ pub(super) fn intersected(
     }
 }
 
-/// Returns the assembly in each extreme case.
+/// Returns the changed assembly of each extreme case.
 fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
     cases.check()?;
     let tilt = cases.tilt.unwrap_or([0.0; 2]);
@@ -94,7 +94,7 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
     Ok(all)
 }
 
-/// Returns the corners of a polygon around an arc of gravity: angles in degrees, and strengths.
+/// Returns the corners of a polygon around an arc of gravity. Each is a tilt in degrees and a factor of the strength.
 fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     if from == to {
         return vec![(from, 1.0)];
@@ -107,7 +107,7 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     all
 }
 
-/// Returns the forces that belong to every capacity of a list.
+/// Returns the set of the forces that belong to every capacity of a list.
 fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
     let centre = forces().next().unwrap_or_else(Vector::zeros);
@@ -153,7 +153,7 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
         ..all[0].clone()
     };
     if capacity.vertices.is_empty() {
-        // Two cases exclude each other.
+        // No force is carried in all cases, although some forces are carried in each case.
         capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
         return capacity;
     }
@@ -161,7 +161,8 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     capacity
 }
 
-/// Keeps the first and the last of some directions within a half-plane, anticlockwise.
+/// Returns the first and the last of some directions that lie within a half-plane, anticlockwise. Returns only one
+/// direction if both are equal, and none for an empty list.
 fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     let mean: Vector = directions.iter().sum();
     let turn = |d: &Vector| libm::atan2(mean.x * d.y - mean.y * d.x, mean.dot(d));
@@ -173,7 +174,8 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     }
 }
 
-/// The half-planes whose intersection is a convex polygon, a segment or a point. `slack` is added to each limit.
+/// Returns the half-planes (normal, limit) whose intersection is a convex polygon, a segment or a point. `slack` is
+/// added to each limit.
 fn half_planes(ring: &[Vector], slack: f64) -> Vec<(Vector, f64)> {
     let side = |from: Vector, outward: Vector| {
         let normal = outward.normalize();

@@ -1,8 +1,8 @@
-//! Finds the directions in which the set of forces has no end, and then the set itself.
+//! Finds the directions in which the set of carried forces is unbounded, and then the set itself.
 //!
-//! A set without end contains, with every force, that force plus any force of its *recession cone*. This cone is the
-//! same set without loads. The set has a farthest force exactly in the directions at an angle of at least 90° to the
-//! whole cone.
+//! An unbounded set has a *recession cone*: any force of this cone may be added to any force of the set. The cone is
+//! the set of forces that are carried without loads. The set has a farthest force exactly in the directions at an angle
+//! of at least 90° to the whole cone.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,22 +10,22 @@ use super::probe::{Farthest, Probe};
 use super::refine::{Sample, refined, sample, size};
 use crate::geometry::Vector;
 
-/// The samples of a set, and the directions in which it has no end.
+/// The samples of a set, and the unit directions in which it is unbounded.
 pub(super) struct Found {
     pub samples: Vec<Sample>,
     pub rays: Vec<Vector>,
 }
 
-/// The largest angle between neighbouring first directions.
+/// The largest angle between neighbouring directions before the refinement, radians.
 const MAX_STEP: f64 = 1.1;
 
-/// Two angles that differ by less are equal.
+/// Two angles that differ by less than this, in radians, count as equal.
 const SAME_ANGLE: f64 = 1e-7;
 
-/// Forces that bound an edge without end are sought up to this multiple of the size of the set.
+/// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
 const REACH: f64 = 10.0;
 
-/// Computes the set of a probe; `None` if no force is carried, or if none could be proved.
+/// Computes the set of a probe. `None` if no force is carried, or if a proof of a carried force was not found.
 pub(super) fn found(probe: &Probe) -> Option<Found> {
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();
@@ -48,7 +48,7 @@ pub(super) fn found(probe: &Probe) -> Option<Found> {
     unbounded(probe)
 }
 
-/// Computes a set without end.
+/// Computes an unbounded set; `None` if the directions in which it is unbounded were not found.
 fn unbounded(probe: &Probe) -> Option<Found> {
     let cone = Cone::of(probe)?;
     let around = probe.heaviest();
@@ -60,13 +60,13 @@ fn unbounded(probe: &Probe) -> Option<Found> {
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First the directions inside the arc. They give the size of the set.
+        // First the directions inside the arc. Their farthest forces give the size of the set.
         let count = ((to - from) / MAX_STEP).ceil().max(1.0);
         let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
         let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
-        // Then its ends, where the edges have no end themselves.
+        // Then the two ends of the arc, whose edges are unbounded.
         let reach = Some(REACH * largest);
         let first = sample(probe, unit(from), reach)?;
         if to - from > SAME_ANGLE {
@@ -81,10 +81,10 @@ fn unbounded(probe: &Probe) -> Option<Found> {
     Some(Found { samples, rays })
 }
 
-/// The directions in which a set has no end, as angles.
+/// The directions in which a set is unbounded, as angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Cone {
-    /// From one angle anticlockwise to another, at most π later.
+    /// All directions from the first angle anticlockwise to the second, which is at most π larger.
     Between(f64, f64),
     /// A direction and its opposite.
     Line(f64),
@@ -93,7 +93,8 @@ enum Cone {
 }
 
 impl Cone {
-    /// Computes the cone from the forces of the probe without loads, within a square; `None` if there is none.
+    /// Computes the cone as the forces of the probe without loads whose components are at most 1. `None` if there is no
+    /// such direction.
     fn of(probe: &Probe) -> Option<Cone> {
         let homogeneous = probe.without_loads();
         let reach = Some(1.0);
@@ -115,7 +116,7 @@ impl Cone {
         })?;
         let (last, first) = (angles[widest], next(widest) - TAU);
         let width = last - first;
-        // Two opposite gaps of π: a line.
+        // All directions lie at two opposite angles: the cone is a line.
         let is_between = |a: &f64| {
             let from = (a - first).rem_euclid(TAU);
             from > SAME_ANGLE && from < width - SAME_ANGLE
@@ -131,7 +132,7 @@ impl Cone {
         }
     }
 
-    /// Returns the arcs of directions in which the set has a farthest force.
+    /// Returns the intervals of angles of the directions in which the set has a farthest force.
     fn normals(self) -> Vec<(f64, f64)> {
         match self {
             Cone::Everything => Vec::new(),
@@ -154,7 +155,7 @@ impl Cone {
 
 fn unit(angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
-    // Along the axes exactly.
+    // Along an axis, the other component is exactly 0.
     let plain = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
     Vector::new(plain(cos), plain(sin))
 }

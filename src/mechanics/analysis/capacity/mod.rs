@@ -1,12 +1,12 @@
-//! [`LoadCapacity`]: all forces that may act on a block in addition to what acts already, such that the frame stands.
+//! [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the frame stands.
 //!
-//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set: a polygon, which may be unbounded or
-//! empty. It is the set of forces that a robot without limits could exert at this point ([`probe`]): one linear program
-//! gives the farthest force of the set in a direction, together with contact forces that prove it and a motion that no
-//! farther force survives. The directions are refined until the polygon of the proved forces and the polygon that
-//! the motions leave agree ([`refine`]). If a direction has no farthest force, the directions in which the set is
-//! unbounded come first ([`cone`]). Forces that are carried in every one of several cases are the intersection of
-//! their sets ([`cases`]).
+//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
+//! unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]). One
+//! linear program computes the farthest force of the set in a given direction. It also gives contact forces that prove
+//! this force, and a motion that excludes every farther force. More directions are added until two polygons agree: that
+//! of the proved forces, and that of the half-planes of the motions ([`refine`]). If forces of any size are carried in
+//! some direction, the directions in which the set is unbounded are found first ([`cone`]). For several cases, the
+//! result is the intersection of their sets ([`cases`]).
 
 mod cases;
 mod cone;
@@ -27,7 +27,7 @@ use crate::solve::{DeadlineGuard, is_late};
 use probe::Probe;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 
-/// All forces that may act on a block at a point, in addition to what acts already, such that the frame stands.
+/// All forces that may act on a block at a point, in addition to its present loads, such that the frame stands.
 ///
 /// The set is the convex hull of `vertices`, extended without end along `rays`. Forces are in newtons, x to the right
 /// and y up.
@@ -53,21 +53,22 @@ pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 pub struct LoadCapacity {
     /// The block on which the force acts.
     pub block: BlockId,
-    /// The point at which it acts, metres; or the two points of a free contact, whose resultant it is.
+    /// The point at which the force acts, metres. A free contact has two points; the force is then their resultant.
     pub at: Vec<Point>,
     /// The robot whose force it is, if a robot holds the block at this point.
     pub robot: Option<RobotId>,
     /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
     pub vertices: Vec<CapacityVertex>,
-    /// The unit directions in which the set has no end, anticlockwise: at most two, or four if every force is carried.
+    /// The unit directions in which the set is unbounded, anticlockwise: at most two, or four if every force is
+    /// carried.
     pub rays: Vec<Vector>,
     /// The edges, anticlockwise.
     pub edges: Vec<CapacityEdge>,
-    /// The largest distance, N, of a force that the motions do not exclude from the forces that are proved.
+    /// A bound on the error, N: no force that the motions allow is farther than this from the set of proved forces.
     pub gap: f64,
-    /// How the frame falls whatever the force is; not empty if the set is empty because a motion shows it.
+    /// How the frame begins to fall whatever the force is. Empty unless the set is empty and a motion proves it.
     pub mechanism: Vec<Motion>,
-    /// The number of cases in each of which these forces are carried; 1 without ranges.
+    /// The number of extreme cases in which each of these forces is carried; 1 if no range was given.
     pub cases: usize,
 }
 
@@ -79,7 +80,8 @@ pub struct CapacityVertex {
     pub force: Vector,
     /// The torque of a free contact, N·m, about its first point; 0 if the force acts at one point.
     pub torque: f64,
-    /// The contact forces that carry it. Empty if several cases were intersected: then each case has its own.
+    /// The contact forces that balance the force of this vertex. Empty if several cases were intersected, because each
+    /// case has its own.
     pub contacts: Vec<VertexForce>,
     /// The proof by these forces; `None` if several cases were intersected.
     pub proof: Option<Proof>,
@@ -101,17 +103,19 @@ pub struct VertexForce {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CapacityEdge {
-    /// The vertices at which it begins and ends, anticlockwise; `None` if it has no end there.
+    /// The indices of the vertices at which the edge begins and ends, anticlockwise. `None` on a side where it is
+    /// unbounded.
     pub ends: [Option<usize>; 2],
-    /// The outward unit normal. The point of the block begins to move in this direction.
+    /// The outward unit normal. The point of the block begins to move in this direction under a force just beyond the
+    /// edge.
     pub normal: Vector,
-    /// The largest force along the normal, N.
+    /// The limit of normal · F, N.
     pub limit: f64,
-    /// How the blocks begin to move just beyond.
+    /// How the blocks begin to move under a force just beyond the edge.
     pub mechanism: Vec<Motion>,
-    /// The proof that the frame falls by this motion just beyond.
+    /// The proof that the frame falls by this motion under such a force.
     pub proof: Proof,
-    /// The case that it belongs to, from 0.
+    /// The index, from 0, of the case that this edge belongs to.
     pub case: usize,
 }
 
@@ -120,20 +124,20 @@ pub struct CapacityEdge {
 pub enum CapacityShape {
     /// No force is carried.
     Empty,
-    /// One force only.
+    /// Only one force is carried.
     Point,
-    /// The forces between two.
+    /// The forces on the line segment between two forces.
     Segment,
     /// A bounded polygon.
     Polygon,
-    /// Forces of any size in some directions.
+    /// The set is unbounded: forces of any size are carried in some directions.
     Unbounded,
-    /// Every force.
+    /// Every force is carried.
     Everything,
 }
 
 impl CapacityShape {
-    /// Returns the word in JSON results.
+    /// Returns the word for this shape in JSON results.
     pub fn word(self) -> &'static str {
         match self {
             CapacityShape::Empty => "empty",
@@ -147,7 +151,7 @@ impl CapacityShape {
 }
 
 impl LoadCapacity {
-    /// Returns the kind of set.
+    /// Returns the kind of this set.
     pub fn shape(&self) -> CapacityShape {
         match (self.vertices.len(), self.rays.len()) {
             (_, 3..) => CapacityShape::Everything,
@@ -159,8 +163,8 @@ impl LoadCapacity {
         }
     }
 
-    /// Returns the largest component of a carried force along a direction, N, times the length of the direction. `None`
-    /// if it has no end, or if the set is empty.
+    /// Returns the largest value of force · direction among the carried forces; it is in newtons for a unit direction.
+    /// `None` if this value is unbounded, or if no force is carried.
     pub fn most(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
         let unbounded = |ray: &Vector| ray.dot(&direction) > 1e-9 * direction.norm();
@@ -171,15 +175,15 @@ impl LoadCapacity {
         along.reduce(f64::max)
     }
 
-    /// Whether a force, N, is carried: within the edges, and the set is not empty.
+    /// True if a force, in newtons, is carried: it lies in the convex hull of the vertices, extended along the rays.
     pub fn contains(&self, force: impl Into<Vector>) -> bool {
         let force = force.into();
         let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
         region::contains(&corners, &self.rays, force)
     }
 
-    /// Returns the largest carried force straight along a unit direction, N: infinite if it has no end. `None` if the
-    /// frame does not stand without a force.
+    /// Returns the largest force, N, that is carried in exactly a given unit direction. Infinite if every force in this
+    /// direction is carried. `None` if the frame does not stand without an additional force.
     pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
         if !self.contains(Vector::zeros()) {
@@ -189,7 +193,7 @@ impl LoadCapacity {
         Some(region::reach(&corners, &self.rays, direction))
     }
 
-    /// Returns the indices of the edges, the longest first; edges without end before all others.
+    /// Returns the indices of the edges. Unbounded edges come first, then the others from the longest to the shortest.
     pub fn longest_edges(&self) -> Vec<usize> {
         let length = |k: &usize| match self.edges[*k].ends {
             [Some(a), Some(b)] => (self.vertices[a].force - self.vertices[b].force).norm(),
@@ -216,12 +220,14 @@ impl LoadCapacity {
 }
 
 impl Analysis {
-    /// Computes all forces that a block can carry in a frame, numbered from 0, in addition to what acts already.
+    /// Computes all forces that a block can carry in a frame, in addition to its present loads. Frames are numbered
+    /// from 0.
     ///
     /// Units: newtons and metres. Signs: x to the right, y up.
     ///
     /// # Errors
-    /// If there is no such frame, if the block is not placed in it, if the request is not valid, or if no proof was found.
+    /// Returns an error if there is no such frame, if the block is not placed in it, if the request is not valid, or if
+    /// no proof was found.
     pub fn capacity(
         &self,
         frame: usize,
@@ -230,7 +236,8 @@ impl Analysis {
         capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
     }
 
-    /// Computes the elementary mechanism of an edge, for drawing; see [`Analysis::elementary`].
+    /// Computes the elementary mechanism of an edge, for drawing. See [`Analysis::elementary`]. The list is empty if
+    /// the frame or the edge does not exist.
     ///
     /// The fastest point has speed 1.
     pub fn edge_mechanism(
@@ -245,7 +252,7 @@ impl Analysis {
         if edge.case > 0 || capacity.cases > 1 || capacity.at.len() > 1 {
             return edge.mechanism.clone();
         }
-        // Just beyond the middle of the edge the loads have power along the mechanism.
+        // Under a force just beyond the middle of the edge, the loads have positive power along the mechanism.
         let ends = edge.ends.iter().flatten();
         let ends: Vec<Vector> = ends.map(|end| capacity.vertices[*end].force).collect();
         let middle = ends.iter().sum::<Vector>() / ends.len().max(1) as f64;
@@ -259,7 +266,7 @@ impl Analysis {
     }
 }
 
-/// Adds the capacity to each frame, if it is requested.
+/// Computes the capacity of each frame if the options request it. Adds a notice to a frame if this fails.
 pub(super) fn add(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -283,16 +290,16 @@ pub(super) fn add(
     }
 }
 
-/// Whether the proved forces and the motions do not agree as exactly as they should.
+/// True if the proved forces and the motions differ by more than the admissible gap.
 fn is_inexact(capacity: &LoadCapacity) -> bool {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     capacity.gap > INEXACT * sizes.fold(0.0, f64::max)
 }
 
-/// With a gap above this fraction of the largest force, the set counts as not found.
+/// If the gap is larger than this fraction of the largest force, the capacity is reported as undecided.
 const INEXACT: f64 = 1e-4;
 
-/// Returns a notice if a point lies outside its block.
+/// Returns a notice for the first of `points` that lies outside the block; `None` if there is no such point.
 fn outside(block: &Block, points: &[Point]) -> Option<String> {
     let outline = block.body.polygon.outline();
     let next = |k: usize| outline[(k + 1) % outline.len()];
@@ -311,7 +318,7 @@ fn outside(block: &Block, points: &[Point]) -> Option<String> {
     })
 }
 
-/// Computes the capacity of a block in a frame of a scene.
+/// Computes the capacity of a block in a frame of a scene, numbered from 0.
 pub(crate) fn capacity_of(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -329,7 +336,7 @@ pub(crate) fn capacity_of(
         interfaces: &interfaces.in_frame(scene, found),
     };
     let (mut assembly, _) = effect::assemble(&context);
-    // The force of a robot is asked for: its own limits do not count. It keeps its torque.
+    // The capacity replaces the force of this robot, so its force limits are set to 0. Its torque limit stays.
     let tool = request.tool(found);
     let mut grips = assembly.grips.iter_mut();
     if let Some(grip) = tool.and_then(|hold| grips.find(|grip| grip.robot == hold.robot)) {
@@ -344,7 +351,7 @@ pub(crate) fn capacity_of(
     })
 }
 
-/// Computes the capacity of a block in one assembly.
+/// Computes the capacity of a block in one assembly. It is empty if a component without this block falls.
 fn capacity_of_assembly(
     assembly: &Assembly,
     block: BlockId,
@@ -376,7 +383,8 @@ fn capacity_of_assembly(
                 false => Ok(capacity),
             }
         }
-        // No force of the probe balances the loads, or no result was found. A verdict decides.
+        // Either no force of the probe balances the loads, or no result was found. The verdict of the component
+        // decides.
         None => match decide_verdict(&probe.held, Place::Anywhere, &mut ProofCache::default()) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided()),

@@ -1,4 +1,4 @@
-//! [`Probe`]: a component with one more robot without limits, whose force is the one that is asked for.
+//! [`Probe`]: a component with one additional robot without limits, whose possible forces are computed.
 
 use crate::analysis::decide::{proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
@@ -8,24 +8,26 @@ use crate::proof::{Forces, Motion, Proof, check_forces};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Amounts, Support, support};
 
-/// How far beyond the limit a motion is proved, relative to the size of the force. The power along a motion is linear in
-/// the force, so the proof holds up to the line on which the power vanishes.
+/// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
+/// is linear in the force, so the proof holds up to the line on which the power is 0.
 const BEYOND: f64 = 4e-3;
 
-/// A motion in which the point is slower than this does not limit the force. The fastest point has speed 1.
+/// A motion in which the point is slower than this gives no limit of the force. The fastest point of a motion has speed
+/// 1.
 const MIN_SPEED: f64 = 1e-9;
 
-/// A component and the point at which the force acts.
+/// A component, and the point of a body at which the additional force acts.
 pub(super) struct Probe {
     given: Assembly,
-    /// The component with an unlimited grip at the point. It is the last grip.
+    /// The component with one more grip, without limits, at the point. It is the last grip of the list.
     pub held: Assembly,
     program: Program,
     body: usize,
     at: Point,
     has_torque: bool,
-    /// Whether forces and motions are proved. Those of a cone of directions are not: a proof is relative to the forces on
-    /// each body, and without loads most bodies have none. The edges and a far force of the loaded component show them.
+    /// True if forces and motions are proved. They are not proved for a cone of directions: a proof is relative to the
+    /// forces on each body, and without loads most bodies have no force. The loaded component proves the edges and a
+    /// far force instead.
     proves: bool,
 }
 
@@ -50,22 +52,22 @@ pub(super) struct Line {
 /// The farthest carried force in a direction.
 #[derive(Clone, Debug)]
 pub(super) enum Farthest {
-    /// It is finite.
+    /// The farthest force is finite.
     At {
-        /// The force; `None` if it has no proof.
+        /// The farthest force; `None` if it has no proof.
         carried: Option<Carried>,
         /// The motion that excludes farther forces; `None` if it has no proof.
         line: Option<Line>,
     },
-    /// There is none: forces of any size are carried.
+    /// There is no farthest force: forces of any size are carried.
     Unbounded,
-    /// No force is carried, or the program has no result.
+    /// Either no force is carried, or the program has no result.
     None,
 }
 
 impl Probe {
-    /// Creates the probe of a force at one point of a body, or of the resultant of a free contact at two points. Two
-    /// free forces at two points are a free force and a free torque at one of them.
+    /// Creates the probe of a force at one point of a body, or of the resultant of a free contact at two points. Free
+    /// forces at two points are equivalent to a free force and a free torque at the first point.
     pub fn new(given: &Assembly, body: usize, points: &[Point]) -> Probe {
         let has_torque = points.len() > 1;
         let at = points[0];
@@ -83,8 +85,8 @@ impl Probe {
         }
     }
 
-    /// Returns the same probe without loads, with robots only as far as they have no limits. Its forces are those that
-    /// may be added without end.
+    /// Returns the same probe without loads. Finite limits of robots are set to 0; unlimited robots stay. Its carried
+    /// forces are the recession cone: they may be added to any carried force in any size.
     pub fn without_loads(&self) -> Probe {
         let mut given = self.given.clone();
         for body in &mut given.bodies {
@@ -106,7 +108,7 @@ impl Probe {
         }
     }
 
-    /// Returns the heaviest load of the component, N; 1 without loads.
+    /// Returns the largest load of a body of the component, N; 1 if there are no loads.
     pub fn heaviest(&self) -> f64 {
         match self.given.heaviest_load() {
             0.0 => 1.0,
@@ -114,12 +116,13 @@ impl Probe {
         }
     }
 
-    /// The index of each contact of the component among the contacts of its frame.
+    /// Returns the index of a contact of the component among the contacts of its frame.
     pub fn interface(&self, contact: usize) -> usize {
         self.given.contacts[contact].interface
     }
 
-    /// Returns the farthest carried force in a direction, a unit vector. `reach` limits both components of the force, N.
+    /// Returns the farthest carried force in a direction, which is a unit vector. If `reach` is given, both components
+    /// of the force are at most this large, N.
     pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
         let mut program = self.program.clone();
         if let Some(most) = reach {
@@ -129,7 +132,7 @@ impl Probe {
             program.grips[grip].limits[1] = most;
         }
         let first = self.farthest_in(&program, direction, false);
-        // A more exact solution may have the proofs that the first one lacks.
+        // If a proof is missing, a more exact solution may have it.
         match first {
             Farthest::At {
                 carried: Some(_),
@@ -194,7 +197,8 @@ impl Probe {
         })
     }
 
-    /// Returns the half-plane that a motion `y` of the program leaves. The motion is proved for a force beyond `near`.
+    /// Returns the half-plane of the forces that a motion `y` of the program does not exclude. The motion is proved for
+    /// a force beyond `near`. `None` if this proof fails, or if the point hardly moves.
     fn line(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<Line> {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (BEYOND * size));
@@ -211,7 +215,8 @@ impl Probe {
         })
     }
 
-    /// Returns the component with one more load. A free contact also exerts a torque, so that the body may not rotate.
+    /// Returns the component with one more load at the point. For a free contact, an unlimited torque also acts on the
+    /// body, so it cannot rotate.
     fn with_force(&self, force: Vector) -> Assembly {
         let mut assembly = match self.has_torque {
             true => with_grip(&self.given, self.body, self.at, [0.0, 0.0, f64::INFINITY]),
@@ -225,7 +230,7 @@ impl Probe {
         assembly
     }
 
-    /// Returns the power of the loads along a motion, less the power that limited robots can absorb, in watts.
+    /// Returns the power of the loads along a motion, less the power that robots with limits can absorb, in watts.
     fn power(&self, motion: &[Motion]) -> f64 {
         let mut power = 0.0;
         for (body, m) in self.given.bodies.iter().zip(motion) {
@@ -248,7 +253,7 @@ impl Probe {
     }
 }
 
-/// Returns an assembly with one more grip, at the end of the list.
+/// Returns a copy of the assembly with one more grip, at the end of the list.
 fn with_grip(given: &Assembly, body: usize, at: Point, limits: [f64; 3]) -> Assembly {
     let mut held = given.clone();
     let [fx, fy, torque] = limits;

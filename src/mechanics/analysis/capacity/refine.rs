@@ -1,43 +1,43 @@
-//! Refines the directions in which the farthest forces are computed until every edge between two of them is known.
+//! Adds directions for which the farthest force is computed, until every edge between two of these forces is known.
 //!
-//! Between two neighbouring farthest forces lies either an edge or another vertex. The normal of their chord decides: if
-//! no force is farther in this direction, the chord is an edge, otherwise the farthest force is a new vertex. Reference:
-//! Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
+//! Between two neighbouring farthest forces lies either an edge or another vertex. The farthest force along the normal
+//! of their chord decides. If it is not farther than the chord, the chord is an edge; otherwise it is a new vertex.
+//! Reference: Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
 
 use super::probe::{Carried, Farthest, Line, Probe};
 use crate::geometry::{Vector, cross};
 
-/// The farthest force in a direction, and the motion that excludes farther ones.
+/// The farthest force in a direction, and the half-plane of the motion that excludes farther forces.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub carried: Carried,
     pub line: Option<Line>,
 }
 
-/// The refinement stops at this fraction of the size of the set.
+/// The tolerance of the refinement, as a fraction of the size of the set.
 const TOLERANCE: f64 = 2e-7;
 
-/// The tolerance is at least this fraction of the heaviest load: the solver's accuracy.
+/// The tolerance is at least this fraction of the heaviest load, because the solver is not more accurate.
 const LEAST_TOLERANCE: f64 = 2e-9;
 
-/// Forces that differ by this fraction of the size of a set differ by rounding.
+/// Forces whose distance is at most this fraction of the size of a set differ only by rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// An advance up to this multiple of the tolerance may be the error of a program.
+/// A force that lies beyond a chord by at most this multiple of the tolerance may be an error of the program.
 const NOISE: f64 = 30.0;
 
-/// The largest number of nested refinements.
+/// The largest depth of the recursion.
 const MAX_DEPTH: usize = 24;
 
-/// The largest number of programs.
+/// The largest number of linear programs of one refinement.
 const MAX_SAMPLES: usize = 500;
 
-/// Returns the tolerance for a set of this size, both in newtons.
+/// Returns the tolerance, N, for a set of this size, N.
 pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
     (TOLERANCE * size).max(LEAST_TOLERANCE * probe.heaviest())
 }
 
-/// Returns the size of a set of forces: the larger side of its bounding box.
+/// Returns the size of a set of forces, N: the larger side of its bounding box.
 pub(super) fn size(samples: &[Sample]) -> f64 {
     let extent = |axis: usize| {
         let values = samples.iter().map(|s| s.carried.force[axis]);
@@ -49,9 +49,11 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
     extent(0).max(extent(1))
 }
 
-/// Returns the sample of a direction; `None` without a proved force.
+/// Returns the farthest proved force in a direction, which may be changed slightly. `None` if no such force has a
+/// proof.
 pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
-    // If no proof is found in this direction, a slightly different one is as good: any carried force adds to the set.
+    // If no proof is found in this direction, a slightly different direction is used instead. Every carried force
+    // belongs to the set.
     [0.0, 1e-3, -1e-3, 2e-2, -2e-2]
         .into_iter()
         .find_map(|angle| {
@@ -70,8 +72,8 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
         })
 }
 
-/// Refines between neighbouring samples, whose directions run anticlockwise. `is_closed` is true if the last and the
-/// first are neighbours, too. Returns all samples in order.
+/// Adds samples between neighbours until their edges are known. The directions of `start` run anticlockwise. If
+/// `is_closed`, the last and the first sample are neighbours, too. Returns all samples in this order.
 pub(super) fn refined(
     probe: &Probe,
     start: Vec<Sample>,
@@ -107,7 +109,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Adds all samples between two.
+    /// Adds all samples between two neighbours.
     fn between(&mut self, from: &Sample, to: &Sample, depth: usize) {
         let [a, b] = [from, to].map(|sample| sample.carried.force);
         let chord = b - a;
@@ -115,7 +117,7 @@ impl Search<'_> {
         if length <= self.tolerance || depth == 0 || self.count >= MAX_SAMPLES {
             return;
         }
-        // The edge may be known already.
+        // The edge is known already if the line of one force also contains the other force.
         let touches = |line: &Option<Line>, force: Vector| {
             let line = line.as_ref();
             line.is_some_and(|line| line.limit - line.normal.dot(&force) <= self.tolerance)
@@ -131,13 +133,14 @@ impl Search<'_> {
         };
         let force = next.carried.force;
         let farther = cross(chord, force - a) / -length;
-        // How far the force is from its own line: the error of this program. It must not look like another vertex.
+        // The distance of the force from its own line is the error of this program. It must not be taken for a new
+        // vertex.
         let error = next
             .line
             .as_ref()
             .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE * self.tolerance) {
-            // An edge. Its own line is known now.
+            // The chord is an edge. The line of this sample contains it.
             if next.line.is_some() {
                 self.found.push(next);
             }

@@ -48,7 +48,7 @@ pub(super) fn capacity(
     capacity
 }
 
-/// Chooses the edges of a capacity among the half-planes that contain it, and computes the gap.
+/// Sets the edges of a capacity, which are chosen among the half-planes that contain it, and its gap.
 pub(super) fn close(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let mut edges = Vec::new();
@@ -100,7 +100,8 @@ fn edge_of((line, case): (&Line, usize)) -> CapacityEdge {
     }
 }
 
-/// The sides of a set in order: the vertices at its ends, and two forces on it.
+/// Returns the sides of a set, anticlockwise: the indices of the vertices at both ends, and two forces on the side. An
+/// index is `None` where the side is unbounded.
 fn sides(
     corners: &[Vector],
     rays: &[Vector],
@@ -115,7 +116,7 @@ fn sides(
     match rays {
         [] => sides.extend((0..count).map(|k| side(k, (k + 1) % count))),
         [only] => {
-            // The edges without end are parallel.
+            // The two unbounded edges are parallel.
             sides.push(([None, Some(0)], corners[0] + only * size, corners[0]));
             sides.extend((1..count).map(|k| side(k - 1, k)));
             let last = corners[count - 1];
@@ -124,7 +125,7 @@ fn sides(
         [first, second, ..] => {
             let last = corners[count - 1];
             if cross(*first, *second).abs() < 1e-9 && count == 2 {
-                // A strip: two edges without ends.
+                // The set is a strip: both edges are unbounded on both sides.
                 sides.push(([None; 2], corners[0] + second * size, corners[0]));
                 sides.push(([None; 2], last + first * size, last));
                 return sides;
@@ -137,8 +138,9 @@ fn sides(
     sides
 }
 
-/// Returns which of the forces are corners of their convex hull, anticlockwise. Corners nearer than `tolerance` to the
-/// hull of the others are left out. With rays, the order begins after the last ray.
+/// Returns the indices of the forces that are corners of their convex hull, anticlockwise. A corner nearer than about
+/// `tolerance` to the hull of the others may be left out. With rays, the list begins with the first corner after the
+/// unbounded side.
 pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec<usize> {
     if forces.is_empty() {
         return Vec::new();
@@ -155,7 +157,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
     }
     let mut ring = hull(points);
     simplify(&mut ring, tolerance);
-    // Begin with the corner after the far ones.
+    // The list begins with the first corner after the far points.
     let is_far = |k: usize| ring[k % ring.len()].1.is_none();
     let first = (0..ring.len()).find(|k| is_far(*k) && !is_far(k + 1));
     let count = ring.len();
@@ -165,7 +167,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
         .collect()
 }
 
-/// The convex hull of tagged points, anticlockwise (Andrew 1979).
+/// Returns the convex hull of tagged points, anticlockwise (Andrew 1979).
 fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)> {
     points.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup_by(|(a, _), (b, _)| a == b);
@@ -193,7 +195,8 @@ fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)
     ring
 }
 
-/// Removes near corners that the others replace to the tolerance, the nearest first.
+/// Removes corners that are nearer than a quarter of the tolerance to the line between their neighbours, the nearest
+/// first.
 fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
     while ring.len() > 1 {
         let count = ring.len();
@@ -214,7 +217,7 @@ fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
     }
 }
 
-/// The distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     let along = b - a;
     let square = along.norm_squared();
@@ -225,7 +228,7 @@ pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     (point - a - along * share).norm()
 }
 
-/// The part of a convex polygon in which normal · F ≤ limit.
+/// Returns the part of a convex polygon in which normal · F ≤ limit.
 pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
     let height = |force: &Vector| normal.dot(force) - limit;
     let mut kept = Vec::with_capacity(ring.len() + 1);
@@ -242,7 +245,7 @@ pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector
     kept
 }
 
-/// A square around a force.
+/// Returns the four corners of a square around a force, anticlockwise. `half` is half its side.
 pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     let corner = |x: f64, y: f64| centre + Vector::new(x, y) * half;
     vec![
@@ -253,8 +256,8 @@ pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     ]
 }
 
-/// The largest distance of a force that no line excludes from the proved forces. Forces without end are compared within a
-/// few sizes of the set.
+/// Returns the largest distance, from the proved forces, of a force that no line excludes. An unbounded set is compared
+/// only within a square around its first corner, with half the side 4 · `size`.
 fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -> f64 {
     let Some(first) = corners.first() else {
         return 0.0;
@@ -274,7 +277,7 @@ fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -
         .fold(0.0, f64::max)
 }
 
-/// The distance of a force from a convex polygon; 0 inside.
+/// Returns the distance of a force from a convex polygon; 0 if it lies inside.
 pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
     let count = ring.len();
     let edges = || (0..count).map(|k| (ring[k], ring[(k + 1) % count]));
@@ -285,7 +288,7 @@ pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
     near.fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the set as a polygon in which the rays are cut off far away.
+/// Returns the set as a convex polygon in which each ray ends at the length `far`.
 pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
     let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
     for ray in rays {
@@ -294,7 +297,7 @@ pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vect
     hull(points).into_iter().map(|p| p.0).collect()
 }
 
-/// Whether a force belongs to the convex hull of the corners, extended along the rays.
+/// True if a force belongs to the convex hull of the corners, extended along the rays.
 pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bool {
     if rays.len() > 2 || corners.is_empty() {
         return rays.len() > 2;
@@ -305,11 +308,11 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
     distance(&ring, force) <= 1e-9 * extent
 }
 
-/// Directions within this angle are the same.
+/// Two directions within this angle, in radians, count as equal.
 const SAME_DIRECTION: f64 = 1e-7;
 
-/// The largest multiple of a unit direction in the convex hull of the corners, extended along the rays; infinite if it
-/// has no end. The hull contains 0.
+/// Returns the largest multiple of a unit direction in the convex hull of the corners, extended along the rays.
+/// Infinite if there is no largest multiple. The hull must contain 0.
 pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f64 {
     let is_along = |ray: &Vector| (ray - direction).norm() <= SAME_DIRECTION;
     let is_between = match rays {
@@ -317,7 +320,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
             cross(*first, direction) >= -SAME_DIRECTION
                 && cross(direction, *second) >= -SAME_DIRECTION
         }
-        // A half-plane has vertices on the line of its rays only.
+        // All vertices of a half-plane lie on the line of its rays.
         [first, second] => {
             let is_line = (first + second).norm() <= SAME_DIRECTION && corners.len() != 1;
             !is_line && cross(*first, direction) >= -SAME_DIRECTION
@@ -334,7 +337,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
     let ring = cut_off(corners, rays, FAR * extent);
     let along = |force: &Vector| force.dot(&direction);
     if ring.len() < 3 {
-        // A segment or a point: only along the segment.
+        // The set is a segment or a point: forces are carried only along the segment.
         let [first, last] = [ring.first(), ring.last()].map(|f| f.copied().unwrap_or_default());
         let chord = last - first;
         let is_aligned = cross(chord, direction).abs() <= SAME_DIRECTION * chord.norm();

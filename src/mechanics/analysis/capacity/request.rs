@@ -9,35 +9,37 @@ use crate::scene::{BlockId, Frame, Hold, Scene};
 pub struct CapacityRequest {
     /// The block on which the force acts.
     pub block: BlockId,
-    /// Where it acts.
+    /// The point at which the force acts.
     pub at: ForceAt,
     /// The cases in each of which the forces must be carried.
     pub cases: Cases,
 }
 
-/// Where a force acts on a block.
+/// The point of a block at which a force acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum ForceAt {
-    /// At the grip point if a robot holds the block: then it is the force of this robot, without the limits of its force.
-    /// Otherwise at the centroid of the block.
+    /// At the grip point if a robot holds the block. The force then replaces that of this robot, without the limits of
+    /// its force. Otherwise at the centroid of the block.
     #[default]
     Usual,
-    /// At a point that moves with the block, metres.
+    /// At this point, in metres. It moves with the block.
     Point(Point),
-    /// At two points, in any direction at each. They are one more contact, whose resultant is asked for.
+    /// At two points, with a force in any direction at each. They act like one more contact; the capacity is that of
+    /// their resultant.
     Contact([Point; 2]),
 }
 
-/// Ranges of quantities that are not known exactly; `None` for those of the scene.
+/// Ranges of quantities that are not known exactly. `None` means that the value of the scene is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Cases {
-    /// The rotation of gravity, degrees, positive if its tip moves to the right. Listed loads do not rotate.
+    /// The rotation of gravity, degrees, positive if the tip of its vector moves to the right. Listed loads do not
+    /// rotate.
     pub tilt: Option<[f64; 2]>,
     /// The fraction of each weight that acts at right angles to gravity, positive to the right.
     pub horizontal_load: Option<[f64; 2]>,
-    /// One friction coefficient for every interface.
+    /// The friction coefficient of all interfaces.
     pub friction: Option<[f64; 2]>,
 }
 
@@ -62,16 +64,17 @@ pub enum CapacityError {
     /// A range is not valid.
     #[error("{0}")]
     Range(String),
-    /// Neither forces nor a motion proved whether any force is carried.
+    /// Neither forces nor a motion proved which forces are carried.
     #[error("no proof was found of which forces are carried")]
     Undecided,
-    /// The deadline passed.
+    /// The deadline passed before a result was found.
     #[error("the deadline passed before the forces that are carried were found")]
     Late,
 }
 
 impl CapacityRequest {
-    /// Requests the forces at the usual point of a block: its grip point, or its centroid.
+    /// Creates the request for the forces at the usual point of a block: its grip point if a robot holds it, otherwise
+    /// its centroid.
     pub fn of_block(block: BlockId) -> CapacityRequest {
         CapacityRequest {
             block,
@@ -80,8 +83,9 @@ impl CapacityRequest {
         }
     }
 
-    /// Returns the request of a scene for which nobody chose a block: the last block that a robot holds, or the placed
-    /// block whose centroid is highest. `None` without blocks.
+    /// Returns the request that is used for a scene if no block was chosen. It is the block of the first robot in the
+    /// last frame in which a robot holds a block. Without robots it is the block of the last frame whose centroid is
+    /// highest. `None` if there is no such block.
     pub fn usual(scene: &Scene) -> Option<CapacityRequest> {
         let held = scene.frames.iter().rev().find_map(|f| f.holds.first());
         let highest = || {
@@ -94,29 +98,30 @@ impl CapacityRequest {
             .map(CapacityRequest::of_block)
     }
 
-    /// Sets where the force acts.
+    /// Returns the same request with another point at which the force acts.
     #[must_use]
     pub fn at(self, at: ForceAt) -> CapacityRequest {
         CapacityRequest { at, ..self }
     }
 
-    /// Sets the cases in each of which the forces must be carried.
+    /// Returns the same request with other cases in which the forces must be carried.
     #[must_use]
     pub fn cases(self, cases: Cases) -> CapacityRequest {
         CapacityRequest { cases, ..self }
     }
 
-    /// Returns the hold of the robot whose force is asked for, if there is one.
+    /// Returns the hold of the robot whose force is replaced. `None` if no robot holds the block, or if a point was
+    /// given.
     pub(super) fn tool<'f>(&self, frame: &'f Frame) -> Option<&'f Hold> {
         let is_usual = self.at == ForceAt::Usual;
         let mut holds = frame.holds.iter();
         holds.find(|hold| is_usual && hold.block == self.block)
     }
 
-    /// Returns the point, or the two points, at which the force acts in a frame.
+    /// Returns the points at which the force acts in a frame: one, or two for a contact.
     ///
     /// # Errors
-    /// If the block does not exist or a point is not valid.
+    /// Returns an error if the block does not exist or if a point is not valid.
     pub fn points(&self, scene: &Scene, frame: &Frame) -> Result<Vec<Point>, CapacityError> {
         let block = scene.blocks.get(self.block.0);
         let block = block.ok_or(CapacityError::NoBlock)?;
@@ -136,14 +141,14 @@ impl CapacityRequest {
 }
 
 impl Cases {
-    /// Returns the same cases with a range of tilts, degrees.
+    /// Returns the same cases with this range of tilts, degrees.
     #[must_use]
     pub fn tilt(self, from: f64, to: f64) -> Cases {
         let tilt = Some([from, to]);
         Cases { tilt, ..self }
     }
 
-    /// Returns the same cases with a range of horizontal fractions of the weights.
+    /// Returns the same cases with this range of the horizontal load, as fractions of the weights.
     #[must_use]
     pub fn horizontal_load(self, from: f64, to: f64) -> Cases {
         let horizontal_load = Some([from, to]);
@@ -153,17 +158,17 @@ impl Cases {
         }
     }
 
-    /// Returns the same cases with a range of friction coefficients.
+    /// Returns the same cases with this range of friction coefficients.
     #[must_use]
     pub fn friction(self, from: f64, to: f64) -> Cases {
         let friction = Some([from, to]);
         Cases { friction, ..self }
     }
 
-    /// Checks the ranges.
+    /// Checks that the ranges are valid.
     ///
     /// # Errors
-    /// If a range is not valid, or if its extreme values do not show which forces are carried between them.
+    /// Returns an error if a range is not valid, or if a range of tilts is wider than [`Cases::WIDEST_TILT`].
     pub fn check(&self) -> Result<(), CapacityError> {
         let ranges = [
             ("tilt", self.tilt),
@@ -194,14 +199,14 @@ impl Cases {
     /// The widest range of tilts, degrees.
     pub const WIDEST_TILT: f64 = 90.0;
 
-    /// True if there is one case only, that of the scene.
+    /// True if no range is given, so the only case is that of the scene.
     pub fn is_empty(&self) -> bool {
         *self == Cases::default()
     }
 }
 
 impl Scene {
-    /// Returns the block with this id.
+    /// Returns the index of the block with this `id` in the scene; `None` if there is no such block.
     ///
     /// ```
     /// use drystone::Scene;
@@ -214,7 +219,7 @@ impl Scene {
         self.blocks.iter().position(|b| b.id == id).map(BlockId)
     }
 
-    /// Returns a copy of the scene with one more load.
+    /// Returns a copy of the scene with one more load: a force, N, at a point of a block.
     pub(in crate::mechanics::analysis) fn with_force(
         &self,
         block: BlockId,
