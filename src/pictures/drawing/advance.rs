@@ -20,8 +20,8 @@ static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
     std::iter::from_fn(next).collect()
 });
 
-/// Returns the advance width of a character as a fraction of the font size; `None` if the face with this number does not
-/// have it.
+/// Returns the advance width of a character as a fraction of the font size. `face` is the number of the face. Returns
+/// `None` if this face has no glyph for the character.
 pub(super) fn advance(face: usize, character: char) -> Option<f64> {
     TABLES.get(face)?.advance(character)
 }
@@ -39,7 +39,7 @@ struct Run {
 }
 
 impl Table {
-    /// Reads the table of a face, and moves `bytes` behind it.
+    /// Reads the table of a face, and advances `bytes` to the end of the table.
     fn read(bytes: &mut &[u8]) -> Table {
         let units_per_em = u32::from(short(bytes));
         let heads = (0..short(bytes)).map(|_| {
@@ -65,7 +65,7 @@ impl Table {
         Some(self.rounded(units))
     }
 
-    /// Converts a width in units to a fraction of the font size, rounded as skrifa and FreeType round it.
+    /// Converts a width in font units to a fraction of the font size, rounded as skrifa and FreeType round it.
     fn rounded(&self, units: u16) -> f64 {
         let scale = ((64 << 16) + self.units_per_em / 2) / self.units_per_em;
         let bits = (scale * u32::from(units) + 32) / 64;
@@ -73,7 +73,7 @@ impl Table {
     }
 }
 
-/// Takes a number from the front of the table.
+/// Removes the first two bytes, and returns them as a number (little endian).
 fn short(bytes: &mut &[u8]) -> u16 {
     let (number, rest) = bytes
         .split_first_chunk::<2>()

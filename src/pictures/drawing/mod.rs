@@ -39,7 +39,7 @@ impl PagePoint {
         PagePoint { x, y }
     }
 
-    /// The point moved right by `x` and down by `y`.
+    /// Returns the point moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> PagePoint {
         PagePoint {
             x: self.x + x,
@@ -60,7 +60,7 @@ pub struct PageRect {
 }
 
 impl PageRect {
-    /// Returns the part of a line segment inside the rectangle; `None` if it does not cross the rectangle.
+    /// Returns the part of a line segment inside the rectangle; `None` if the segment does not cross the rectangle.
     pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let along = (to.x - from.x, to.y - from.y);
@@ -149,7 +149,7 @@ impl Path {
         }
     }
 
-    /// The same shape with a line along its edge. The line lies above the fill.
+    /// Returns the same shape with a line along its edge. The line is drawn above the fill.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
         Path {
             stroke: Some(stroke),
@@ -157,7 +157,8 @@ impl Path {
         }
     }
 
-    /// The same shape with a border of `colour`, of which `width` pixels are visible outside the shape.
+    /// Returns the same shape with a border of this colour. `width` is the visible width of the border outside the
+    /// shape, in pixels.
     pub fn cased(self, colour: Colour, width: f64) -> Path {
         Path {
             stroke: Some(Stroke::new(colour, 2.0 * width)),
@@ -166,7 +167,7 @@ impl Path {
         }
     }
 
-    /// The same shape with an opacity from 0 to 1.
+    /// Returns the same shape with an opacity from 0 to 1.
     pub fn with_opacity(self, opacity: f64) -> Path {
         Path { opacity, ..self }
     }
@@ -196,7 +197,7 @@ impl Stroke {
         }
     }
 
-    /// The same line with the lengths of dashes and gaps in turn, in pixels.
+    /// Returns the same line with dashes. `dash` has the lengths of dashes and gaps in turn, in pixels.
     pub fn dashed(self, dash: impl Into<Vec<f64>>) -> Stroke {
         Stroke {
             dash: dash.into(),
@@ -204,7 +205,7 @@ impl Stroke {
         }
     }
 
-    /// The same line with sharp corners.
+    /// Returns the same line with sharp corners.
     pub fn mitred(self) -> Stroke {
         Stroke {
             join: Join::Miter,
@@ -252,7 +253,7 @@ impl Group {
         }
     }
 
-    /// The same group with a title.
+    /// Returns the same group with a title.
     pub fn titled(self, title: impl Into<String>) -> Group {
         Group {
             title: title.into(),
@@ -260,7 +261,7 @@ impl Group {
         }
     }
 
-    /// The same group with one more item on top.
+    /// Returns the same group with one more item on top.
     pub fn with(mut self, item: impl Into<Item>) -> Group {
         self.items.push(item.into());
         self

@@ -68,7 +68,7 @@ impl Face {
         }
     }
 
-    /// True for an italic face.
+    /// True if the face is italic.
     pub fn italic(self) -> bool {
         self == Face::SerifItalic
     }
@@ -78,7 +78,7 @@ impl Face {
         advance(self as usize, character).is_some()
     }
 
-    /// Returns the index of the glyph for a character in this face; `None` if there is none.
+    /// Returns the index of the glyph for a character in this face; `None` if the face has no such glyph.
     pub fn glyph(self, character: char) -> Option<u16> {
         let glyph = self.font().charmap().map(character)?;
         u16::try_from(glyph.to_u32()).ok()
@@ -139,12 +139,12 @@ impl Text {
         }
     }
 
-    /// The same text with another anchor at the same point.
+    /// Returns the same text with another anchor at the same point.
     pub fn anchored(self, anchor: Anchor) -> Text {
         Text { anchor, ..self }
     }
 
-    /// The same text with a border (halo) around its letters; `width` is in pixels.
+    /// Returns the same text with a border (halo) around its letters; `width` is in pixels.
     pub fn with_halo(self, colour: Colour, width: f64) -> Text {
         Text {
             halo: Some((colour, width)),
@@ -156,7 +156,7 @@ impl Text {
 /// The space at which no line is broken.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// True if the bytes are a font file or a font collection.
+/// True if the bytes are a font file or a collection of fonts that can be read.
 pub fn opens(data: &[u8]) -> bool {
     FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
 }
@@ -180,8 +180,8 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     words.chars().map(advance).sum::<f64>() * size
 }
 
-/// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. It is 1 for
-/// scripts with square characters.
+/// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. The width
+/// is 1 for scripts with square characters.
 fn elsewhere(c: char) -> f64 {
     match u32::from(c) {
         0x1100..=0x115F

@@ -33,8 +33,8 @@ pub const PIXELS_PER_INCH: f64 = 96.0;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const IN_PRINT: f64 = 0.8;
 
-/// Returns the width in pixels for which a figure is laid out that has this width in print, in millimetres. Text is then
-/// as large as a footnote, and names in blocks are slightly smaller.
+/// Converts the width of a figure in print, in millimetres, to the width of its layout in pixels. With this width, text
+/// is as large as a footnote in print, and names in blocks are slightly smaller.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn page_width(millimetres: f64) -> f64 {
     millimetres / MM_PER_INCH * PIXELS_PER_INCH / IN_PRINT

@@ -55,7 +55,8 @@ pub const MAX_SIDE_MM: f64 = 5080.0;
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// Writes a drawing as a PDF of one page. The page is `width_mm` wide; for `None` one pixel is 1/96 inch.
+/// Writes a drawing as a PDF of one page. `width_mm` is the width of the page in millimetres. For `None`, one pixel of
+/// the drawing is 1/96 inch.
 ///
 /// # Errors
 /// [`PdfError::Size`] if a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`];
@@ -203,7 +204,7 @@ pub fn write_sheets(
     document(sheets, natural, heading, bookmarks, &Fonts::default())
 }
 
-/// Returns the width and height in pixels of an SVG; `None` for text that is not SVG.
+/// Returns the width and height in pixels of an SVG; `None` if the text is not SVG.
 pub fn svg_size(text: &str) -> Option<(f64, f64)> {
     let tree = tree::read(text, &Fonts::default()).ok()?;
     let size = tree.size();

@@ -62,14 +62,14 @@ pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
 }
 
-/// Like [`write()`]. Each line of text gets its number as its id, in the order of drawing: `t1`, `t2` …
+/// Like [`write()`]. The id of each line of text is `t` with its number in the order of drawing: `t1`, `t2` …
 #[cfg(feature = "png")]
 pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// Writes a drawing as an SVG document with options. They set a size for print, or make text independent of the fonts
-/// of the reader.
+/// Writes a drawing as an SVG document with options. The options set a size for print, or make text independent of the
+/// reader's fonts.
 ///
 /// # Errors
 /// [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.
@@ -120,8 +120,8 @@ fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, O
     tree::read(&numbered(drawing), &options.fonts).map_err(OutlineError)
 }
 
-/// Returns the prefix of all ids: [`Options::mark`], or else a short hash of drawing and options. Different drawings
-/// and options very probably have different hashes.
+/// Returns the prefix of all ids: [`Options::mark`], or a short hash of drawing and options if no mark is set.
+/// Different drawings and options very probably have different hashes.
 fn mark_of(drawing: &Drawing, options: &Options) -> String {
     if let Some(mark) = &options.mark {
         return mark.clone();

@@ -38,8 +38,8 @@ pub enum ArrowKind {
 }
 
 impl ArrowKind {
-    /// Returns the body that exerts the force; `None` if it is not another body. An opposite arrow is drawn on this
-    /// body.
+    /// Returns the other body that exerts the force. The opposite arrow is drawn on this other body. Returns `None` if
+    /// no body exerts the force.
     pub fn partner(self) -> Option<BodyId> {
         match self {
             ArrowKind::Contact(from)
@@ -98,7 +98,7 @@ pub struct ForceArrow {
 }
 
 impl ForceArrow {
-    /// Returns the vector from its tail to the tip of its head, metres.
+    /// Returns the vector from the tail of the arrow to the tip of its head, metres.
     pub fn reach(&self) -> Vector {
         let length = self.vector.norm();
         match self.head {
@@ -173,7 +173,8 @@ impl Marks {
         (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
     }
 
-    /// Returns the largest force of an arrow, N, but at least the force whose arrow is one unit edge long.
+    /// Returns the largest force that an arrow shows, N. The result is at least the force whose arrow is one unit edge
+    /// long.
     pub(crate) fn largest(&self) -> f64 {
         let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
         forces.fold(self.newtons_per_unit, f64::max)
@@ -191,8 +192,8 @@ pub(crate) fn round_above(amount: f64) -> f64 {
     digit * power
 }
 
-/// Returns the distance of a point from the drawn shape of an arrow, metres. It is negative inside, and infinite for an
-/// arrow without length.
+/// Returns the distance of a point from the drawn shape of an arrow, metres. The distance is negative inside the shape,
+/// and infinite for an arrow of length 0.
 pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let reach = arrow.reach();
     let length = reach.norm();

@@ -33,7 +33,8 @@ impl ListEntry {
         }
     }
 
-    /// Counts the entries that are not listed; `None` if there are none.
+    /// Returns the last entry of a list, which gives the number of entries that are left out. Returns `None` if no
+    /// entry is left out.
     fn rest(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(SHOWN);
         (more > 0).then(|| ListEntry {
@@ -100,7 +101,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
 }
 
-/// Returns the title of the scene with the number of its problems.
+/// Returns the title of the scene, followed by the number of its problems.
 fn title(sketch: &Sketch) -> String {
     let verdict = match sketch.problems.list.len() {
         0 => "no problem found".to_owned(),
@@ -136,7 +137,7 @@ fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Gro
     (list, y)
 }
 
-/// Returns the marks, and the entries of the list below the picture.
+/// Returns the marks in the picture, and the entries of the list below the picture.
 fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
     let mut marks = Vec::new();
     let mut entries = Vec::new();

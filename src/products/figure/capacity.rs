@@ -1,5 +1,5 @@
-//! Draws the forces that a block can carry: a polygon at the point at which they act, and how the structure falls beyond
-//! its longest edges.
+//! Draws the forces that a block can carry as a polygon at the point at which they act. Small pictures show how the
+//! structure falls beyond the longest edges of the polygon.
 //!
 //! The tail of a force is at the point, and its tip lies in the polygon if it is carried. A polygon that is small
 //! compared with its forces would be a dot: it is drawn next to the structure, in a scale of its own. Forces without end
@@ -122,7 +122,7 @@ impl PanelContent for CarriedForces {
     }
 }
 
-/// Draws the polygon at its point, its numbered edges, and the dot of the force 0.
+/// Draws the polygon at its position, its numbered edges, and a dot for the force 0.
 fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let theme = &pen.context.options.theme;
     let words = wording::capacity::ranges(plan.capacity);
@@ -190,7 +190,8 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     group
 }
 
-/// Draws a dotted line from the point to a polygon that is drawn apart, and a mark at the point or between both points.
+/// Draws a dotted line from the loaded point to a polygon that is drawn apart from it. Marks the loaded point, or the
+/// segment between the two loaded points.
 fn leader(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     let theme = &pen.context.options.theme;
     let from = pen.camera.place(plan.point);
@@ -215,7 +216,7 @@ fn leader(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// Draws the polygon of the step before.
+/// Draws the polygon of the previous step.
 fn earlier(pen: &Pen<'_>, plan: &Plan<'_>) -> Group {
     let theme = &pen.context.options.theme;
     let ring = plan.ring.iter().map(|p| pen.camera.place(*p));
@@ -229,7 +230,7 @@ fn before_stroke(theme: &Theme) -> Stroke {
     Stroke::new(theme.faint, 1.0).dashed([4.0, 3.0])
 }
 
-/// Draws a small picture of a mechanism, with its number and the direction in which the point begins to move.
+/// Draws a small picture of a mechanism, with its number and the direction in which the loaded point begins to move.
 fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> Group {
     let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
     let scene = &analysis.scene;
@@ -304,7 +305,7 @@ fn dot(at: PagePoint, theme: &Theme) -> Path {
     Path::filled(Outline::circle(at, DOT), theme.page).with_stroke(Stroke::new(theme.ink, 1.5))
 }
 
-/// A small triangle at the end of a line that goes on.
+/// Returns a small triangle at the end of a line. It shows that the line continues.
 fn open_end(end: PagePoint, other: PagePoint) -> Outline {
     let (x, y) = (end.x - other.x, end.y - other.y);
     let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);

@@ -12,8 +12,8 @@ pub(crate) const FREEBODY: &str = "freebody";
 pub(crate) const FREEBODY_HELP: &str =
     "One block as a free body, with names for all forces that may act on it";
 
-/// Returns the last frame in which the block of a free-body diagram is placed, and the block. Without a name, it is the
-/// only block of the scene.
+/// Finds the block of a free-body diagram, and the last frame in which this block is placed. Without a name, the block
+/// is the only block of the scene.
 pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, BlockId), String> {
     let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
     let Some(name) = name else {

@@ -56,8 +56,8 @@ fn force(contact: &Contact) -> Vector {
     }
 }
 
-/// Returns the common interfaces of a frame and the frame before it whose forces differ, and the number of all common
-/// interfaces.
+/// Compares a frame with the previous frame. Returns the interfaces of both frames whose forces differ, and the number
+/// of all interfaces that both frames have.
 fn changes(analysis: &Analysis, frame: usize) -> (Vec<ForceChange<'_>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
@@ -255,9 +255,9 @@ impl PanelContent for Comparison {
     }
 }
 
-/// Returns the vector in metres by which the arrow of the force on `on` from `from` was moved off its line of action.
-/// The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they were moved,
-/// `marks` afterwards.
+/// Returns the vector in metres by which an arrow was moved off its line of action. The arrow shows the force on `on`
+/// from `from`. The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they
+/// were moved, `marks` are the arrows afterwards.
 fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
     let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
     let far = |a: &ForceArrow| (a.force - force).norm();

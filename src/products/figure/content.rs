@@ -61,11 +61,11 @@ pub(crate) struct FrameSource<'a> {
 
 /// The content of the panels of one kind of figure. Every kind implements the methods without a default.
 pub(crate) trait PanelContent: Sync {
-    /// Returns what the kind is called, and what it needs.
+    /// Returns the name, the description and the requirements of the kind.
     fn about(&self) -> About;
 
-    /// Returns the margins that the figure shows if the analysis has them. Unlike with [`About::needs_margins`] the
-    /// figure is complete without them.
+    /// Returns the margins that the figure shows if the analysis has them. The figure is also complete without these
+    /// margins, unlike with [`About::needs_margins`].
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }
@@ -81,8 +81,8 @@ pub(crate) trait PanelContent: Sync {
         Marks::default()
     }
 
-    /// Returns the paths along which the blocks of a frame are displaced; an empty course if blocks are drawn in their
-    /// places. `unit` is the unit edge in metres.
+    /// Returns the paths along which the blocks of a frame are displaced. Returns an empty course if no block is
+    /// displaced. `unit` is the unit edge in metres.
     fn course(&self, _analysis: &Analysis, _frame: usize, _unit: f64) -> Course {
         Course::default()
     }
@@ -92,16 +92,16 @@ pub(crate) trait PanelContent: Sync {
         verdict::badge(&context.analysis.frames[frame]).to_owned()
     }
 
-    /// Returns a box in metres around items other than blocks, ground, robots and arrows; `None` if there are none.
-    /// `unit` is the unit edge in metres.
+    /// Returns a box in metres around all items except blocks, ground, robots and arrows; `None` if there are no such
+    /// items. `unit` is the unit edge in metres.
     fn extent(&self, _of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
         None
     }
 
-    /// Draws the picture of the frame of a pen. The ground is cut at the edge of `view` (metres).
+    /// Draws the picture of the frame that `pen` draws. The ground is cut at the edge of `view` (metres).
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group;
 
-    /// Returns the entries of the legend: all signs that occur in the figure. `unit` is the unit edge in pixels.
+    /// Returns the entries of the legend, which explain all signs in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
     /// Returns the line below the verdict of a frame.
@@ -225,8 +225,9 @@ const LONGEST_SHARE: f64 = 0.25;
 /// Least length of the longest arrow of a load, pixels.
 const LONG_LOAD: f64 = 24.0;
 
-/// Returns two lengths: that of the longest arrow in unit edges, and the least length of the longest arrow of a load in
-/// metres. The first is at least 1. It is larger if unit edges are so short that small arrows would only be heads.
+/// Returns two lengths. The first is the length of the longest arrow, in unit edges. It is larger than 1 if unit edges
+/// are so short that small arrows would only be heads. The second is the least length of the longest arrow of a load,
+/// in metres.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
     let bare = FigureContext::new(analysis, options, &Bare);
@@ -245,8 +246,8 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     }
 }
 
-/// Makes the arrows of loads longer, by one factor, if the longest of them is shorter than `least` metres. A reader has
-/// to see their directions.
+/// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
+/// visible. The factor is the same for all.
 fn lengthen_loads(marks: &mut Marks, least: f64) {
     let is_load = |arrow: &&mut ForceArrow| arrow.kind == ArrowKind::Load;
     let lengths = marks.arrows.iter_mut().filter(is_load);

@@ -28,8 +28,8 @@ pub(crate) fn block(
     format!("weight {weight}, {fill}")
 }
 
-/// True if a force is drawn as a dot: a load or a missing force whose arrow is too short to be visible. Of the two
-/// opposite arrows between two blocks only one gets a dot.
+/// True if a force is drawn as a dot because its arrow is too short to be visible. Only loads and missing forces have
+/// dots. For two opposite arrows between two blocks there is only one dot.
 pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     let twice = match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,

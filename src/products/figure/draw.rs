@@ -85,7 +85,7 @@ pub fn film(
     pages.into_iter().zip(times).collect()
 }
 
-/// Returns the share of the path (0 to 1) for a share of the time (0 to 1); slow at both ends.
+/// Converts a share of the time (0 to 1) to a share of the path (0 to 1). The motion is slow at both ends.
 fn eased(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
@@ -95,7 +95,7 @@ pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing
     frame_pages(&shown(analysis, kind), kind, &kind.options(options))
 }
 
-/// Like [`panels`], for these frames only, counted from 0. Frames that do not exist are skipped.
+/// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(
     analysis: &Analysis,
     kind: Kind,
@@ -115,15 +115,15 @@ pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64)
     strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)
 }
 
-/// Returns a lower bound of the width and height of the page of [`draw`], in pixels. Nothing is drawn, so that a figure
-/// too large for a file is refused early.
+/// Returns lower bounds of the width and height of the page of [`draw`], in pixels. The function draws nothing, so a
+/// figure that is too large for a file can be refused early.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
     let context = kind.context(analysis, &options);
     Layout::new(&context, analysis.frames.len()).least(&context)
 }
 
-/// Returns the analysis that a kind of figure shows: with elementary mechanisms if it needs them.
+/// Returns the analysis that a kind of figure shows. If the kind needs elementary mechanisms, the result has them.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
     if kind.content().about().needs_elementary_mechanisms {
         Cow::Owned(analysis.elementary())

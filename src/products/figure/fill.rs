@@ -39,7 +39,7 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// Computes the shares of the blocks of every frame.
+    /// Computes, for each block of each frame, the share that its colour shows.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -83,7 +83,7 @@ impl Fills {
         ramp(self.rule)(theme, share)
     }
 
-    /// Returns the function from share to colour.
+    /// Returns the function that converts a share to a colour.
     pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
         ramp(self.rule)
     }
@@ -148,7 +148,7 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     }
 }
 
-/// Divides amounts by the largest amount. `scale` gets this largest amount.
+/// Divides all amounts by the largest of them. Calls `scale` with this largest amount, in its own unit.
 fn to_largest(
     amounts: Vec<Vec<f64>>,
     scale: impl Fn(f64) -> FillScale,
@@ -159,7 +159,7 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// Computes the shares with the rule of the thesis.
+/// Computes the shares as in the thesis.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
@@ -180,7 +180,7 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
     (FillScale::Limit(limit), shares)
 }
 
-/// Returns the used share of a limit. If the limit is 0, every amount above 0 gives 1.
+/// Returns amount / limit. If the limit is 0, the result is 1 for every amount above 0.
 fn share(amount: f64, limit: f64) -> f64 {
     if limit > 0.0 {
         amount / limit
@@ -191,8 +191,8 @@ fn share(amount: f64, limit: f64) -> f64 {
     }
 }
 
-/// Returns the larger of the used shares of the two force limits of the robot that holds this block. Returns `None` if
-/// no robot holds the block, or its forces have no limits.
+/// Returns the larger ratio of a component of a robot's force to its limit, for the robot that holds this block.
+/// Returns `None` if no robot holds the block, or if the force has no limits.
 fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = found.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
@@ -202,7 +202,7 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-/// Returns, for each placed block, the largest value of `amount` on its interfaces.
+/// Returns the largest value of `amount` on the interfaces of each placed block, in placing order.
 fn largest(
     scene: &Scene,
     frame: &Frame,
@@ -231,8 +231,8 @@ fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
         .collect()
 }
 
-/// Returns, for each placed block, the largest mean normal stress on its interfaces in N/m²: normal force over length
-/// times thickness. A corner has no area; its stress counts as 0.
+/// Returns the largest mean normal stress on the interfaces of each placed block, in N/m². The stress is normal force /
+/// (length × thickness). A corner has no area; its stress counts as 0.
 fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, found, |contact| {
         let area = contact.interface.length() * scene.thickness;

@@ -83,7 +83,8 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// Returns the largest load or missing force of a frame, N. A torque counts as torque divided by the unit edge.
+/// Returns the magnitude of the largest load or missing force of a frame, N. A torque counts as torque divided by the
+/// unit edge.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
@@ -95,7 +96,7 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the length of the longest arrow, metres.
+/// Returns the largest length that an arrow may have, metres.
 fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
     let edge = unit(&analysis.scene, options.zoom);
     let blocks = analysis.scene.blocks.iter();
@@ -106,7 +107,7 @@ fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
     edge.max(LONGEST_ARROW * longer)
 }
 
-/// Returns the arrows of loads, whose tips are at the points where they act, and the arrows of missing forces.
+/// Returns the arrows of loads and of missing forces. The tip of a load's arrow is at the point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let width = SHAFT * longest_arrow(analysis, options);
@@ -135,8 +136,8 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     }
 }
 
-/// Returns the contact with the largest force of a frame. If several forces are equal except for rounding, it is the
-/// first of them. Returns `None` if no contact has a force.
+/// Returns the contact with the largest force in a frame. If several forces are equal except for rounding, the result
+/// is the first of them. Returns `None` if no contact has a force.
 pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
     let contacts = found.contacts.iter();
@@ -160,7 +161,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the width of the band of the largest force, for a unit edge of this length; both in pixels.
+/// Returns the width of the band of the largest force, in pixels. `unit` is the unit edge in pixels.
 fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
@@ -227,7 +228,8 @@ impl<'a> Picture<'a> {
         )
     }
 
-    /// True if the frame has many blocks. Then bands are joined by colour, without titles, and joints have no dots.
+    /// True if the frame has many blocks. Then all bands of one colour are one shape without titles, and joints have no
+    /// dots.
     fn many(&self) -> bool {
         self.scene.frames[self.pen.number].placed.len() > MANY_STRANDS
     }
@@ -317,7 +319,8 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// Returns the callout with the magnitude of the largest force of a joint, at its dot.
+    /// Returns a callout with the magnitude of the largest force of a joint. The callout is at the dot of this joint.
+    /// Empty if no joint has a force.
     fn callout(&self) -> Vec<Callout> {
         let largest = largest_contact(self.found).into_iter();
         let callout = |contact: &Contact| {
@@ -333,7 +336,7 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Returns the radius of the dot at a joint, for a unit edge of this length; both in pixels.
+/// Returns the radius of the dot at a joint, in pixels. `unit` is the unit edge in pixels.
 fn dot(unit: f64) -> f64 {
     (0.06 * unit).clamp(1.1, 3.2)
 }

@@ -1,4 +1,4 @@
-//! Draws the kernels: the safe part of each interface, and the position of its resultant in it.
+//! Draws the kernels. A kernel is the safe part of an interface; a mark shows the position of the resultant in it.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -137,7 +137,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the radius of a dot, for a unit edge of this length; both in pixels.
+/// Returns the radius of a dot, in pixels. `unit` is the unit edge in pixels.
 fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
@@ -204,7 +204,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     group
 }
 
-/// Draws a mark at the position of each resultant in a frame that stands. Calls `ink` with each position.
+/// Draws a mark at the point of action of each resultant, if the frame stands. Calls `ink` with each position.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
@@ -241,7 +241,8 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// Returns the mark of a resultant: a disc inside the safe part, a diamond at its end, and a red diamond outside.
+/// Returns the colour and the outline of the mark of a resultant: a disc inside the safe part, a diamond at its end, a
+/// red diamond outside.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;

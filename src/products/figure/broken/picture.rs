@@ -23,8 +23,8 @@ pub(super) struct Marked {
     pub number: usize,
 }
 
-/// Returns the part of the scene that is shown: all blocks and marks, or the ground if there are no blocks. Returns
-/// `None` if it has no size.
+/// Returns the part of the scene that is shown, in metres: all blocks and marks, or the ground if there are no blocks.
+/// Returns `None` if this part has no size.
 pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
@@ -102,7 +102,8 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     outline
 }
 
-/// Returns the name of a block at its centre, or below a mark that is there. Returns `None` if there is no space.
+/// Draws the name of a block at its centre, or below a mark that covers the centre. Returns `None` if there is no
+/// space.
 fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
@@ -125,7 +126,7 @@ fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Option
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }
 
-/// Returns the common parts of the hatch lines of two bodies.
+/// Returns the line segments that lie on hatch lines of both bodies.
 fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let level = |line: &[PagePoint; 2]| line[0].y - line[0].x;
     let mut common = Vec::new();
@@ -183,7 +184,7 @@ fn arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
-/// Returns the nearest position next to `place` at which a disc does not overlap the discs in `taken`.
+/// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`.
 fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const AROUND: [(f64, f64); 8] = [
         (0.7, -0.7),

@@ -65,12 +65,12 @@ pub(super) struct Small {
 }
 
 impl Small {
-    /// Returns the position of a point of the scene in the small picture.
+    /// Converts a point of the scene to its position in the small picture; both are in metres.
     pub fn place(&self, point: Point) -> Point {
         self.corner + (point - self.view.min) * self.scale
     }
 
-    /// Returns the box of the small picture.
+    /// Returns the box of the small picture, in metres.
     pub fn bounds(&self) -> Bounds {
         Bounds {
             min: self.corner,
@@ -80,7 +80,7 @@ impl Small {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the drawing of a frame; `None` without forces that are carried. `unit` is the unit edge in metres.
+    /// Plans the drawing of a frame. Returns `None` if no force is carried. `unit` is the unit edge in metres.
     pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
         let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
         let structure = structure(analysis)?;
@@ -125,19 +125,19 @@ impl<'a> Plan<'a> {
         Some(plan)
     }
 
-    /// Returns a box around all that is drawn.
+    /// Returns a box around everything that is drawn, in metres.
     pub fn bounds(&self) -> Option<Bounds> {
         let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
         let pictures = self.pictures.iter().map(Small::bounds);
         pictures.chain([polygon]).reduce(Bounds::union)
     }
 
-    /// Returns the middle of the corners of the drawn set.
+    /// Returns the mean of the corners of the drawn polygon.
     pub fn middle(&self) -> Point {
         middle(&self.ring)
     }
 
-    /// Arranges the small pictures to the right of all else, or below it.
+    /// Arranges the small pictures to the right of everything else, or below it.
     fn small_pictures(
         &self,
         analysis: &Analysis,
@@ -187,7 +187,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Returns the frame with its mechanism replaced, as an analysis that falls by it.
+/// Returns a copy of the analysis in which the frame is unstable and falls by this mechanism.
 pub(super) fn falling(analysis: &Analysis, frame: usize, mechanism: &[Motion]) -> Analysis {
     let mut changed = analysis.clone();
     changed.frames[frame].mechanism = mechanism.to_vec();
@@ -195,7 +195,7 @@ pub(super) fn falling(analysis: &Analysis, frame: usize, mechanism: &[Motion]) -
     changed
 }
 
-/// The box around the blocks of all frames.
+/// Returns the box around the blocks of all frames, in metres. Returns `None` if there are no blocks.
 fn structure(analysis: &Analysis) -> Option<Bounds> {
     let scene = &analysis.scene;
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
@@ -204,13 +204,14 @@ fn structure(analysis: &Analysis) -> Option<Bounds> {
         .reduce(Bounds::union)
 }
 
-/// The right end of the structure and its ground.
+/// Returns the largest x coordinate of the structure and the shown ground, in metres.
 fn right(analysis: &Analysis, structure: Bounds, unit: f64) -> f64 {
     view::ground_shown(&analysis.scene, unit)
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x))
 }
 
-/// The part of the scene that a small picture shows: the blocks with a little ground, and space for their motion.
+/// Returns the part of the scene that a small picture shows: the blocks of the frame, with space for some ground and
+/// for their motion.
 fn source(analysis: &Analysis, frame: usize, structure: Bounds, unit: f64) -> Bounds {
     let scene = &analysis.scene;
     let placed = scene.frames[frame].placed.iter();
@@ -234,13 +235,13 @@ fn bounds_of(ring: &[Vector]) -> Bounds {
     })
 }
 
-/// The capacities of all frames: they have one scale.
+/// Returns the frames with a capacity. All of them are drawn at one scale.
 fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
     let frames = analysis.frames.iter();
     frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))
 }
 
-/// The largest force of a vertex in all frames, N; at least a fraction of the weight.
+/// Returns the largest force of a vertex in all frames, N. The result is at least 0.001 of the weight of a frame.
 fn largest(analysis: &Analysis) -> f64 {
     let each = capacities(analysis).map(|(frame, capacity)| {
         let forces = capacity.vertices.iter().map(|v| v.force.norm());
@@ -249,12 +250,12 @@ fn largest(analysis: &Analysis) -> f64 {
     each.fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// The force at which forces without end are cut off, N.
+/// Returns the force at which unbounded sets are cut off, N.
 fn cut(analysis: &Analysis) -> f64 {
     CUT * largest(analysis)
 }
 
-/// The largest force that is drawn, N.
+/// Returns the largest force that is drawn, N.
 fn farthest(analysis: &Analysis, cut: f64) -> f64 {
     let is_open = capacities(analysis).any(|(_, capacity)| !capacity.rays.is_empty());
     match is_open {
@@ -263,7 +264,7 @@ fn farthest(analysis: &Analysis, cut: f64) -> f64 {
     }
 }
 
-/// The corners of the set; forces without end are cut off at a circle.
+/// Returns the corners of the set of forces, N. An unbounded set is cut off at a circle of radius `cut`.
 fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
     if capacity.rays.is_empty() {
         return capacity.vertices.iter().map(|v| v.force).collect();
@@ -309,7 +310,7 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 /// Sets without end are taken to this multiple of the circle at which they are cut off.
 const FAR: f64 = 1e3;
 
-/// The part of a polygon in which normal · F ≤ limit.
+/// Returns the part of a polygon in which normal · F ≤ limit.
 fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
     let height = |force: &Vector| normal.dot(force) - limit;
     let mut kept = Vec::with_capacity(ring.len() + 1);
@@ -326,7 +327,8 @@ fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
     kept
 }
 
-/// The edges with small pictures, the longest first.
+/// Returns the indices of the longest edges, which get small pictures, in ascending order. Empty for several frames or
+/// many blocks.
 fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
     let frames = analysis.scene.frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);

@@ -33,8 +33,8 @@ impl<'a> Clearance<'a> {
         }
     }
 
-    /// Returns the pairs of bodies that overlap. `displaced` has the displacement of each block by its index; the list
-    /// may be shorter.
+    /// Returns the pairs of bodies that overlap. `displaced` has the displacements of the blocks, indexed by block; the
+    /// list may be shorter than the number of blocks.
     pub fn overlapping(&self, displaced: &[Option<Displacement>]) -> Vec<Pair> {
         let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
         let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();
@@ -62,7 +62,7 @@ impl<'a> Clearance<'a> {
     }
 }
 
-/// Returns the common area of two polygons as a share of the area of the smaller one.
+/// Returns the common area of two polygons, divided by the area of the smaller polygon.
 fn overlap_share(a: &Polygon, b: &Polygon) -> f64 {
     let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
     common.map_or(0.0, |o| o.area / a.area().min(b.area()))

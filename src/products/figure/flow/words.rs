@@ -27,7 +27,7 @@ pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> S
     )
 }
 
-/// Returns a name for the origin of a force on a body.
+/// Returns a name for the object from which a force on a body comes.
 fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
     let other = |[a, b]: [BodyId; 2]| description::named(scene, if a == on { b } else { a });
     match origin {

@@ -10,7 +10,7 @@ use crate::scene::{BlockId, BodyId, Scene};
 /// Space beyond the tip of an arrow for its name: width and height, pixels.
 const NAMED: (f64, f64) = (38.0, 24.0);
 
-/// Returns the bodies that touch a block, each once.
+/// Returns the bodies that touch a block, without duplicates.
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     let mut bodies: Vec<BodyId> = Vec::new();
     for contact in contacts {
@@ -33,7 +33,7 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     }
 }
 
-/// Returns the box in metres that is shown: the whole block, and the nearby parts of its neighbours.
+/// Returns the shown part of the scene, metres: the whole block, and the nearby parts of its neighbours.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
@@ -61,7 +61,8 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// Returns the whole force on the block, N. `normal` is the unit normal into the block.
+    /// Returns the sum of the normal and the friction force on the block, N. `normal` is the unit normal into the
+    /// block.
     pub(super) fn on_block(self, normal: Vector) -> Vector {
         normal * self.normal + quarter_turn(normal) * self.friction
     }
@@ -118,7 +119,7 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// Returns the other body of a contact of the block.
+/// Returns the body of a contact that is not the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
     if first == BodyId::Block(block) {
@@ -128,9 +129,9 @@ pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     }
 }
 
-/// Returns the point at which the unit normal ŝ is drawn: the middle of its interface. `single` means that the block
-/// has no other interface. Then it is a point on the edge of the neighbour, `clear` metres beyond an end of the
-/// interface, unless another body is there.
+/// Returns the point at which the unit normal ŝ is drawn, usually the middle of the interface. `single` means that the
+/// block has no other interface. In this case the point is on the edge of the neighbour, `clear` metres beyond an end
+/// of the interface, if no other body is there.
 pub(super) fn aside(
     scene: &Scene,
     contact: &Contact,
@@ -164,7 +165,8 @@ pub(super) fn aside(
         .unwrap_or(interface.middle())
 }
 
-/// Returns the space in pixels that arrows and their names need outside the shown part: left, top, right, bottom.
+/// Returns the widths in pixels of the space for arrows and their names outside the shown part: left, top, right,
+/// bottom.
 pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
     let mut pads: [f64; 4] = [12.0; 4];
     for arrow in arrows {
@@ -192,7 +194,7 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     pads
 }
 
-/// True if a point lies outside the view on a side on which the body continues.
+/// True if a point lies outside the view, and the body also reaches outside on the same side.
 pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
     at.x < view.min.x && body.min.x <= view.min.x
         || at.x > view.max.x && body.max.x >= view.max.x
@@ -200,8 +202,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// True if coordinates are shown: only for a block with one interface that no robot holds. Otherwise the picture would
-/// not be readable.
+/// True if coordinates are shown. This is so for a block with exactly one interface that no robot holds. For other
+/// blocks the picture would not be readable.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

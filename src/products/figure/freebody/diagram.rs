@@ -1,5 +1,5 @@
-//! [`arrows`]: creates the arrows of a free-body diagram: the forces on the block, the forces that may act at each
-//! corner, and the unit normals.
+//! [`arrows`]: creates the arrows of a free-body diagram. They show the forces on the block, or the forces that may act
+//! at each corner, and the unit normals.
 
 use super::super::option::{Corners, Options};
 use super::super::unit::unit;
@@ -93,7 +93,7 @@ impl Diagram<'_> {
         &self.analysis.scene.blocks[self.block.0].id
     }
 
-    /// Converts a direction of the scene to a vector on the page of this length in pixels.
+    /// Converts a unit vector of the scene to a vector on the page with this length, in pixels.
     fn on_page(&self, direction: Vector, length: f64) -> (f64, f64) {
         let (x, y) = self.camera.turn(direction);
         let scale = length / libm::hypot(x, y).max(1e-300);
@@ -149,8 +149,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// Returns the arrows that name the normal force and the friction forces to both sides at each corner of an
-    /// interface. `number` is the index of the interface.
+    /// Returns the arrows that name forces at each corner of an interface: the normal force, and a friction force to
+    /// each side. `number` is the index of the interface.
     fn corner_arrows(&self, number: usize, contact: &Contact) -> Vec<Arrow> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -188,8 +188,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// Returns the arrow of the unit normal of an interface into the block, next to the arrows of its forces. `number`
-    /// is the index of the interface.
+    /// Returns the arrow of the unit normal of an interface, directed into the block. The arrow is next to the arrows
+    /// of the forces. `number` is the index of the interface.
     fn unit_normal(&self, number: usize, contact: &Contact) -> Arrow {
         let single = self.contacts.len() == 1;
         let below = if single {

@@ -23,7 +23,7 @@ impl Sheet<'_> {
     }
 
     /// Draws the verdict, the scale, the notes and the list of forces below `top` (pixels). `nameless` is the number of
-    /// names without space. Also returns the lower end in pixels.
+    /// names for which there is no space. Also returns the position of the lower end, in pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let mut group = Group::with_class("values");
@@ -93,7 +93,8 @@ impl Sheet<'_> {
         items
     }
 
-    /// Returns an arrow for a round force as scale; `None` if the lengths of the arrows do not show magnitudes.
+    /// Returns the legend entry for the scale: an arrow of a round force. Returns `None` if the lengths of the arrows
+    /// do not show magnitudes.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below_in(largest, self.analysis.scene.units.force());
@@ -108,8 +109,8 @@ impl Sheet<'_> {
         })
     }
 
-    /// Returns notes for the reader: that lengths do not show magnitudes, which forces and names are left out, and that
-    /// forces do not balance.
+    /// Returns notes for the reader. They state that lengths do not show magnitudes, which forces and names are left
+    /// out, or that the forces do not balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {

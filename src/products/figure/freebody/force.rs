@@ -35,7 +35,7 @@ pub(super) struct Force {
 }
 
 impl Force {
-    /// Returns its moment about a point, N·m.
+    /// Returns the moment of the force about a point, N·m.
     pub(super) fn moment(&self, about: Point) -> f64 {
         cross(self.at - about, self.force) + self.torque
     }
@@ -166,7 +166,7 @@ impl ForceSource<'_> {
     }
 
     /// Returns the normal and the friction forces at both ends of an interface. Friction has two names, one for each
-    /// direction. With [`Corners::All`] both are in the list, the one that does not act with magnitude 0.
+    /// direction. With [`Corners::All`] both names are listed; the friction that does not act has magnitude 0.
     fn normal_and_friction(&self, contact: &Contact) -> Vec<Force> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -192,7 +192,7 @@ impl ForceSource<'_> {
         forces
     }
 
-    /// Returns the force at each end of an interface, which is the sum of its normal and its friction force.
+    /// Returns the force at each end of an interface: the sum of the normal and the friction force at this end.
     fn corner_forces(&self, number: usize, contact: &Contact) -> Vec<Force> {
         let (letter, accent) = match self.options.corners {
             Corners::All => ("x", Accent::None),
@@ -207,7 +207,8 @@ impl ForceSource<'_> {
         self.ends(contact).map(force).collect()
     }
 
-    /// Returns the sum of the forces of an interface on the block, N. It acts at the point of the interface's resultant.
+    /// Returns the sum of the forces of an interface on the block, N. The sum acts at the point of action of the
+    /// interface's resultant.
     fn resultant(&self, number: usize, contact: &Contact) -> Force {
         let ends = corners(contact, self.block);
         let normal = inward(contact, self.block);
@@ -216,13 +217,13 @@ impl ForceSource<'_> {
         self.of_contact(contact, "Force", symbol, (contact.resultant.at, sum))
     }
 
-    /// Returns the distinct ends of an interface with the forces on the block, numbered from 1.
+    /// Returns the distinct ends of an interface with their forces on the block. The ends are numbered from 1.
     fn ends(&self, contact: &Contact) -> impl Iterator<Item = (usize, Corner)> {
         let count = distinct(contact).len();
         (1..).zip(corners(contact, self.block)).take(count)
     }
 
-    /// Makes the entry of a force (N) of an interface that acts at a point.
+    /// Makes the entry of a force (N) that an interface exerts at a point.
     fn of_contact(
         &self,
         contact: &Contact,
@@ -326,8 +327,8 @@ impl ForceSource<'_> {
     }
 }
 
-/// Returns the force of the longest arrow, N; a torque counts as torque divided by `edge`, the unit edge in metres.
-/// Returns 0 if lengths do not show magnitudes.
+/// Returns the force of the longest arrow, N. A torque counts as torque divided by `edge`, the unit edge in metres.
+/// Returns 0 if the lengths of the arrows do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
     match options.corners {

@@ -161,7 +161,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Returns the position of the lower edge of the picture on the page.
+    /// Returns the y coordinate of the lower edge of the picture on the page, pixels.
     fn floor(&self) -> f64 {
         self.picture.at.y + self.picture.height
     }

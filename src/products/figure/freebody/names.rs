@@ -1,4 +1,4 @@
-//! Places the names of forces, coordinates and bodies of a free-body diagram where they cover nothing.
+//! Places the names of forces, coordinates and bodies of a free-body diagram, so that they do not cover other shapes.
 
 use super::around::{neighbours, runs_on};
 use super::{BELOW, NAME, Sheet};
@@ -12,7 +12,7 @@ use crate::scene::BodyId;
 const MAX_NAMES: usize = 150;
 
 impl Sheet<'_> {
-    /// Draws the names of forces, coordinates and bodies. Also returns the number of names without space.
+    /// Draws the names of forces, coordinates and bodies. Also returns the number of names for which there is no space.
     pub(super) fn names(
         &self,
         ink: &mut Ink,
@@ -36,7 +36,7 @@ impl Sheet<'_> {
         (group, nameless)
     }
 
-    /// Returns the part of the page for names.
+    /// Returns the part of the page on which names may be placed.
     fn page_of_names(&self) -> PageRect {
         PageRect {
             at: PagePoint::new(4.0, self.picture.at.y - 6.0),
@@ -45,7 +45,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Draws the names of forces and coordinates. Returns the number of names without space.
+    /// Draws the names of forces and coordinates. Returns the number of names for which there is no space.
     fn name_symbols(
         &self,
         ink: &mut Ink,
@@ -116,13 +116,13 @@ impl Sheet<'_> {
         true
     }
 
-    /// Draws the line from a name to what it names.
+    /// Draws the line from a name to the object that it names.
     fn leader(&self, ends: [PagePoint; 2]) -> Path {
         let stroke = Stroke::new(self.options.theme.faint, 0.7);
         Path::stroked(Outline::line(ends), stroke)
     }
 
-    /// Returns positions on the page inside the visible part of a body, those nearest to its middle first.
+    /// Returns positions on the page inside the visible part of a body, sorted by distance from its middle.
     fn inside(&self, polygon: &Polygon) -> Vec<PagePoint> {
         let (bounds, view) = (polygon.bounds(), self.view);
         let (min, max) = (bounds.min.sup(&view.min), bounds.max.inf(&view.max));

@@ -1,5 +1,5 @@
-//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces and the lines
-//! to coordinates. Each part adds its shapes to the ink, which names do not cover.
+//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, and the
+//! lines that show coordinates. Each part adds its shapes to the ink, so that names do not cover them.
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;
@@ -59,7 +59,7 @@ impl Sheet<'_> {
             .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
     }
 
-    /// Adds the visible edges of a polygon to the ink, so that no name covers them.
+    /// Adds the visible edges of a polygon to the ink, so that no name covers these edges.
     fn bar(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
         for edge in polygon.edges() {
             let line = [edge.from, edge.to].map(|p| self.camera.place(p));
@@ -130,7 +130,7 @@ impl Sheet<'_> {
         arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
     }
 
-    /// Draws the arrows of the forces. Adds their names to `requests`.
+    /// Draws the arrows of the forces. Adds the names of the forces to `requests`.
     pub(super) fn drawn(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("forces");
@@ -176,7 +176,7 @@ impl Sheet<'_> {
         group
     }
 
-    /// Draws the directions of x and y below the picture.
+    /// Draws the x and y axes below the picture.
     pub(super) fn axes(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
         let origin = PagePoint::new(

@@ -48,8 +48,8 @@ struct Column {
 }
 
 impl Column {
-    /// Chooses the prefix with which the largest number of a column has one to three digits before the decimal point, as
-    /// far as prefixes from 10⁻⁶ to 10⁶ allow it. A unit that the scene chooses has no prefix.
+    /// Chooses the prefix for a column so that its largest number has one to three digits before the decimal point.
+    /// Prefixes range from 10⁻⁶ to 10⁶. A unit that the scene chooses has no prefix.
     fn new(largest: f64, unit: Unit) -> Column {
         let largest = unit.from_si(largest);
         let digits = if largest > 0.0 && largest.is_finite() {
@@ -151,8 +151,8 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// Draws the table with its upper edge in the middle at `top`, at most `room` pixels wide, with the font size
-    /// `size`. Also returns its height in pixels.
+    /// Draws the table at most `room` pixels wide, with the font size `size`. The middle of its upper edge is at `top`.
+    /// Also returns the height of the table in pixels.
     pub(super) fn draw(&self, top: PagePoint, room: f64, size: f64, theme: &Theme) -> (Group, f64) {
         let writer = TableWriter {
             table: self,
@@ -194,7 +194,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Makes each column as wide as its widest entry. If the table is then wider than `room`, the last column is
+    /// Makes each column as wide as its widest entry. If the table is then wider than `room`, the last column becomes
     /// narrower. The table is centred at `middle`.
     fn new(table: &Table, middle: f64, room: f64, size: f64) -> Columns {
         let wide = |words: &str| text::width(words, Face::Serif, size);
@@ -250,8 +250,8 @@ impl TableWriter<'_> {
         items
     }
 
-    /// Writes a row; the row of the sum is below a line. Also returns the number of lines of its last column, at least
-    /// 1.
+    /// Writes a row of the table. The row of the sum has a line above it. Also returns the number of text lines in its
+    /// last column, at least 1.
     fn row(&self, row: &Row, y: f64) -> (Vec<Item>, usize) {
         let columns = &self.columns;
         let mut items = Vec::new();
