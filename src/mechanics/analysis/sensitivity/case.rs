@@ -9,11 +9,11 @@ use crate::solve::{LimitState, limit_state};
 
 /// One component at one end of the interval of a parameter.
 pub(super) struct Case<'a> {
-    /// The component as it is at present.
+    /// The component with the present values of all parameters.
     pub component: &'a Assembly,
-    /// The parameter.
+    /// The parameter whose interval ends.
     pub kind: MarginKind,
-    /// Its value at the end.
+    /// The value of the parameter at the end.
     pub value: f64,
     /// 1 at the upper end, −1 at the lower one.
     pub outward: f64,
@@ -21,13 +21,13 @@ pub(super) struct Case<'a> {
     pub mechanism: &'a [Motion],
 }
 
-/// How far inside the end the program of the state begins, as a share of the loads there.
+/// How far inside the end the linear program begins, as a fraction of the loads there. The fractions are tried in turn.
 ///
-/// The state at the end is the same for every share; a share that is too large may begin where the component does not
-/// stand, and a share that is too small loses digits.
+/// The state at the end is the same for every fraction. With a large fraction, the program may begin where the
+/// component does not stand. A small fraction loses digits.
 const SHARES: [f64; 3] = [0.05, 2e-3, 1e-4];
 
-/// The state is that of the end if the program ends this close to it, as a share of the loads.
+/// The state is accepted if the program ends this close to the end of the interval, as a fraction of the loads.
 const SAME_END: f64 = 1e-3;
 
 impl Case<'_> {
@@ -48,8 +48,8 @@ impl Case<'_> {
         }
     }
 
-    /// Returns the change of the load of each body per unit of the parameter; `None` if the parameter does not change
-    /// loads.
+    /// Returns the derivative of the load of each body with respect to the parameter at `value`. `None` if the loads do
+    /// not depend on the parameter.
     pub fn growth(&self, value: f64) -> Option<Vec<LoadVector>> {
         let down = self.component.pull;
         let along = match self.kind {
@@ -72,8 +72,8 @@ impl Case<'_> {
         Some(growth.collect())
     }
 
-    /// Returns the loads that push the component outward: the growth of its loads, or forces along the mechanism if the
-    /// parameter does not change loads.
+    /// Returns a load on each body that pushes the component beyond the end. It is the outward derivative of the loads.
+    /// If the loads do not depend on the parameter, it is a force along the mechanism.
     pub fn push(&self, value: f64) -> Vec<LoadVector> {
         if let Some(growth) = self.growth(value) {
             let outward = growth.into_iter().map(|load| load.times(self.outward));
@@ -91,8 +91,8 @@ impl Case<'_> {
         along.collect()
     }
 
-    /// Solves for forces and mechanism at the end. Returns the program and its state; `None` if the end cannot be
-    /// reached.
+    /// Computes forces and mechanism at the end. Returns the program and its state. `None` if there are no loads, or if
+    /// the program does not end at the end of the interval.
     pub fn solved(&self, changed: &Assembly) -> Option<(Program, LimitState)> {
         let program = Program::new(changed, Scale::from_assembly(changed));
         let scale = program.scale;
@@ -118,7 +118,7 @@ impl Case<'_> {
     }
 }
 
-/// Returns a load as (x, y, moment about a point).
+/// Returns a load as [force x, force y, moment about `origin`].
 pub(super) fn load_at(
     load: &LoadVector,
     centroid: crate::geometry::Point,

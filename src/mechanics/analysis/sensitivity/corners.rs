@@ -1,9 +1,9 @@
-//! [`Corners`]: which corners move together if contacts are kept, and how.
+//! [`Corners`]: which corners move together, and in which directions, if the contacts are kept.
 //!
-//! Corners of two bodies at the end of their common stretch are one *joined corner*: they move together, and both
-//! bodies change. A corner of one body inside an edge of another body is guided by this edge. It can only move along
-//! the edge, and if the edge moves, it moves with it at right angles to the edge. A corner that is guided by two edges
-//! of different directions cannot move.
+//! If corners of two bodies lie at the same end of their contact, they are one *joined corner*: they move together, and
+//! both bodies change. If a corner of one body lies inside an edge of another body, this edge guides it. The corner can
+//! move only along the edge. If the edge moves at right angles to itself, the corner moves with it. A corner that is
+//! guided by two edges of different directions cannot move.
 
 use super::elimination::Elimination;
 use super::joints::{Corner, Finder, Found, Guide};
@@ -12,40 +12,41 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// Two directions that differ by less than this sine are one.
+/// Two directions are equal if the sine of the angle between them is less than this.
 const PARALLEL: f64 = 1e-3;
-/// A motion that violates an edge by more than this, relative to the corner's, does not keep the contacts.
+/// A move keeps the contacts only if no corner leaves its edge by more than this, relative to the displacement of the
+/// moved corner.
 const KEPT: f64 = 1e-7;
-/// More corners than this that depend on each other are not solved for.
+/// If a group of dependent corners has more unknown displacements than this, none of its corners can move.
 const MOST_DEPENDENT: usize = 400;
 
-/// One way in which a joined corner can move, per metre.
+/// One way in which a joined corner can move. Displacements are per metre.
 #[derive(Clone, Debug)]
 pub(super) struct Move {
     pub direction: Vector,
-    /// The joined corners that move, and how far.
+    /// The joined corners that move, and their displacements.
     pub field: Vec<(usize, Vector)>,
 }
 
-/// The lines of a contact that change with corners.
+/// The corners that determine the ends and the normal of a contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactCorners {
-    /// The joined corner at each end of the stretch.
+    /// The joined corners at the two ends of the contact.
     pub ends: [usize; 2],
-    /// The joined corners of the edge that gives the normal, if the contact is a corner on an edge.
+    /// The joined corners of the edge that determines the normal, if the contact is a corner on an edge.
     pub edge: Option<[usize; 2]>,
 }
 
-/// All corners of a frame.
+/// The corners of all bodies of a frame.
 pub(super) struct Corners {
     pub all: Vec<Corner>,
-    /// The joined corner of each corner.
+    /// For each corner, the index of its joined corner.
     pub joined: Vec<usize>,
     /// The number of joined corners.
     pub count: usize,
     /// The position of one corner of each joined corner, metres.
     pub positions: Vec<Point>,
-    /// For each interface of the frame its corners; `None` if they are unknown.
+    /// For each interface of the frame, the corners that determine it; `None` if they are unknown.
     pub contacts: Vec<Option<ContactCorners>>,
     /// The moves of each joined corner: two along the axes, one along an edge, or none.
     pub moves: Vec<Vec<Move>>,
@@ -82,12 +83,12 @@ impl Corners {
         corners
     }
 
-    /// The positions of the corners before and behind a corner in its ring.
+    /// Returns the positions of the corners before and after a corner in its ring.
     pub fn around(&self, place: usize) -> [Point; 2] {
         self.all[place].neighbours.map(|place| self.all[place].at)
     }
 
-    /// Finds the moves of every joined corner with a corner of a block.
+    /// Finds the moves of every joined corner to which a corner of a block belongs.
     fn find_moves(&mut self, guides: &[Guide]) {
         let mut has_block = vec![false; self.count];
         for (corner, joined) in self.all.iter().zip(&self.joined) {
@@ -118,10 +119,11 @@ impl Corners {
         }
     }
 
-    /// Adds to the moves of corners how the guided corners of one part follow them. Removes the moves that they cannot
-    /// follow.
+    /// Adds to each move the displacements of the guided corners of one part. Removes the moves that do not keep these
+    /// corners on their edges.
     fn follow(&mut self, guides: &[Guide], normals: &[Vec<Vector>]) {
-        // The displacements of guided corners along their normals, or in both directions, are unknown.
+        // The unknowns are the displacements of guided corners: along the normal for one guide, along both axes for
+        // several.
         let mut guided: Vec<usize> = guides.iter().map(|guide| guide.of).collect();
         guided.sort_unstable();
         guided.dedup();
@@ -178,7 +180,8 @@ impl Corners {
         }
     }
 
-    /// Removes the moves that change the normal of two touching corners: its change is not computed.
+    /// Removes the moves that change the normal of a contact of two corners, because the change of this normal is not
+    /// computed.
     fn freeze(&mut self, contacts: &[Found], interfaces: &[&Interface]) {
         let mut is_frozen = vec![false; self.count];
         for (found, interface) in contacts.iter().zip(interfaces) {
@@ -204,7 +207,7 @@ impl Corners {
     }
 }
 
-/// The position of one corner of each joined corner.
+/// Returns the position of one corner of each joined corner.
 fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
     let mut positions = vec![Point::origin(); count];
     for (corner, joined) in all.iter().zip(joined) {
@@ -213,7 +216,7 @@ fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
     positions
 }
 
-/// Groups the guides that depend on each other.
+/// Returns the guides in groups; guides in different groups do not depend on each other.
 fn parts(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
     let mut is_guided = vec![false; count];
     guides.iter().for_each(|guide| is_guided[guide.of] = true);

@@ -1,24 +1,26 @@
-//! [`Elimination`]: solves small dense systems of equations, and finds all their solutions if there are several.
+//! [`Elimination`]: solves small dense systems of linear equations, and finds all solutions if there are several.
 //!
 //! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
 
-/// A pivot up to this fraction of the largest entry counts as 0: the row depends on the rows before it.
+/// A pivot counts as 0 if it is at most this fraction of the largest entry. Its row then depends on the rows before it.
 ///
-/// The entries are near 1, and rounding reaches about 1e-13. With a value a hundred times larger, an arch with very
-/// flat hinges would count as not unique. With a value a hundred times smaller, rounding would count as a pivot.
+/// The entries are near 1, and rounding reaches about 1e-13. With a value a hundred times larger, the solution of an
+/// arch with very flat hinges would not count as unique. With a value a hundred times smaller, rounding would count as
+/// a pivot.
 const PIVOT_TOL: f64 = 1e-8;
 
 /// All solutions of a system of equations with several right-hand sides.
 pub(super) struct Elimination {
-    /// For each right-hand side the solution whose free unknowns are 0, and the largest remaining error of a row.
+    /// For each right-hand side, the solution in which the free unknowns are 0, and the largest remaining error of a
+    /// row.
     pub solutions: Vec<(Vec<f64>, f64)>,
-    /// A basis of the solutions of the system with the right-hand side 0.
+    /// A basis of the solutions for the right-hand side 0.
     pub null_space: Vec<Vec<f64>>,
 }
 
 impl Elimination {
-    /// Solves a system. `rows` are its equations, one number for each of `unknowns`; each list of `sides` has one
-    /// number for each row.
+    /// Solves a system for several right-hand sides. Each row has one coefficient for each of the `unknowns`. Each list
+    /// in `sides` has one number for each row.
     pub fn new(rows: &[Vec<f64>], unknowns: usize, sides: &[Vec<f64>]) -> Elimination {
         let mut table: Vec<Vec<f64>> = rows.to_vec();
         for (k, row) in table.iter_mut().enumerate() {
@@ -26,7 +28,7 @@ impl Elimination {
         }
         let entries = rows.iter().flatten();
         let largest = entries.fold(0.0, |most: f64, v| most.max(v.abs()));
-        // The unknown that each finished row determines.
+        // For each row that is finished, the unknown that it determines.
         let mut pivots: Vec<usize> = Vec::new();
         let mut is_free = vec![true; unknowns];
         while pivots.len() < table.len() {
@@ -69,7 +71,7 @@ impl Elimination {
     }
 }
 
-/// Returns row, column and size of the largest entry among the free columns.
+/// Returns row, column and absolute value of the largest entry in the free columns; `None` if there is no such entry.
 fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f64)> {
     let mut best: Option<(usize, usize, f64)> = None;
     for (number, row) in rows.iter().enumerate() {
@@ -83,7 +85,8 @@ fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f
     best
 }
 
-/// Scales the pivot row to 1 in the given column, and subtracts it from all other rows so that they are 0 there.
+/// Divides the pivot row such that its entry in the given column is 1. Then subtracts it from all other rows such that
+/// their entries in this column are 0.
 fn clear_column(table: &mut [Vec<f64>], pivot: usize, column: usize) {
     let by = table[pivot][column];
     for value in &mut table[pivot] {

@@ -1,4 +1,4 @@
-//! Finds the sensitivity of a frame from its components.
+//! Finds the sensitivity of a frame from the sensitivities of its components.
 
 use super::case::Case;
 use super::corners::Corners;
@@ -11,16 +11,17 @@ use crate::assembly::Assembly;
 use crate::effect::FrameContext;
 use crate::scene::BodyId;
 
-/// A component of a frame, and its own interval of the parameter if it is known.
+/// A component of a frame, and its own interval of the parameter if that is known.
 pub(in crate::mechanics::analysis) struct Part<'a> {
     pub component: &'a Assembly,
     pub interval: Option<&'a Interval>,
 }
 
-/// Two ends closer than this, relative to their values, are one: every component with this end falls.
+/// Two ends that differ by less than this, relative to their values, count as equal. Every component with an equal end
+/// falls there.
 const SAME_END: f64 = 1e-6;
 
-/// Finds how both ends of a margin of a frame change.
+/// Finds how both ends of a margin of a frame change with corners, weights, friction and loads.
 pub(in crate::mechanics::analysis) fn find(
     context: &FrameContext,
     parts: &[Part],
@@ -35,7 +36,7 @@ pub(in crate::mechanics::analysis) fn find(
         MarginKind::LoadFactor => &intervals.load_factor,
         MarginKind::Robots => &None,
     };
-    // Listed contacts do not follow the corners of schematic outlines.
+    // If the scene lists its contacts, they do not follow the corners of the outlines, so there are no derivatives.
     let (low, high) = match interval
         .as_ref()
         .filter(|_| !context.scene.lists_contacts())
@@ -116,7 +117,8 @@ impl Search<'_> {
         Ok(self.slopes(exact, &branches, outward))
     }
 
-    /// Returns the mechanism with which a component falls at the end of the frame; `None` if it does not fall there.
+    /// Returns the mechanism by which a component falls at the end of the frame's interval; `None` if it does not fall
+    /// there.
     fn mechanism_of<'m>(
         &self,
         part: &'m Part,
@@ -146,7 +148,7 @@ impl Search<'_> {
         }
     }
 
-    /// Combines the derivatives of all components that fall at the end.
+    /// Combines the derivatives of all components that fall at the end into the slopes of the frame.
     fn slopes(&self, value: f64, branches: &[Branch], outward: f64) -> EndSensitivity {
         let (scene, frame) = (self.context.scene, self.context.frame);
         let slope = |largest: f64, read: &dyn Fn(&Rates) -> f64| {
@@ -197,7 +199,7 @@ impl Search<'_> {
         }
     }
 
-    /// The slopes of all corners of blocks. `largest` is the largest derivative with respect to a corner.
+    /// Returns the slopes of all corners of blocks. `largest` is the largest derivative with respect to a corner.
     fn corners(
         &self,
         slope: &dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope,

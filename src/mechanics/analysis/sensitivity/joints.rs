@@ -1,25 +1,26 @@
-//! [`Finder`]: the corners at the ends of joints, and the corners that lie on edges.
+//! [`Finder`]: finds the corners at the ends of joints, and the corners that lie on edges.
 
 use crate::assembly::DisjointSets;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// A corner lies at the end of a stretch if it is within this many gaps of it: both are off by a gap each.
+/// A corner counts as the end of a contact if its distance is at most this multiple of the admissible gap. The
+/// positions of both may be wrong by one gap.
 const REACH: f64 = 4.0;
-/// The same as a fraction of the coordinates, for scenes without tolerance.
+/// The least such distance, as a fraction of the coordinates, for scenes without tolerance.
 const ROUNDING: f64 = 1e-9;
-/// A corner of a body, with its number in the outline; holes follow.
+/// A corner of a body, with its index in the outline. The corners of holes follow those of the outline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub body: BodyId,
     pub number: usize,
     pub at: Point,
-    /// The corners before and behind it in its ring, by their places in [`Finder::all`].
+    /// The indices, in [`Finder::all`], of the corners before and after it in its ring.
     pub neighbours: [usize; 2],
 }
 
-/// The corner `of` lies on the edge from `from` to `to`, at `share` of its length. Joined corners.
+/// A condition on joined corners: `of` lies on the edge from `from` to `to`, at the fraction `share` of its length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guide {
     pub of: usize,
@@ -30,7 +31,8 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    /// The factor of a corner's normal displacement in the condition that the corner stays on the edge.
+    /// Returns the factor of the normal displacement of `corner` in the condition that the corner `of` stays on the
+    /// edge. It is 0 for a corner that does not occur in the condition.
     pub fn factor(&self, corner: usize) -> f64 {
         let mut factor = 0.0;
         for (place, value) in [
@@ -46,23 +48,23 @@ impl Guide {
     }
 }
 
-/// The corners of an interface.
+/// The corners that belong to an interface.
 pub(super) struct Found {
     pub ends: Option<[usize; 2]>,
-    /// The two corners of the edge on which it lies, if it is a corner on an edge.
+    /// If the contact is a corner on an edge, the two corners of this edge.
     pub edge: Option<[usize; 2]>,
-    /// The corners at its ends.
+    /// All corners within reach of its ends.
     pub tips: Vec<usize>,
 }
 
-/// Finds corners at interfaces.
+/// Finds the corners at the ends of interfaces.
 pub(super) struct Finder<'s> {
     scene: &'s Scene,
     pub all: Vec<Corner>,
-    /// The first corner of each body, in the order of the bodies.
+    /// Each body with the index of its first corner, in the order of the bodies.
     first: Vec<(BodyId, usize)>,
     sets: DisjointSets,
-    /// Corners on edges: the corner, and the two corners of the edge.
+    /// Each corner that lies on an edge, with the two corners of this edge.
     on_edges: Vec<(usize, [usize; 2])>,
 }
 
@@ -100,7 +102,7 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// The places of a body's corners.
+    /// Returns the indices of the corners of a body.
     fn corners_of(&self, body: BodyId) -> std::ops::Range<usize> {
         let place = self.first.partition_point(|(other, _)| *other < body);
         let from = self.first.get(place).map_or(0, |(_, first)| *first);
@@ -115,7 +117,7 @@ impl<'s> Finder<'s> {
         (REACH * gap).max(ROUNDING * size)
     }
 
-    /// The nearest corner of a body within reach of a point.
+    /// Returns the corner of a body that is nearest to a point; `None` if its distance is larger than `reach`.
     fn corner_at(&self, body: BodyId, at: Point, reach: f64) -> Option<usize> {
         let near = self
             .corners_of(body)
@@ -126,7 +128,8 @@ impl<'s> Finder<'s> {
             .map(|(place, _)| place)
     }
 
-    /// The edge of a body, by its corners, that contains a point and runs along a direction.
+    /// Returns the two corners of the edge of a body that is nearest to a point. If `along` is given, only edges in
+    /// about this direction count.
     fn edge_at(&self, body: BodyId, at: Point, along: Option<Vector>) -> Option<[usize; 2]> {
         let edges = self.corners_of(body).filter_map(|place| {
             let next = self.all[place].neighbours[1];
@@ -140,7 +143,7 @@ impl<'s> Finder<'s> {
         nearest.map(|(edge, _)| edge)
     }
 
-    /// Joins the corners at the ends of an interface.
+    /// Joins the corners of both bodies at each end of an interface.
     pub fn join(&mut self, interface: &Interface) {
         let reach = self.reach(interface);
         for end in interface.ends {
@@ -153,7 +156,7 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// Finds the corners at the ends of an interface, and the corners that its edges guide.
+    /// Finds the corners at the ends of an interface, and the corners that lie on its edges.
     pub fn contact(&mut self, interface: &Interface) -> Found {
         let reach = self.reach(interface);
         let is_corner = interface.kind == ContactKind::Corner;
@@ -185,7 +188,7 @@ impl<'s> Finder<'s> {
         found
     }
 
-    /// Corners inside a straight joint stay on the line through its ends.
+    /// Notes that corners inside a straight joint lie on the line between its ends.
     fn guide_inside(&mut self, interface: &Interface, ends: [usize; 2], reach: f64) {
         let along = interface.tangent();
         for body in interface.bodies {
@@ -202,7 +205,7 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// The joined corner of each corner, and their number.
+    /// Returns the index of the joined corner of each corner, and the number of joined corners.
     pub fn joined(&mut self) -> (Vec<usize>, usize) {
         let mut number = vec![usize::MAX; self.all.len()];
         let mut count = 0;
@@ -218,7 +221,7 @@ impl<'s> Finder<'s> {
         (joined, count)
     }
 
-    /// The guides between joined corners, each once.
+    /// Returns the conditions on joined corners, each of them once.
     pub fn guides(&self, joined: &[usize]) -> Vec<Guide> {
         let guides = self.on_edges.iter().filter_map(|(corner, edge)| {
             let [from, to] = edge.map(|place| self.all[place].at);

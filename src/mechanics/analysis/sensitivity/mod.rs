@@ -1,9 +1,9 @@
 //! [`Sensitivity`]: how an end of a margin changes with corners, weights, friction and loads.
 //!
-//! At the end of a margin the forces x and the mechanism u balance: the power of all forces along u is 0. If something
-//! changes, the value λ of the margin changes such that the power stays 0. So dλ/dp = −(u·∂r/∂p) / (u·∂r/∂λ), where r
-//! is the sum of the forces on each body. The derivative is exact. It needs one linear program for each end, and none
-//! for each corner.
+//! At the end of a margin the forces x balance, and the power of all forces along the mechanism u is 0. If a quantity p
+//! changes, the value λ of the margin changes such that this power stays 0. Therefore dλ/dp = −(u·∂r/∂p) / (u·∂r/∂λ),
+//! where r is the sum of the forces on each body. The derivative is exact. It needs one linear program for each end,
+//! and no program for each corner.
 //!
 //! | file | content |
 //! |---|---|
@@ -38,12 +38,12 @@ pub use slope::Slope;
 impl Analysis {
     /// Returns how a margin of a frame (numbered from 0) changes with corners, weights, friction and loads.
     ///
-    /// Units: per metre, per newton and per unit of friction, in the unit of the margin: degrees for the tilt. The
-    /// frame is analysed again unless [`Options::sensitivity`] requested this margin.
+    /// The derivatives are in the unit of the margin (degrees for the tilt), per metre, per newton, or per unit of
+    /// friction. The frame is analysed again unless [`Options::sensitivity`] requested this margin.
     ///
     /// # Errors
-    /// Why neither end of the margin has derivatives. A limit of a robot has none, and neither has a frame that does not
-    /// exist: [`NoSensitivity::NotApplicable`].
+    /// Returns the reason if neither end of the margin has derivatives. For [`MarginKind::Robots`], or if the frame
+    /// does not exist, the reason is [`NoSensitivity::NotApplicable`].
     ///
     /// # Example
     /// ```
@@ -88,23 +88,23 @@ impl Analysis {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sensitivity {
-    /// The margin.
+    /// The margin whose ends change.
     pub kind: MarginKind,
-    /// The lower end of its interval. The error is the reason why there is none.
+    /// The derivatives of the lower end of its interval, or the reason why there are none.
     pub low: Result<EndSensitivity, NoSensitivity>,
-    /// The upper end of its interval. The error is the reason why there is none.
+    /// The derivatives of the upper end of its interval, or the reason why there are none.
     pub high: Result<EndSensitivity, NoSensitivity>,
 }
 
 impl Sensitivity {
-    /// Returns the ends that have a value: the lower one first. The flag is true for the upper end.
+    /// Returns the ends that have derivatives, the lower end first. The flag is true for the upper end.
     pub fn ends(&self) -> impl Iterator<Item = (bool, &EndSensitivity)> {
         let both = [(false, &self.low), (true, &self.high)];
         both.into_iter()
             .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
     }
 
-    /// Returns why no end has a value; `None` if one has. The reason of the upper end comes first.
+    /// Returns the reason for the upper end if neither end has derivatives; otherwise `None`.
     pub fn reason(&self) -> Option<NoSensitivity> {
         match (&self.low, &self.high) {
             (Err(_), Err(reason)) => Some(*reason),
@@ -117,13 +117,13 @@ impl Sensitivity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoSensitivity {
-    /// The margin has no meaning in the frame: it has no loads.
+    /// The margin does not exist in this frame (for example, there are no loads), or the scene lists its contacts.
     NotApplicable,
     /// The frame falls at every value.
     Empty,
     /// The frame stands at every value in this direction.
     Unbounded,
-    /// The range of the parameter ends here, not the structure.
+    /// The end is a limit of the range of the parameter; the frame does not fall there.
     RangeEnds,
     /// No verdict confirms the end.
     Unconfirmed,
@@ -135,61 +135,62 @@ pub enum NoSensitivity {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EndSensitivity {
-    /// The value of the end, in the unit of the margin.
+    /// The value of the parameter at this end, in the unit of the margin.
     pub value: f64,
-    /// The corners of all placed blocks, in the order of the blocks.
+    /// The derivatives for the corners of all placed blocks, in the order of the blocks.
     pub corners: Vec<CornerSlope>,
-    /// Each placed block, per newton of its weight. Its centroid stays.
+    /// The derivative for each placed block, per newton of its weight. Its centroid stays where it is.
     pub weights: Vec<(BlockId, Slope)>,
-    /// Each interface of the frame, by its index, per unit of its friction coefficient. Empty for the margin of
-    /// friction, which sets all coefficients.
+    /// The derivative for each interface of the frame, with its index, per unit of its friction coefficient. Empty for
+    /// the margin of friction, which sets all coefficients.
     pub friction: Vec<(usize, Slope)>,
-    /// All friction coefficients together, per unit; `None` for the margin of friction.
+    /// The derivative if all friction coefficients increase together, per unit. `None` for the margin of friction.
     pub friction_of_all: Option<Slope>,
-    /// Each load on a placed block, by its index in the scene, per metre that its point moves along x and along y.
+    /// The derivatives for each load on a placed block, with its index in the scene, per metre that its point moves
+    /// along x and along y.
     pub loads: Vec<(usize, [Slope; 2])>,
 }
 
 /// How an end changes if a corner moves and the contacts are kept.
 ///
-/// Corners at one end of a joint move together. A corner on an edge of another body moves along it, and follows it if
-/// the edge moves. Weights that follow from a density change with the area. Points of loads and grips stay, except those
-/// of loads without `at`, which are centroids.
+/// Corners at the same end of a joint move together. A corner on an edge of another body moves along this edge, and
+/// follows the edge if the edge moves. A weight that is computed from a density changes with the area. The points of
+/// loads and grips stay; only a load without `at` moves with the centroid.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CornerSlope {
     /// The block.
     pub block: BlockId,
-    /// The corner, from 0, anticlockwise in the outline; the corners of holes follow.
+    /// The index of the corner: anticlockwise in the outline, from 0. The corners of holes follow.
     pub corner: usize,
-    /// Its position, metres.
+    /// The position of the corner, metres.
     pub at: Point,
-    /// The other bodies whose corners move with it.
+    /// The other bodies that have a corner at this joint, which moves with this corner.
     pub with: Vec<BodyId>,
-    /// How it can move, with the derivatives per metre.
+    /// In which directions the corner can move, with the derivatives per metre.
     pub moves: CornerMoves,
 }
 
-/// How a corner can move.
+/// The directions in which a corner can move without opening a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CornerMoves {
-    /// In every direction: the derivatives along x and along y.
+    /// In every direction; the derivatives along x and along y.
     Freely([Slope; 2]),
     /// Along the edge of another body.
     Along {
         /// The unit vector along the edge.
         direction: Vector,
-        /// The derivative along it.
+        /// The derivative in this direction.
         slope: Slope,
     },
-    /// It cannot move without opening or bending a joint.
+    /// The corner cannot move without opening or bending a joint.
     Not,
 }
 
 impl CornerMoves {
-    /// Returns the derivative as a vector: it points in the direction in which the value increases most. `None` if it is
-    /// not unique, or if the corner cannot move.
+    /// Returns the derivative as a vector, which points in the direction of the largest increase. `None` if a
+    /// derivative is not unique, or if the corner cannot move.
     pub fn gradient(self) -> Option<Vector> {
         match self {
             CornerMoves::Freely([x, y]) => Some(Vector::new(x.unique()?, y.unique()?)),

@@ -19,19 +19,19 @@ impl RigidMotion {
         spin: 0.0,
     };
 
-    /// Returns the velocity of a point that moves with the body.
+    /// Returns the velocity of a point of the body.
     pub fn at(&self, point: Point) -> Vector {
         self.velocity + quarter_turn(point - self.origin) * self.spin
     }
 }
 
-/// Forces and a mechanism at the end.
+/// Forces and a mechanism at the end of an interval.
 #[derive(Clone, Debug)]
 pub(super) struct State {
     /// The motion of each body.
     pub motions: Vec<RigidMotion>,
-    /// The forces of each contact in newtons; 0 for those inside a group.
+    /// The forces of each contact in newtons; 0 for contacts inside a group of bodies.
     pub forces: Vec<ContactForces>,
-    /// The power of the unbalanced forces per unit of the parameter.
+    /// The power of the unbalanced forces along the motions, per unit of the parameter.
     pub work: f64,
 }

@@ -1,8 +1,8 @@
-//! [`Rates`]: the derivatives of the value at an end, for one state of forces and mechanism.
+//! [`Rates`]: the derivatives of the value at an end of an interval, for one state of forces and mechanism.
 //!
-//! Every derivative is −u·∂r/∂p divided by u·∂r/∂λ, where r is the sum of the forces on each body, u the mechanism, p
-//! what changes and λ the parameter of the margin. The mechanism is a field of rigid motions, so a force that moves
-//! changes its power by its moment times the spin.
+//! Every derivative is −u·∂r/∂p divided by u·∂r/∂λ. Here r is the sum of the forces on each body, u the mechanism, p
+//! the quantity that changes, and λ the parameter of the margin. The bodies of the mechanism move rigidly. If the point
+//! of a force moves, the power therefore changes by the change of its moment times the angular velocity.
 
 use super::corners::Corners;
 use super::motion::{RigidMotion, State};
@@ -11,20 +11,21 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::proof::ContactForces;
 use crate::scene::{BodyId, Scene};
 
-/// The derivatives of a value with one state.
+/// The derivatives of the value at an end, for one state.
 pub(super) struct Rates {
-    /// Per metre that a joined corner moves: along x and y.
+    /// For each joined corner, per metre that it moves along x and along y.
     pub corners: Vec<Vector>,
-    /// Per newton of a block's weight; 0 for blocks outside the component.
+    /// For each block, per newton of its weight; 0 for blocks outside the component.
     pub weights: Vec<f64>,
-    /// Per unit of friction of each interface.
+    /// For each interface, per unit of its friction coefficient.
     pub friction: Vec<f64>,
-    /// Per metre that a load moves.
+    /// For each load, per metre that its point moves along x and along y.
     pub loads: Vec<Vector>,
 }
 
 impl Rates {
-    /// Computes the derivatives; `None` if the parameter does no work along the mechanism.
+    /// Computes the derivatives for all corners, blocks, loads and `interfaces` of the frame. `None` if the parameter
+    /// does no work along the mechanism.
     pub fn new(
         scene: &Scene,
         corners: &Corners,
@@ -87,8 +88,8 @@ impl Rates {
         Some(rates)
     }
 
-    /// Adds the change of the power of a contact's forces if its ends move, if its normal turns with them, and if its
-    /// friction changes.
+    /// Adds the change of the power of a contact's forces if its ends move, if its normal rotates with them, or if its
+    /// friction coefficient changes.
     fn add_contact(
         &mut self,
         corners: &Corners,
@@ -110,7 +111,7 @@ impl Rates {
         let Some(place) = &corners.contacts[contact.interface] else {
             return;
         };
-        // Power per metre that each application point moves, and per radian that the normal turns.
+        // Power per metre that each application point moves, and per radian that the normal rotates.
         let at_point = |k: usize| {
             let friction = if k == 0 { forces.friction } else { 0.0 };
             let force = normal * forces.normal[k] + tangent * friction;
@@ -120,7 +121,7 @@ impl Rates {
         for (force, at) in forces.normal.iter().zip(contact.points) {
             turning += force * tangent.dot(&apart(at));
         }
-        // The points are the ends, moved inward by a share of the length.
+        // The application points are the ends, moved inward by the same fraction of the length.
         let length = (contact.ends[1] - contact.ends[0]).norm();
         let inward = match length > 0.0 {
             true => (contact.points[0] - contact.ends[0]).norm() / length,
@@ -129,7 +130,7 @@ impl Rates {
         let [first, second] = [at_point(0), at_point(1)];
         self.corners[place.ends[0]] += first * (1.0 - inward) + second * inward;
         self.corners[place.ends[1]] += second * (1.0 - inward) + first * inward;
-        // If the second end moves along the normal, the normal turns clockwise.
+        // If the second end moves along the normal, the normal rotates clockwise.
         let (line, across, long) = match place.edge {
             None => (place.ends, normal, length),
             Some(edge) => {
@@ -145,10 +146,10 @@ impl Rates {
     }
 }
 
-/// How area and centroid of a body change with one of its corners.
+/// How area and centroid of a body change if one of its corners moves.
 struct CornerShift {
     area: f64,
-    /// The change of area per metre along x and y.
+    /// The change of the area per metre along x and y.
     of_area: Vector,
     /// The changes of the centroid per metre along x and along y.
     of_axes: [Vector; 2],
@@ -160,7 +161,8 @@ impl CornerShift {
         let area = scene.body(corner.body).polygon.area();
         let [before, after] = corners.around(place).map(|at| at - centroid);
         let own = corner.at - centroid;
-        // The area is half the sum of cross products of neighbours; its first moment is a sixth of their sum times them.
+        // The area is half the sum of the cross products of neighbouring corners. The first moment is a sixth of the
+        // sum of each cross product times the sum of its two corners.
         let of_area = -quarter_turn(after - before) * 0.5;
         let of_axes = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)].map(|d| {
             let (before_turn, after_turn) = (cross(before, d), cross(d, after));
@@ -176,8 +178,8 @@ impl CornerShift {
         }
     }
 
-    /// The derivative with respect to the corner of something that has the derivative `rate` with respect to the
-    /// centroid.
+    /// Returns the derivative of a quantity with respect to the corner. `rate` is the derivative of this quantity with
+    /// respect to the centroid.
     fn of_centroid(&self, rate: Vector) -> Vector {
         Vector::new(rate.dot(&self.of_axes[0]), rate.dot(&self.of_axes[1]))
     }

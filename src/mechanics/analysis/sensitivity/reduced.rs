@@ -1,7 +1,7 @@
-//! [`Reduced`]: the balance of the groups of bodies that move as one at the end of an interval.
+//! [`Reduced`]: the equilibrium equations of the groups of bodies that move as one body at the end of an interval.
 //!
-//! Each group has three rows: force x, force y, and moment about a common origin divided by L. Forces are in units of
-//! the program.
+//! Each group has three rows: force x, force y, and moment about a common origin, divided by the length L. Forces are
+//! in units of the program.
 
 use super::case::{Case, load_at};
 use super::motion::{RigidMotion, State};
@@ -13,19 +13,19 @@ use crate::program::Program;
 use crate::proof::ContactForces;
 use crate::solve::LimitState;
 
-/// The balance of the groups.
+/// The equilibrium equations of the groups.
 pub(super) struct Reduced {
-    /// The group of each body; `None` if it rests with the ground.
+    /// The index of the group of each body; `None` if the body rests with the ground.
     group: Vec<Option<usize>>,
     /// The number of groups.
     pub groups: usize,
     /// The forces between groups.
     pub unknowns: Vec<Unknown>,
-    /// The components of grips that are at their limits, with their forces.
+    /// The grips with a force component at its limit: grip, component and force.
     limits: Vec<(usize, usize, f64)>,
-    /// The motion of each group in the program's mechanism: velocity x, y and spin times L.
+    /// The motion of each group in the mechanism of the program: velocity x, velocity y, and spin times L.
     pub motion: Vec<f64>,
-    /// The largest load of a body.
+    /// The largest load component of a body, in units of the program.
     pub load: f64,
     origin: Point,
     length: f64,
@@ -33,7 +33,7 @@ pub(super) struct Reduced {
 }
 
 impl Reduced {
-    /// Groups the bodies that basic columns hold together.
+    /// Groups the bodies that are held together by the basic forces.
     pub fn new(case: &Case, program: &Program, solved: &LimitState) -> Reduced {
         let given = case.component;
         let (all, limits) = unknowns(program, solved);
@@ -52,7 +52,7 @@ impl Reduced {
         for (number, body) in given.bodies.iter().enumerate() {
             if let Some(group) = group[number] {
                 let [u, v, spin] = [0, 1, 2].map(|row| solved.motion[3 * number + row]);
-                // The velocity of the origin as a point of this body.
+                // The velocity of the origin if it moves with this body.
                 let arm = quarter_turn(origin - body.centroid) * (spin / length);
                 motion[3 * group..3 * group + 3].copy_from_slice(&[u + arm.x, v + arm.y, spin]);
             }
@@ -70,14 +70,14 @@ impl Reduced {
         }
     }
 
-    /// The indices of the basic unknowns.
+    /// Returns the indices of the basic unknowns.
     pub fn basic(&self) -> impl Iterator<Item = usize> + '_ {
         let all = self.unknowns.iter().enumerate();
         all.filter(|(_, unknown)| unknown.is_basic).map(|(k, _)| k)
     }
 
-    /// Whether a grip's force at its limit has at most the power `speed` per unit: the limit then may or may not bind
-    /// beyond the end.
+    /// True if the force of a grip at its limit has hardly any power: at most `speed` per unit of force. Such a limit
+    /// may or may not be reached beyond the end.
     pub fn has_idle_limit(&self, changed: &Assembly, speed: f64, motion: &[f64]) -> bool {
         self.limits.iter().any(|(grip, component, _)| {
             let source = Source::Grip {
@@ -90,7 +90,7 @@ impl Reduced {
         })
     }
 
-    /// The entries of an unknown in the rows of the groups.
+    /// Returns the entries (row, value) of one unit of an unknown force in the rows of the groups.
     fn entries(&self, changed: &Assembly, source: Source) -> Vec<(usize, f64)> {
         match source {
             Source::Contact {
@@ -119,7 +119,8 @@ impl Reduced {
         }
     }
 
-    /// The entries of a force at a point of a body, and of a torque.
+    /// Returns the entries (row, value) of a force at a point of a body and of a torque. Empty if the body rests with
+    /// the ground.
     fn wrench(&self, body: usize, at: Point, force: Vector, torque: f64) -> Vec<(usize, f64)> {
         let Some(group) = self.group[body] else {
             return Vec::new();
@@ -129,7 +130,8 @@ impl Reduced {
         vec![(row, force.x), (row + 1, force.y), (row + 2, moment)]
     }
 
-    /// Returns the sum of loads in the rows of the groups, in the units of the loads and divided by L.
+    /// Returns the sum of the loads in the rows of the groups. Forces are in the unit of `loads`; moments are divided
+    /// by L.
     pub fn grouped(&self, changed: &Assembly, loads: &[LoadVector]) -> Vec<f64> {
         let mut sum = vec![0.0; 3 * self.groups];
         for ((body, group), load) in changed.bodies.iter().zip(&self.group).zip(loads) {
@@ -143,7 +145,7 @@ impl Reduced {
         sum
     }
 
-    /// Returns the rows of the balance, with an entry for each of the chosen unknowns.
+    /// Returns the rows of the equilibrium equations, with one entry for each of the chosen unknowns.
     pub fn rows(&self, changed: &Assembly, chosen: &[usize]) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; chosen.len()]; 3 * self.groups];
         for (column, place) in chosen.iter().enumerate() {
@@ -160,7 +162,7 @@ impl Reduced {
         entries.map(|(row, value)| value * motion[row]).sum()
     }
 
-    /// Returns the forces that are not balanced, in units of the program.
+    /// Returns the unbalanced force in each row, in units of the program.
     pub fn residual(&self, changed: &Assembly, amounts: &[f64]) -> Vec<f64> {
         let loads: Vec<LoadVector> = changed.bodies.iter().map(|body| body.load).collect();
         let mut sum = self.grouped(changed, &loads);
@@ -181,7 +183,7 @@ impl Reduced {
         sum
     }
 
-    /// Returns the change of [`Reduced::residual`] per unit of the parameter.
+    /// Returns the derivative of [`Reduced::residual`] with respect to the parameter, at `value`.
     pub fn growth(&self, case: &Case, changed: &Assembly, amounts: &[f64], value: f64) -> Vec<f64> {
         if let Some(growth) = case.growth(value) {
             let mut sum = self.grouped(changed, &growth);
@@ -199,7 +201,8 @@ impl Reduced {
                 continue;
             };
             let contact = &changed.contacts[contact];
-            // Friction grows along the tangent; with a larger kernel the points move inward by half the length.
+            // A larger friction coefficient adds force along the tangent. A larger kernel moves the points inward, each
+            // by half the length per unit.
             let (force, torque) = match case.kind {
                 MarginKind::Friction => (contact.tangent() * (side * amount), 0.0),
                 _ => {
@@ -220,7 +223,8 @@ impl Reduced {
         sum
     }
 
-    /// Returns forces and motions in newtons and metres.
+    /// Returns the contact forces in newtons, the motions of the bodies in metres, and the power per unit of the
+    /// parameter.
     pub fn state(
         &self,
         case: &Case,

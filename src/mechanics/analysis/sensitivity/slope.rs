@@ -7,24 +7,24 @@ use super::state::Freedom;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Slope {
-    /// The derivative in both directions.
+    /// The same derivative if the number increases or decreases.
     Unique(f64),
-    /// The margin has a kink here: its derivatives if the number decreases, and if it increases.
+    /// The derivative jumps here: one value if the number decreases, and another if it increases.
     OneSided {
-        /// The derivative to the left.
+        /// The derivative if the number decreases.
         backward: f64,
-        /// The derivative to the right.
+        /// The derivative if the number increases.
         forward: f64,
     },
-    /// The margin has a kink here, and its derivatives were not computed.
+    /// The derivative jumps here, and its two values were not computed.
     AtKink,
 }
 
 impl Slope {
-    /// No change.
+    /// The slope of an end that does not change.
     pub(super) const ZERO: Slope = Slope::Unique(0.0);
 
-    /// Returns the derivative if it is unique.
+    /// Returns the derivative if it is unique; otherwise `None`.
     pub fn unique(self) -> Option<f64> {
         match self {
             Slope::Unique(slope) => Some(slope),
@@ -32,7 +32,7 @@ impl Slope {
         }
     }
 
-    /// Returns the derivatives if the number decreases, and if it increases.
+    /// Returns the derivatives [if the number decreases, if it increases]; `None` if they were not computed.
     pub fn both(self) -> Option<[f64; 2]> {
         match self {
             Slope::Unique(slope) => Some([slope; 2]),
@@ -41,7 +41,8 @@ impl Slope {
         }
     }
 
-    /// Returns the slope of the smaller of two ends that are equal; of the larger one if `outward` is negative.
+    /// Returns the slope of the smaller of two ends that have the same value. If `outward` is negative, it is the slope
+    /// of the larger end.
     pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
         let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
             return Slope::AtKink;
@@ -53,7 +54,7 @@ impl Slope {
         )
     }
 
-    /// Returns a unique slope if both are equal within a tolerance.
+    /// Returns a unique slope, the mean, if both derivatives are equal within a tolerance. Otherwise returns both.
     fn one_sided(backward: f64, forward: f64, tolerance: f64) -> Slope {
         match (backward - forward).abs() <= tolerance {
             true => Slope::Unique(0.5 * (backward + forward)),
@@ -62,10 +63,10 @@ impl Slope {
     }
 }
 
-/// Derivatives that differ by less than this fraction of the largest of their kind are equal.
+/// Derivatives count as equal if they differ by less than this fraction of the largest derivative of the same kind.
 const SAME: f64 = 1e-7;
 
-/// The derivatives of one component at one end, with every state there.
+/// The derivatives of one component at one end, for every state there.
 pub(super) struct Branch {
     pub rates: Vec<Rates>,
     pub freedom: Freedom,
@@ -73,7 +74,8 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Returns the slope of what `read` takes from the rates. `largest` is the largest derivative of its kind.
+    /// Returns the slope of the number that `read` takes from the rates. `largest` is the largest derivative of the
+    /// same kind.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
             return Slope::AtKink;
@@ -91,7 +93,8 @@ impl Branch {
         }
         let least = others().fold(f64::INFINITY, f64::min);
         let most = others().fold(f64::NEG_INFINITY, f64::max);
-        // The largest factor is the least of those of all mechanisms.
+        // Each mechanism gives one limit of the parameter, and the end is the nearest limit. An upper end therefore
+        // follows the least derivative if the number increases, and the largest if it decreases.
         if self.freedom != Freedom::Mechanisms {
             return Slope::AtKink;
         }

@@ -1,14 +1,15 @@
-//! [`EndState`]: forces and mechanism at one end of an interval, and whether they are unique.
+//! [`EndState`]: computes forces and mechanism at one end of an interval, and whether they are unique.
 //!
-//! At the end, a contact either holds its two bodies together in the mechanism, or they move relative to each other.
-//! Bodies that are held together are one *group*. Only the contacts between groups matter: the mechanism does no work
-//! in the others, so their forces, which are often not unique, have no influence on a derivative.
+//! In the mechanism at the end, the two bodies of a contact either are held together or move relative to each other.
+//! Bodies that are held together are one *group*. Only the contacts between groups matter. In the other contacts the
+//! mechanism does no work, so their forces, which are often not unique, do not change a derivative.
 //!
-//! 1. One linear program gives forces and mechanism to nine digits ([`Case::solved`]). Columns with force are *basic*.
-//! 2. [`Reduced`] has three equations for each group, and a column for each force between groups.
-//! 3. Elimination solves for the motions of the groups, and Newton's method for the forces and the value, to rounding.
-//! 4. The dimensions of the null spaces show whether forces and motions are unique. If only the motions are not, all
-//!    extreme motions are computed. Otherwise directions in the hull of forces and motions are.
+//! 1. One linear program gives forces and mechanism to nine digits ([`Case::solved`]). Unknowns with force are *basic*.
+//! 2. [`Reduced`] has three equations for each group, and one unknown for each force between groups.
+//! 3. Elimination solves for the motions of the groups. Newton's method solves for the forces and the value, up to
+//!    rounding.
+//! 4. The dimensions of the null spaces show whether forces and motions are unique. If the forces are unique but the
+//!   motions are not, all extreme motions are computed. Otherwise, some other forces and motions are computed.
 
 use super::case::Case;
 use super::elimination::Elimination;
@@ -17,50 +18,52 @@ use super::reduced::Reduced;
 use super::unknown::Unknown;
 use crate::assembly::Assembly;
 
-/// Forces or velocities below this, relative to the largest, count as 0.
+/// Forces or velocities below this fraction of the largest count as 0.
 const ZERO: f64 = 1e-7;
 
-/// Remaining errors of a balance or of a motion, relative to loads or velocities, that are rounding.
+/// An error of the equations up to this, relative to loads or velocities, is rounding.
 const ROUNDING: f64 = 1e-8;
 
-/// More groups than this are not computed: elimination takes the cube of their number.
+/// The derivatives are not computed for more groups than this: the time grows with the cube of their number.
 const MOST_GROUPS: usize = 150;
 
-/// More states than this are not computed.
+/// If there are more states than this, the others are not computed.
 const MOST_STATES: usize = 64;
 
-/// More combinations of conditions than this are not tried.
+/// If there are more combinations of conditions than this, extreme motions are not computed.
 const MOST_COMBINATIONS: usize = 4000;
 
-/// The largest number of Newton steps for forces and value.
+/// The largest number of Newton steps for the forces and the value.
 const STEPS: usize = 12;
 
 /// Whether forces and mechanism at the end are unique.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Freedom {
-    /// Both are.
+    /// Forces and mechanism are unique.
     Unique,
-    /// The forces are. The first state is inside the set of mechanisms, the others are all its extreme points.
+    /// The forces are unique, the mechanism is not. The first state lies inside the set of mechanisms; the other states
+    /// are all its extreme points.
     Mechanisms,
-    /// The other states span the hull of forces and mechanisms.
+    /// The forces are not unique, or the extreme mechanisms were not found. The other states differ from the first in
+    /// each independent direction of forces and mechanisms.
     Hull,
-    /// They form a set of so many dimensions that it is not computed.
+    /// The set of forces and mechanisms has too many dimensions, so the other states are not computed.
     Unknown,
 }
 
 /// The states at one end of the interval of a component.
 pub(super) struct EndState {
-    /// The component at the end.
+    /// The component with the value of the parameter at the end.
     pub changed: Assembly,
     /// The value of the parameter there.
     pub value: f64,
-    /// One state, and others if it is not unique.
+    /// One state, and further states if it is not unique.
     pub states: Vec<State>,
     pub freedom: Freedom,
 }
 
 impl EndState {
-    /// Finds the states at an end; `None` if they cannot be computed.
+    /// Computes the states at an end; `None` if the solution is not exact, or if there are too many groups.
     pub fn new(case: &Case) -> Option<EndState> {
         let (program, solved) = case.solved(&case.at(case.value))?;
         let mut reduced = Reduced::new(case, &program, &solved);
@@ -74,7 +77,8 @@ impl EndState {
         if reduced.has_idle_limit(&changed, ZERO * largest(&motions.first), &motions.first) {
             return None;
         }
-        // Columns without force that do no work may carry force in another balance.
+        // Unknowns without force along which the mechanism does no work may have a force in another state of
+        // equilibrium.
         let speed = largest(&motions.first);
         let is_idle = |unknown: &Unknown| {
             let power = reduced.power(&changed, unknown, &motions.first);
@@ -107,7 +111,7 @@ impl EndState {
         Some(found)
     }
 
-    /// Adds the other states if the first is not unique.
+    /// Adds the other states if the first state is not unique, and sets `freedom`.
     fn add_others(
         &mut self,
         case: &Case,
@@ -136,7 +140,7 @@ impl EndState {
             self.freedom = Freedom::Unknown;
             return;
         }
-        // Every pair of directions: the derivative is linear in forces and in motions.
+        // Every pair of directions, because the derivative is linear in the forces and linear in the motions.
         self.freedom = Freedom::Hull;
         let moved = |first: &[f64], by: &[f64]| -> Vec<f64> {
             let share = largest(first) / largest(by);
@@ -156,8 +160,8 @@ impl EndState {
     }
 }
 
-/// Newton's method for the forces between groups and the value at which they balance the loads. Starts from the
-/// amounts of the program; columns without force stay 0.
+/// Solves for the forces between groups, and for the value at which they balance the loads, by Newton's method. The
+/// method starts from the forces of the program. Forces that are not basic stay 0. `None` if it does not converge.
 fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>> {
     let basic: Vec<usize> = reduced.basic().collect();
     let mut amounts: Vec<f64> = reduced.unknowns.iter().map(|u| u.amount).collect();
@@ -193,8 +197,8 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
     (largest(&rest) <= ROUNDING * reduced.load).then_some(amounts)
 }
 
-/// Returns a basis of the changes of forces that keep the balance at the value of the end; `None` if one of them needs
-/// another value.
+/// Returns a basis of the changes of the forces that keep the balance at the value of the end. `None` if one of these
+/// changes needs another value.
 fn null_balances(
     case: &Case,
     reduced: &Reduced,
@@ -221,20 +225,21 @@ fn null_balances(
     found.null_space.into_iter().map(whole).collect()
 }
 
-/// The motions of the groups: one, and a basis of those that can be added.
+/// The motions of the groups: one motion, and a basis of the motions that may be added to it.
 struct Motions {
     first: Vec<f64>,
     others: Vec<Vec<f64>>,
 }
 
 impl Motions {
-    /// Corrects the motion of the program: basic columns do no work, and the outward loads have the power 1.
+    /// Corrects the motion of the program such that basic forces do no work and the outward loads have the power 1.
+    /// `None` if no such motion exists.
     fn new(case: &Case, reduced: &Reduced, changed: &Assembly, value: f64) -> Option<Motions> {
         let basic: Vec<usize> = reduced.basic().collect();
         let columns = reduced.rows(changed, &basic);
         let push = reduced.grouped(changed, &case.push(value));
         let unit = largest(&push);
-        // One equation for each column, and one for the power.
+        // One equation for each basic force, and one equation for the power.
         let mut rows: Vec<Vec<f64>> = (0..basic.len())
             .map(|k| columns.iter().map(|row| row[k]).collect())
             .collect();
@@ -260,10 +265,10 @@ impl Motions {
     }
 }
 
-/// Returns all extreme motions; `None` if their set has no bound, or if they are too many.
+/// Returns all extreme motions. `None` if their set is unbounded, or if there are too many combinations of conditions.
 ///
-/// A motion is first + Σ share · other. Forces between groups without amount must not do negative work. At an extreme
-/// motion as many of these conditions hold with equality as there are shares.
+/// A motion is first + Σ share · other. Forces between groups that are 0 must not do negative work. At an extreme
+/// motion, as many of these conditions hold with equality as there are shares.
 fn extreme_motions(
     reduced: &Reduced,
     changed: &Assembly,
@@ -294,7 +299,7 @@ fn extreme_motions(
             .map(|k| conditions[*k].shares.clone())
             .collect()
     };
-    // A direction in which no condition ends the set.
+    // The set of motions is unbounded if some direction meets all conditions.
     for chosen in combinations(conditions.len(), free - 1)? {
         let found = Elimination::new(&rows(&chosen), free, &[]);
         if let [direction] = found.null_space.as_slice() {
@@ -324,21 +329,23 @@ fn extreme_motions(
     (all.len() > free).then_some(all)
 }
 
-/// A force that must not do negative work: its power along the first motion, and per share of the others.
+/// A force that must not do negative work: its power along the first motion, and its power per share of each other
+/// motion.
 struct Condition {
     first: f64,
     shares: Vec<f64>,
 }
 
 impl Condition {
-    /// The power along `with` times the first motion and shares of the others.
+    /// Returns the power along a motion: `with` times the first motion, plus the shares of the others.
     fn power(&self, shares: &[f64], with: f64) -> f64 {
         let change: f64 = self.shares.iter().zip(shares).map(|(a, b)| a * b).sum();
         with * self.first + change
     }
 }
 
-/// Returns all ways to choose `count` of the numbers below `of`; `None` if they are too many.
+/// Returns all ways to choose `count` different numbers from 0 up to, but not including, `of`. `None` if they are too
+/// many.
 fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..count {
@@ -358,7 +365,7 @@ fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
     Some(all)
 }
 
-/// Returns the largest absolute value in a list, 0 for an empty list.
+/// Returns the largest absolute value of a list; 0 for an empty list.
 fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
 }

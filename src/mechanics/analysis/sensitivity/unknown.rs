@@ -1,32 +1,33 @@
-//! [`Unknown`]: the forces of contacts and grips at an end, and the groups of bodies that they hold together.
+//! [`Unknown`]: the forces of contacts and grips at an end of an interval, and the groups of bodies that they hold
+//! together.
 
 use crate::assembly::{Assembly, DisjointSets};
 use crate::program::{Force, Program};
 use crate::solve::LimitState;
 
-/// A column is basic if its amount, relative to the largest, is above this and above its power, relative to the largest
-/// velocity.
+/// A force is basic if its amount, relative to the largest amount, is larger than this. It must also be larger than the
+/// power of the column, relative to the largest velocity.
 const BASIC: f64 = 1e-8;
 
-/// A robot whose force is this close to its limit, relative to the limit, is at it.
+/// The force of a robot counts as being at its limit if it is this close to it, relative to the limit.
 const AT_LIMIT: f64 = 1e-6;
 
-/// A force between groups.
+/// A force whose amount is unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unknown {
     pub source: Source,
-    /// Its amount according to the program, at least 0 unless it acts both ways.
+    /// Its amount in the solution of the program. It is not negative unless the force can act in both directions.
     pub amount: f64,
-    /// Whether it may carry force in a balance.
+    /// True if the force may be different from 0 in equilibrium.
     pub is_basic: bool,
-    /// Whether its amount may be negative.
+    /// True if the amount may be negative.
     pub is_both_ways: bool,
 }
 
-/// Where a force acts, and in which direction.
+/// The place and the direction of a force.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
-    /// One unit of normal force at a point of a contact, with full friction along `side` times the tangent.
+    /// One unit of normal force at a point of a contact, with the largest friction along `side` times the tangent.
     Contact {
         contact: usize,
         point: usize,
@@ -36,7 +37,7 @@ pub(super) enum Source {
     Grip { grip: usize, component: usize },
 }
 
-/// The forces of contacts and of grips between their limits, and the forces of grips at their limits.
+/// Returns the unknown forces of contacts and grips, and the forces of grips at their limits (grip, component, force).
 pub(super) fn unknowns(
     program: &Program,
     solved: &LimitState,
@@ -96,10 +97,10 @@ pub(super) fn unknowns(
     (unknowns, limits)
 }
 
-/// Returns the group of each body, `None` for those that rest with the ground, and the number of groups.
+/// Returns the group of each body and the number of groups. The group is `None` for bodies that rest with the ground.
 ///
-/// A contact holds its bodies together if one of its points has basic forces on both sides of the friction cone, and
-/// the other has one at least: then neither point can move, and so the bodies cannot. A robot holds a body if all three
+/// A contact holds its bodies together if both of its points have basic forces, and one point has them on both sides of
+/// the friction cone. Then neither point can move, so the bodies cannot move. A robot holds a body if all three
 /// components are between their limits.
 pub(super) fn groups(given: &Assembly, unknowns: &[Unknown]) -> (Vec<Option<usize>>, usize) {
     let ground = given.bodies.len();
