@@ -65,7 +65,7 @@ impl Kind {
         Kind::Compare,
     ];
 
-    /// Returns the content of its panels.
+    /// Returns the content of the panels of this kind.
     pub(crate) fn content(self) -> &'static dyn PanelContent {
         match self {
             Kind::Forces => &FORCES,
@@ -82,12 +82,12 @@ impl Kind {
         }
     }
 
-    /// Returns its name, in lower case.
+    /// Returns the name of the kind, in lower case.
     pub fn name(self) -> &'static str {
         self.content().about().name
     }
 
-    /// Returns the kind with this name; `None` if there is none.
+    /// Returns the kind with this name; `None` if no kind has this name.
     pub fn from_name(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -97,7 +97,8 @@ impl Kind {
         self.content().about().help
     }
 
-    /// Returns the margins that a figure of this analysis shows if they have been computed; `None` if it shows none.
+    /// Returns the margins that a figure of this analysis shows if they have been computed; `None` if the figure shows
+    /// no margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
@@ -117,19 +118,19 @@ impl Kind {
         }
     }
 
-    /// True if it needs margins, which the analysis only computes on request
+    /// True if the figure needs margins. The analysis computes them only on request
     /// ([`analysis::Options::margins`](crate::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
         self.content().about().needs_margins
     }
 
-    /// True if it needs the forces that a block can carry, which the analysis only computes on request
+    /// True if the figure needs the forces that a block can carry. The analysis computes them only on request
     /// ([`analysis::Options::capacity`](crate::analysis::Options::capacity)).
     pub fn needs_capacity(self) -> bool {
         self.content().about().needs_capacity
     }
 
-    /// Returns the options, with those replaced that the kind determines itself.
+    /// Returns a copy of the options in which the values that the kind determines itself are replaced.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
         if self.content().about().shares_arrow_scale {

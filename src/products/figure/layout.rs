@@ -66,7 +66,7 @@ impl Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// Returns this layout with panels that also fit the other layout: the larger width and the smaller scale.
+    /// Returns a layout whose panels also fit `other`: it has the larger width and the smaller scale of both.
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;
@@ -78,7 +78,7 @@ impl Layout {
         }
     }
 
-    /// Returns a lower bound of the width and height of the page, pixels.
+    /// Returns lower bounds of the width and height of the page, pixels.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -143,9 +143,9 @@ impl Row<'_> {
         ((self.across - (columns - 1) as f64 * self.gap) / columns as f64).max(1.0)
     }
 
-    /// Returns the number of columns. It is the largest at which panels are not too small. If the figure is then too
-    /// high for a page, it is the least number of columns with which the figure fits; if there is none, the number with
-    /// the least height.
+    /// Returns the number of columns: the largest number for which panels are not too small. If the figure is then too
+    /// high for a page, there are more columns: the least number for which the figure fits. If no number fits, the
+    /// result is the number with the least height.
     fn columns(&self, fit: Fit) -> usize {
         let (count, across) = (self.count, self.across);
         // If the rows may fill several pages, panels may have a small scale, but they must not be narrow.
@@ -219,7 +219,8 @@ fn dimensions(context: &FigureContext<'_>) -> f64 {
     }
 }
 
-/// Returns the height of the longest caption in panels of this width, pixels; 0 if there are no captions.
+/// Returns the height of the longest caption, pixels; 0 if there are no captions. `panel` is the width of a panel in
+/// pixels.
 fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     let (scene, size) = (&context.analysis.scene, context.options.theme.sizes.caption);
     if !context.options.captions || count < 2 {
@@ -232,7 +233,7 @@ fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     lines.max().unwrap_or(0) as f64 * 1.3 * size
 }
 
-/// Returns the margin of a figure on a page of this width, pixels.
+/// Returns the margin of a figure, pixels. `width` is the width of the page in pixels.
 fn margin(width: f64) -> f64 {
     (0.025 * width).min(MAX_MARGIN)
 }

@@ -1,4 +1,5 @@
-//! Finds joints at their limit in the forces shown: all friction is used, or the resultant acts at an edge.
+//! Finds joints that are at their limit in the forces shown: all friction is used, or the resultant acts at an end of
+//! the interface.
 
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
@@ -67,7 +68,8 @@ const SAME_SHARE: f64 = 1e-6;
 /// A joint with a smaller share than this is not named, because it would be shown as 0 % or be noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// Returns the joints to mark: those at their limit, or else the one nearest to its limit.
+/// Returns the joints to mark: all joints at their limit. If there are none, returns the joint nearest to its limit, if
+/// the figure names this joint.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);
@@ -92,7 +94,7 @@ impl<'a> Marked<'a> {
         Self { contact, reached }
     }
 
-    /// Returns the diamond. `radius` is in pixels.
+    /// Returns the diamond that marks the joint: filled at the limit, open otherwise. `radius` is in pixels.
     pub(crate) fn sign(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
         match self.reached {
             true => sign(at, radius, theme),
@@ -109,15 +111,16 @@ fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
 }
 
-/// Whether a figure names the joint nearest to its limit: not if it is printed or zoomed, and not if it has several
-/// panels, which have no space for the sentence.
+/// True if a figure names the joint nearest to its limit. False for printed or zoomed figures, and for several panels,
+/// which have no space for the sentence.
 fn names_nearest(context: &FigureContext<'_>) -> bool {
     let options = context.options;
     context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
 }
 
-/// Describes the joints at their limit, or else the joint nearest to its limit. Empty if no joint is near its limit,
-/// for printed or zoomed figures, and for several frames, whose panels have no space for it.
+/// Describes the joints at their limit. If there are none, describes the joint nearest to its limit. Empty if every
+/// joint is far from its limit. Also empty for printed or zoomed figures and for several frames, whose panels have no
+/// space for the sentence.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);
@@ -157,7 +160,7 @@ fn diamond(at: PagePoint, r: f64) -> Outline {
     Outline::ring(corners.map(|(x, y)| at.moved(x, y)))
 }
 
-/// Draws the sign for the legend.
+/// Draws the sign of a joint at its limit for the legend.
 pub(crate) fn key_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![sign(at.moved(5.5, 0.0), 3.2, theme).into()]
 }

@@ -1,4 +1,5 @@
-//! Draws a collapse margin: the structure in its place, and dashed how it would fall just beyond the margin.
+//! Draws a collapse margin: the structure in its present position, and with dashed lines how it would fall just beyond
+//! the margin.
 //!
 //! The options choose the [parameter](Toward). Of its two ends the figure shows the one nearer to the present state. If
 //! gravity is turned, a dashed line shows its present direction and an arrow its direction at the margin. If a
@@ -167,15 +168,15 @@ impl PanelContent for CollapseMargin {
     }
 }
 
-/// Returns the parameter at the margin and the mechanism just beyond it. Returns `None` if the frame does not stand or
-/// no margin was found.
+/// Returns the value of the parameter at the margin, and the mechanism just beyond it. Returns `None` if the frame does
+/// not stand or if no margin was found.
 fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
     let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
     analysis.edge(frame, toward).filter(|_| stands)
 }
 
-/// Returns the analysis with the frame changed to one that falls with the mechanism at the margin, and the parameter
-/// there. Returns `None` if there is no margin.
+/// Returns a copy of the analysis in which the frame falls with the mechanism at the margin, and the value of the
+/// parameter at the margin. Returns `None` if there is no margin.
 fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
@@ -185,8 +186,8 @@ fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis,
     Some((ghost, edge))
 }
 
-/// Returns the displacements of the blocks at the margin, by their indices, and the parameter there. Returns `None` if
-/// there is no margin. `unit` is the unit edge in metres.
+/// Returns the displacements of the blocks at the margin, indexed by block, and the value of the parameter at the
+/// margin. Returns `None` if there is no margin. `unit` is the unit edge in metres.
 fn gone(
     analysis: &Analysis,
     frame: usize,

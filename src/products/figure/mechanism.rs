@@ -1,4 +1,5 @@
-//! Draws the mechanism of a structure that falls: displaced blocks, their outlines in their places, hinges and slips.
+//! Draws the mechanism of a structure that falls: displaced blocks, dashed outlines of their present positions, hinges
+//! and sliding joints.
 //!
 //! Blocks move along their velocities in finite rigid motions, so they keep their shapes. The amplitude is chosen for
 //! visibility, but blocks never overlap. For each part that falls one elementary mechanism is drawn
@@ -131,7 +132,8 @@ impl PanelContent for Mechanism {
     }
 }
 
-/// Draws sliding joints and hinges of the mechanism in `analysis`, in this order, where `pen` draws the blocks.
+/// Draws the marks of the mechanism in `analysis`: the sliding joints, then the hinges. `pen` determines where the
+/// blocks are drawn.
 pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> [Group; 2] {
     let mut slips = Group::with_class("slips");
     let mut hinges = Group::with_class("hinges");
@@ -153,7 +155,7 @@ pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> 
     }
 }
 
-/// Returns the legend of the marks of these joints.
+/// Returns the legend entries for the marks of these joints.
 pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     let mut entries = Vec::new();
     if joints.iter().any(|j| j.hinge.is_some()) {
@@ -170,7 +172,7 @@ pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     entries
 }
 
-/// Joins all marks of a kind into few paths, for frames with very many blocks: the n-th paths of all marks become one
+/// Joins all marks of a kind into few paths, for frames with very many blocks. The n-th paths of all marks become one
 /// path.
 fn joined(marks: Group) -> Group {
     let mut paths: Vec<Path> = Vec::new();
@@ -202,7 +204,7 @@ fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
         .filter(|m| pen.displacement(m.0).is_some())
 }
 
-/// Draws dashed outlines of the moving blocks in their places; `None` if there are no such blocks.
+/// Draws dashed outlines of the moving blocks in their present positions. Returns `None` if no block moves.
 fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut outline = Outline::default();
@@ -258,14 +260,14 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         .collect()
 }
 
-/// Returns the position at which a point of an interface is drawn, metres: the middle between its displaced positions
-/// on the two bodies.
+/// Returns the position at which a point of an interface is drawn, metres. The position is halfway between its
+/// displaced positions on the two bodies.
 fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
     let [a, b] = contact.interface.bodies.map(|body| taken(pen, body, at));
     a + (b - a) * 0.5
 }
 
-/// Returns the displaced position of a point of a body.
+/// Returns the displaced position of a point of a body, metres. Ground is not displaced.
 fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
     match body {
         BodyId::Ground(_) => at,
@@ -277,7 +279,7 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
     (HINGE_RADIUS * pen.unit()).clamp(2.6, 6.0)
 }
 
-/// Draws a ring at the end of an interface that keeps contact.
+/// Draws a ring at a hinge, which is the end of an interface that stays in contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let (centre, radius) = (
@@ -297,8 +299,8 @@ fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(centre, radius), theme.page).with_stroke(stroke)
 }
 
-/// Draws a half-arrow on each side of an interface, in the direction in which the body on this side slides relative to
-/// the other.
+/// Draws a half-arrow on each side of an interface. It shows the direction in which the body on this side slides
+/// relative to the other body.
 fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let interface = &contact.interface;
@@ -332,8 +334,8 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
     group.into()
 }
 
-/// Returns an arrow with one barb, on the side to which `aside` points, and its border in the colour of the page. All
-/// lengths are in pixels.
+/// Returns an arrow with one barb, on the side to which `aside` points, and the arrow's border in the colour of the
+/// page. All lengths are in pixels.
 fn half_arrow(
     from: PagePoint,
     along: (f64, f64),

@@ -1,4 +1,4 @@
-//! Composes the picture of one frame: ground, blocks, plans, robots, arrows or the marks of the kind, and labels on top.
+//! Composes the picture of one frame: ground, blocks, plans, robots, arrows or other marks, and labels on top.
 
 use super::description;
 use super::label::{self, Callout};
@@ -47,7 +47,7 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     group
 }
 
-/// Draws the signs of joints at their limit, or of the joint nearest to it.
+/// Draws the signs of joints at their limit, or of the joint nearest to its limit.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
@@ -78,7 +78,7 @@ pub(crate) fn composed(
     composed_with(pen, view, blocks, marks, Vec::new(), ink)
 }
 
-/// Like [`composed`], with callouts.
+/// Like [`composed`], with callouts, which are placed before other labels.
 pub(crate) fn composed_with(
     pen: &Pen<'_>,
     view: Bounds,

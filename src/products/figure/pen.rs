@@ -36,8 +36,8 @@ pub(crate) fn colour(rgb: Rgb) -> Colour {
     Colour(rgb.0)
 }
 
-/// Returns the lines between the lattice cells of a body: each edge that two of its cells have in common, once. The
-/// outline is empty for a body without cells.
+/// Returns the lines between the lattice cells of a body. Each edge that two cells share is drawn once. The outline is
+/// empty for a body without cells.
 pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
@@ -129,7 +129,7 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// Returns the displacement of a block; `None` if it is drawn in its place.
+    /// Returns the displacement of a block; `None` if the block is not displaced.
     pub(crate) fn displacement(&self, id: BlockId) -> Option<&Displacement> {
         self.displaced.get(id.0)?.as_ref()
     }
@@ -139,7 +139,7 @@ impl<'a> Pen<'a> {
         self.displacement(id).map_or(point, |d| d.moved(point))
     }
 
-    /// True if the frame has so many blocks that shapes of one colour are joined and have no names.
+    /// True if the frame has so many blocks that all shapes of one colour are joined and have no names.
     pub(crate) fn many(&self) -> bool {
         self.context.analysis.scene.frames[self.number].placed.len() > MANY_BLOCKS
     }
@@ -162,7 +162,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns the colour of the block, the ground or the page at a position.
+    /// Returns the colour at a position: the colour of the block, of the ground or of the page.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let at = self.camera.back(at);

@@ -1,4 +1,4 @@
-//! Draws the force polygon: the external forces on a structure, placed tip to tail next to it.
+//! Draws the force polygon next to the structure: the external forces on the structure, placed tip to tail.
 //!
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
 //! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If it
@@ -161,7 +161,8 @@ impl PanelContent for ForcePolygon {
     }
 }
 
-/// Draws the polygon of a frame: its sides, and dashed lines between the ends that do not meet.
+/// Draws the polygon of a frame: its sides, dashed lines that join its two parts if they are drawn apart, and a dashed
+/// line across the gap of an open polygon.
 fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (context, camera) = (pen.context, pen.camera);
     let theme = &context.options.theme;
@@ -221,8 +222,8 @@ struct Chain {
     times: f64,
 }
 
-/// True if reactions would cover actions, because they are on the same lines. Both are given by the corners of their
-/// parts of the polygon. `size` is the size of the polygon.
+/// True if the sides of reactions would cover the sides of actions, because they lie on the same lines. `acting` and
+/// `answering` are the corners of the two parts of the polygon. `size` is the size of the polygon.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
@@ -253,8 +254,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     })
 }
 
-/// Computes the polygon of the forces of `marks`, to the right of the blocks of a frame. Returns `None` if there are
-/// fewer than two sides or the polygon has no size.
+/// Computes the polygon of the forces of `marks`, to the right of the blocks of a frame. Returns `None` if the polygon
+/// has fewer than two sides or no size.
 fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
@@ -314,7 +315,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     })
 }
 
-/// Formats a scale factor: `3` or `1/3`.
+/// Formats a scale factor as a whole number or as its inverse: `3` or `1/3`.
 fn larger(times: f64) -> String {
     if times >= 1.0 {
         format!("{times:.0}")
@@ -323,7 +324,7 @@ fn larger(times: f64) -> String {
     }
 }
 
-/// True if the sum of the external forces is zero.
+/// True if the sum of the external forces is zero, except for rounding.
 fn closed(marks: &Marks) -> bool {
     let sum: Vector = outer(marks).map(|a| a.force).sum();
     let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
@@ -341,8 +342,8 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// Describes how much larger the arrows of the polygons are than those on the structure. `times` has each frame with
-/// its factor. Returns `None` if it is empty.
+/// Describes how much larger arrows are in the polygons than on the structure. `times` lists frames with their factors.
+/// Returns `None` if `times` is empty.
 fn scales(times: &[(usize, f64)]) -> Option<String> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, times) in times {

@@ -1,5 +1,5 @@
-//! [`ring`]: draws the arrow colours as a wheel whose sectors list the blocks of each colour; robots and failures are
-//! below it.
+//! [`ring`]: draws the arrow colours as a wheel. Its sectors list the blocks of each colour; the colours of robots and
+//! failures are below the wheel.
 
 use core::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     }
 }
 
-/// Draws the sector of a colour with the numbers of its first blocks.
+/// Draws the sector of a colour. It has the numbers of the first blocks with this colour.
 fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
     let count = theme.arrows.len();
     let colour = theme.arrows[entry];
@@ -77,7 +77,7 @@ fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
         .with(words.anchored(Anchor::Middle))
 }
 
-/// Draws the discs of robots in a row about `centre`.
+/// Draws the discs of robots in a row, centred at `centre`.
 fn robots(centre: PagePoint, theme: &Theme) -> Vec<Item> {
     let count = theme.robots.len() as f64;
     let disc = |(number, colour): (usize, &Colour)| {
@@ -96,8 +96,8 @@ fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {
     centre.moved(radius * libm::cos(angle), -radius * libm::sin(angle))
 }
 
-/// Returns a sector of the ring from the angle `from` over the angle `sweep`, in radians anticlockwise. Its arcs
-/// consist of short straight lines.
+/// Returns the outline of a sector of the wheel. It begins at the angle `from` and extends over the angle `sweep`, in
+/// radians anticlockwise. Its arcs are approximated by short straight lines.
 fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
     let steps = 72;
     let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);

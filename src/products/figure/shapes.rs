@@ -1,5 +1,5 @@
-//! [`shapes`]: draws a sheet of shapes made of lattice cells, with their names, the lines between their cells, and
-//! their origins.
+//! [`shapes`]: draws a sheet of shapes that consist of lattice cells. Each shape has its name, the lines between its
+//! cells, and its origin.
 
 use super::layout::MAX_MARGIN;
 use super::pen::seams;
@@ -31,7 +31,7 @@ struct SheetShape<'n> {
 }
 
 impl<'n> SheetShape<'n> {
-    /// Makes a body of lattice cells; `None` if they have no outline.
+    /// Makes a body of lattice cells; `None` if the cells have no outline.
     fn new(lattice: Lattice, name: &'n str, cells: &[Cell]) -> Option<SheetShape<'n>> {
         let polygon = lattice.polygon(cells)?;
         let origin = Bounds {

@@ -166,8 +166,8 @@ impl PanelContent for ThrustLine {
     }
 }
 
-/// Returns the loads of a frame as arrows whose tips are at the points where they act. An arrow of `newtons_per_unit` N
-/// is one unit edge long.
+/// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. An arrow of
+/// `newtons_per_unit` N is one unit edge long.
 pub(crate) fn marks(
     analysis: &Analysis,
     frame: usize,
@@ -205,7 +205,7 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
-/// Returns the largest force of all panels, N.
+/// Returns the largest force of a joint or a robot in all panels, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
     let frames = given.map(|(number, found)| {
@@ -221,7 +221,8 @@ fn largest(context: &FigureContext<'_>) -> f64 {
     forces.map(|f| f.norm()).fold(0.0, f64::max)
 }
 
-/// The force polygon of the state that the figure shows; `None` if no chain of blocks has a thrust, or nothing stands.
+/// Returns the force polygon of the state that the figure shows. Returns `None` if the frame does not stand, or if no
+/// chain of blocks has a thrust.
 fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
     let scene = &analysis.scene;
     let found = &analysis.frames[frame];
@@ -231,7 +232,7 @@ fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> 
         .flatten()
 }
 
-/// What the legend says about the force polygon.
+/// Returns the legend's note on the force polygon.
 fn polygon_note(context: &FigureContext<'_>) -> &'static str {
     let mut frames = 0..context.analysis.frames.len();
     let any = frames.any(|frame| {

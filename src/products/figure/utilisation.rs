@@ -1,5 +1,5 @@
-//! Draws the utilisation: the used share of the available friction at each interface, and the used share of each
-//! robot's limits.
+//! Draws the utilisation: the used share of the available friction at each interface, and the used share of the limits
+//! of each robot.
 //!
 //! The forces are one of many equilibrium states. Another state may use less friction here and more there.
 
@@ -179,7 +179,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of the line of an interface.
+/// Returns the colour of the line of an interface. It shows the used share of the friction.
 fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
     match bearing.friction {
         Some(share) => theme.amplitude(share),
@@ -196,7 +196,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
     Stroke::new(theme.faint, width).dashed([3.0 * width, 2.4 * width])
 }
 
-/// Draws the lines of interfaces without force, and of interfaces with force.
+/// Draws two groups of lines: interfaces without force, and interfaces with force.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let scene = &pen.context.analysis.scene;
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
@@ -216,7 +216,7 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     (idle, used)
 }
 
-/// Draws the interfaces of very many blocks as few paths: one for each colour, without titles.
+/// Draws the interfaces of very many blocks as few paths: one path for each colour, without titles.
 fn joined_interfaces<'c>(
     pen: &Pen<'_>,
     bearings: impl Iterator<Item = (&'c Contact, Option<Bearing>)>,
@@ -269,7 +269,7 @@ fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
         .with(path)
 }
 
-/// Draws an interface with force in the colour of its friction used.
+/// Draws an interface with force. Its colour shows the used share of the friction.
 fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -296,7 +296,7 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
     drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))))
 }
 
-/// Returns the width of the border of a line, pixels.
+/// Returns the width of the border of a line, pixels. `bold` is the width of the line in pixels.
 fn rim(bold: f64) -> f64 {
     (0.16 * bold).clamp(0.4, 0.9)
 }
@@ -305,13 +305,13 @@ fn bar_width(bold: f64) -> f64 {
     (0.3 * bold).clamp(0.8, 1.6)
 }
 
-/// Returns the border of a line of width `bold`, which makes it visible on blocks of any colour. It is `rim` pixels
-/// wide on both sides.
+/// Returns the border of a line of width `bold`. The border is `rim` pixels wide on both sides, and makes the line
+/// visible on blocks of any colour.
 fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
     Path::stroked(line, Stroke::new(edge(theme), bold + 2.0 * rim))
 }
 
-/// Returns the ends of the bar across an interface.
+/// Returns the ends of the bar that is drawn across an interface.
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
@@ -323,7 +323,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
-/// Draws the discs of robots with limits; their colours show the utilisation.
+/// Draws discs for the robots with limits. The colour of a disc shows the used share of the limits.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");

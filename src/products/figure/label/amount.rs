@@ -32,7 +32,7 @@ fn amount_size(pen: &Pen<'_>) -> f64 {
         .min(pen.context.options.theme.sizes.amount)
 }
 
-/// Converts a callout to a label. If there is no space for it, it is left out and counted.
+/// Converts a callout to a label. If there is no space for the label, it is left out and counted.
 pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     let request = LabelRequest {
         anchor: callout.at,
@@ -49,8 +49,8 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     }
 }
 
-/// Returns the labels with the magnitudes of arrows. If a frame does not have `few` blocks, they are only those of the
-/// largest loads and missing forces.
+/// Returns the labels with the magnitudes of arrows. If `few` is false (the frame has many blocks), only the largest
+/// loads and missing forces have labels.
 pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let marks = &pen.context.marks[pen.number];
     let options = pen.context.options;
@@ -79,8 +79,8 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         .collect()
 }
 
-/// True if the magnitude of a force belongs to this arrow. The two forces between two blocks have the same magnitude. It
-/// is written once, on the block with the lower index.
+/// True if the magnitude of a force is written at this arrow. The two opposite forces between two blocks have the same
+/// magnitude, which is written only once.
 fn is_first_of_pair(arrow: &ForceArrow) -> bool {
     match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
@@ -124,8 +124,8 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     }
 }
 
-/// True if the magnitude of an arrow is written. Loads and missing forces of at least `least` N have magnitudes even if
-/// the options do not request them: they are the question and the answer of a scene.
+/// True if the magnitude of an arrow is written. Magnitudes of loads and missing forces of at least `least` N are
+/// written even if the options do not request magnitudes.
 fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
     let options = pen.context.options;
     let missing = arrow.kind.is_failure() && !options.printed();
@@ -133,8 +133,8 @@ fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool 
     (options.amounts && few) || (options.labels && given && arrow.force.norm() >= least)
 }
 
-/// Returns the arrows of the largest force between two bodies and of the largest force of a robot. Returns none if
-/// arrows are too small or the options exclude labels.
+/// Returns the arrows of the largest force between two bodies and of the largest force of a robot. The list is empty if
+/// arrows are too small or if the options exclude labels.
 fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let context = pen.context;
     let small = context.arrows_too_small(pen.camera.length(1.0));
@@ -158,8 +158,8 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     contact.into_iter().chain(robot).collect()
 }
 
-/// Returns the least magnitude of a load or a missing force that is written in a frame, N. If the frame does not have
-/// `few` blocks, only the largest magnitudes are written.
+/// Returns the least magnitude of a load or a missing force that is written in a frame, N. If `few` is false (the frame
+/// has many blocks), only about `MAX_WRITTEN` magnitudes are at least as large.
 fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     if few {
         return 0.0;
@@ -171,8 +171,8 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
 }
 
-/// Returns preferred centres of a label of this size: on both sides of an arrow's shaft, and beyond its tip. All
-/// lengths are in pixels.
+/// Returns preferred centres of a label with this size, in pixels. They are on both sides of the arrow's shaft, and
+/// beyond its tip.
 fn centres_along(
     from: PagePoint,
     along: (f64, f64),

@@ -34,7 +34,7 @@ pub(super) struct Label {
     pub of: Option<BlockId>,
 }
 
-/// Makes the label of a text in one line.
+/// Makes a label with one line of text.
 pub(super) fn label(
     words: String,
     face: Face,
@@ -58,8 +58,8 @@ pub(super) fn label(
     }
 }
 
-/// Breaks a name of several words into lines that fit into `across` pixels, if one line is too wide. Code points can be
-/// separated too. Returns the label unchanged if it would need too many lines or a word would be split.
+/// Breaks a name of several words into lines of at most `across` pixels, if one line is too wide. Lines can also be
+/// broken between code points. Returns the label unchanged if it would need too many lines or if a word would be split.
 pub(super) fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
     if label.request.size.0 <= across {
@@ -108,7 +108,7 @@ pub(super) fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     lettered(group, label, middle(placed.rect), colour, halo)
 }
 
-/// Draws a label without a free position at its anchor, with a halo around its letters.
+/// Draws a label at its anchor, for a label that has no free position. Its letters have a halo.
 pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.request.anchor);
     let colour = pen.context.options.theme.letters_on(below, label.colour);
@@ -116,8 +116,7 @@ pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
-/// Adds the lines of a label to a group, centred at the given point. If a halo is given, the letters get a halo of
-/// that colour.
+/// Adds the lines of a label to a group, centred at `middle`. With a `halo`, the letters have a border of this colour.
 fn lettered(
     mut group: Group,
     label: &Label,

@@ -1,4 +1,4 @@
-//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, where they cover nothing.
+//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, so that they do not cover other shapes.
 //!
 //! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
 //! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels do not
@@ -47,13 +47,13 @@ const AMBIGUITY_RATIO: f64 = 1.5;
 /// The class of the group of a frame's labels. The description of the group counts labels without a position.
 pub(crate) const CLASS: &str = "labels";
 
-/// Draws the labels of a frame. They do not cover `ink`, which is only computed if there are labels. `view` is the
-/// shown part of the scene, metres.
+/// Draws the labels of a frame, so that they do not cover `ink`. `ink` is only computed if there are labels. `view` is
+/// the shown part of the scene, metres.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
     labels_with(pen, view, Vec::new(), ink)
 }
 
-/// Like [`labels`], with callouts, which are placed first.
+/// Like [`labels`], with callouts. Callouts are placed before all other labels.
 pub(crate) fn labels_with(
     pen: &Pen<'_>,
     view: Bounds,
@@ -114,8 +114,8 @@ pub(crate) fn labels_with(
     group
 }
 
-/// True if a name lies outside its block and could be the name of another block, because its centroid is nearly as
-/// close.
+/// True if a name lies outside its block and could be taken for the name of another block. This is so if the centroid
+/// of another block is nearly as close to the name.
 fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {
@@ -136,7 +136,8 @@ fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
 }
 
-/// Returns the note on labels that are left out because a frame has too many blocks; `None` if no label is left out.
+/// Returns the note on labels that are left out because a frame has too many blocks. Returns `None` if no labels are
+/// left out.
 pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     let options = context.options;
     let frames = &context.analysis.scene.frames;
@@ -156,7 +157,7 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
-/// Returns all labels of a frame, the most important first.
+/// Returns all labels of a frame, sorted by importance, the most important first.
 fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.context.options;
     let frame = &pen.context.analysis.scene.frames[pen.number];

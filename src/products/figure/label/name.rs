@@ -20,14 +20,14 @@ const EDGE_SHARE: f64 = 0.6;
 /// The name of a block whose edge is longer than this, in unit edges, has a font size of its own.
 const LARGE_BLOCK: f64 = 3.0;
 
-/// Returns the font size of the name of a block with an edge of this length; both in pixels.
+/// Returns the font size of a block's name, pixels. `edge` is the length of an edge of the block in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
         .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.name)
 }
 
-/// Returns the name of a block; `None` if a zoomed picture does not show any part of the block.
+/// Returns the label with the name of a block; `None` if a zoomed picture does not show any part of the block.
 pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.context.analysis.scene.blocks[id.0];
     let zoomed = pen.context.options.zoom.is_some();
@@ -64,7 +64,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     })
 }
 
-/// Returns the names of the robots that hold a block.
+/// Returns the labels with the names of the robots that hold a block.
 pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
@@ -94,8 +94,8 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     shown.map(named).collect()
 }
 
-/// Returns preferred centres inside a polygon, those nearest to `middle` first. If a `view` is given, they are inside
-/// the visible part.
+/// Returns preferred centres of a label inside a polygon, sorted by distance from `middle`. With a `view`, they are
+/// inside its visible part.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
     let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);

@@ -1,4 +1,4 @@
-//! Returns the entries of the legend for what occurs in a figure.
+//! Creates the entries of the legend for all signs that occur in a figure.
 
 use super::super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks, TurnKind};
 use super::super::context::FigureContext;
@@ -22,7 +22,7 @@ const MAX_NAMED_BLOCKS: usize = 6;
 /// With a longer name, characters, the legend shows the colours only.
 const MAX_NAME_LENGTH: usize = 12;
 
-/// Returns the entries for everything that occurs in a figure of forces. `unit` is the unit edge in pixels.
+/// Returns the entries for all signs that occur in a figure of forces. `unit` is the unit edge in pixels.
 pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let options = context.options;
     let mut entries = Vec::new();
@@ -88,20 +88,21 @@ impl<'a> DrawnArrows<'a> {
         arrow.reach().norm() * self.scale >= LEAST_SEEN
     }
 
-    /// True if an arrow of this kind has to be explained. If arrows are too small in general, none has to be.
+    /// True if a visible arrow has one of these kinds, so that the legend has to explain it. False if arrows are too
+    /// small in general.
     fn any(&self, kind: fn(ArrowKind) -> bool) -> bool {
         !self.too_small && self.arrows().any(|a| kind(a.kind) && self.is_seen(a))
     }
 
-    /// True if an arrow of this kind is drawn as a dot.
+    /// True if an arrow of one of these kinds is drawn as a dot.
     fn any_dot(&self, kind: fn(ArrowKind) -> bool) -> bool {
         self.arrows()
             .any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
     }
 }
 
-/// Returns the colours of the forces on blocks, with the names of the blocks if they are few and short, and each colour
-/// belongs to one block.
+/// Returns the entry for the colours of the forces on blocks. It names the blocks if they are few, their names are
+/// short, and each colour belongs to one block. Returns `None` if no colour needs an explanation.
 fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut seen: Vec<(Colour, String)> = Vec::new();
@@ -125,7 +126,7 @@ fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option
     }
 }
 
-/// Returns the sign of missing forces and torques; `None` if no frame shows any.
+/// Returns the entry for missing forces and torques; `None` if no frame shows any.
 fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
     let mut forces = drawn.arrows();
     let mut turns = context.marks.iter().flat_map(|m| &m.turns);
@@ -134,8 +135,8 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
     any.then_some(Entry::Missing)
 }
 
-/// Returns an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit` pixels) long, and
-/// the largest force is `largest` N. Returns `None` if there is no force.
+/// Returns the entry with an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit`
+/// pixels) long, and the largest force is `largest` N. Returns `None` if there is no force.
 pub(crate) fn scale(
     newtons: f64,
     largest: f64,
@@ -158,8 +159,8 @@ pub(crate) fn scale(
     })
 }
 
-/// Returns the common scale of the arrows of all panels; `None` if there are no forces. `unit` is the unit edge in
-/// pixels.
+/// Returns the entry for the scale that the arrows of all panels share; `None` if there are no forces. `unit` is the
+/// unit edge in pixels.
 pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
     let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
     let newtons = most(|m| m.newtons_per_unit);
@@ -167,14 +168,14 @@ pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Ent
     scale(newtons, most(Marks::largest), unit, context.options, units)
 }
 
-/// Returns a scale bar of a round number of metres. It is at most a quarter of `content` pixels long; `scale` is in
-/// pixels per metre.
+/// Returns the entry with a scale bar of a round number of metres. The bar is at most a quarter of `content` pixels
+/// long; `scale` is in pixels per metre.
 pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entry> {
     let metres = round_below_in(0.25 * content / scale, units.length());
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, units.length())))
 }
 
-/// Returns the sign of joints at their limit; `None` if no frame has such a joint.
+/// Returns the entry for joints at their limit; `None` if no frame has such a joint.
 pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
@@ -182,7 +183,7 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
 }
 
-/// Returns the sign of loads with their magnitudes; `None` if no frame shows a load.
+/// Returns the entry for loads, with their magnitudes; `None` if no frame shows a load.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
@@ -222,7 +223,7 @@ fn own_scale(context: &FigureContext<'_>) -> bool {
     frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
 }
 
-/// Returns the robots that hold or plan a block in any frame, and the sign of a planned block.
+/// Returns the entries for the robots that hold or plan a block in any frame, and for planned blocks.
 pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();

@@ -1,4 +1,4 @@
-//! [`Entry`]: an entry of the legend, with its sign and its text.
+//! [`Entry`]: an entry of the legend, which consists of a sign and a text.
 
 use super::sign::{self, BAR_LENGTH, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
@@ -35,8 +35,8 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// Returns the entry for a width of `room` pixels. Arrow colours lose the names of their blocks if these do not
-    /// fit.
+    /// Returns a version of the entry that fits into `room` pixels. If the names of blocks do not fit, only the colours
+    /// of their arrows remain.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         match self {
             Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
@@ -44,7 +44,7 @@ impl Entry {
         }
     }
 
-    /// True if another entry has the same meaning.
+    /// True if both entries have the same meaning.
     pub(super) fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
@@ -109,7 +109,7 @@ impl Entry {
         self.sign_width(theme) + words
     }
 
-    /// Draws the entry in one line with the middle of its left end at `at`.
+    /// Draws the entry in one line. `at` is the middle of its left edge.
     pub(super) fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let mut items = self.sign(at, theme);
         let words = self.words();
@@ -123,7 +123,7 @@ impl Entry {
         items
     }
 
-    /// Draws the sign of the entry with the middle of its left end at `at`.
+    /// Draws the sign of the entry. `at` is the middle of its left edge.
     pub(super) fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         match self {
             Entry::Blocks(blocks) => sign::blocks(blocks, at, theme),
@@ -143,7 +143,7 @@ impl Entry {
     }
 }
 
-/// Returns the name of a robot in the legend: `robot` and its name, or only its name if that begins with `robot`.
+/// Returns the name of a robot in the legend. `robot` is written before the name, unless the name begins with `robot`.
 fn robot(id: &str) -> String {
     match id
         .get(..5)

@@ -50,12 +50,12 @@ impl<'e> Laid<'e> {
         }
     }
 
-    /// Returns the additional height compared with an entry of one line, pixels.
+    /// Returns the height by which the entry is higher than an entry of one line, pixels.
     fn extra_height(&self, theme: &Theme) -> f64 {
         self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
     }
 
-    /// Draws the entry with the middle of its left end at `at`.
+    /// Draws the entry. `at` is the middle of the left edge of its first line.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let mut items = self.entry.sign(at, theme);
         let first = at.moved(
@@ -77,7 +77,7 @@ struct KeyLine<'e> {
     width: f64,
 }
 
-/// Puts each entry into the first line of at most `room` pixels that has space for it.
+/// Puts each entry into the first line that has space for it. A line is at most `room` pixels wide.
 fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
@@ -97,8 +97,9 @@ fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>>
     lines
 }
 
-/// Draws the legend in lines of at most `room` pixels, centred about `middle`, downwards from `top`. Also returns its
-/// height in pixels. `line` is the height of a line as a multiple of the font size.
+/// Draws the legend in lines of at most `room` pixels. The lines are centred at the x coordinate `middle` and begin at
+/// `top`. `line` is the height of a line as a multiple of the font size. Also returns the height of the legend in
+/// pixels.
 pub(crate) fn draw(
     entries: &[Entry],
     (middle, top): (f64, f64),

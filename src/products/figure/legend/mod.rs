@@ -1,4 +1,4 @@
-//! The legend: explains the colours and signs of a figure. It only lists those that occur.
+//! The legend: explains the colours and signs that occur in a figure.
 
 mod content;
 mod entry;
@@ -16,8 +16,8 @@ pub(crate) const LINE: f64 = 2.08;
 /// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
 pub(crate) const NARROW_LINE: f64 = 1.7;
 
-/// Joins the entries of several legends, each entry once. If their arrow colours name different blocks, only the
-/// colours remain.
+/// Joins several legends to one, without duplicate entries. If the arrow colours of these legends name different
+/// blocks, only the colours remain.
 pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for entry in keys.into_iter().flatten() {
@@ -33,7 +33,7 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     all
 }
 
-/// Draws one entry with the middle of its left end at `at`.
+/// Draws one entry. `at` is the middle of its left edge.
 pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> Vec<Item> {
     entry.draw(at, theme)
 }

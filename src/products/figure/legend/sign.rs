@@ -1,4 +1,4 @@
-//! Signs of the legend. Each is drawn from the middle of its left end, `at`.
+//! Draws the signs of the legend. `at` is the middle of the left edge of a sign.
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
@@ -19,14 +19,14 @@ pub(super) const ON_BLOCK: &str = "force on block";
 /// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
 const COLOUR_ARROW: (f64, f64) = (22.0, 2.6);
 
-/// Returns a text of the legend. `at` is its left end, at half the height of the line.
+/// Returns a text of the legend. `at` is the left end of the text, at half the height of the line.
 pub(super) fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
     let size = theme.sizes.key;
     let at = at.moved(0.0, 0.36 * size);
     Text::new(at, words, Face::Sans, size, theme.faint).into()
 }
 
-/// Draws an arrow to the right. `size` is its length and the width of its shaft, pixels.
+/// Draws an arrow that points to the right. `size` is its length and the width of its shaft, pixels.
 pub(super) fn arrow(at: PagePoint, size: (f64, f64), colour: Colour) -> Item {
     Path::filled(straight(at, (size.0, 0.0), size.1), colour).into()
 }
@@ -61,7 +61,7 @@ pub(super) fn robot(colour: Colour, at: PagePoint, theme: &Theme) -> Item {
     Path::filled(disc, colour).with_stroke(edge).into()
 }
 
-/// Draws the outline of a planned block, a hexagon.
+/// Draws the outline of a planned block as a hexagon.
 pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     let hexagon = [
         (-1.0, 0.0),
@@ -76,7 +76,8 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
 
-/// Draws a bar of amplitude colours between the labels of its ends. `ramp` is the colour of a share (0 to 1).
+/// Draws a bar with the colours of all shares from 0 to 1. `low` and `high` are the labels at its ends. `ramp` converts
+/// a share to a colour.
 pub(super) fn amplitudes(
     [low, high]: &[String; 2],
     ramp: fn(&Theme, f64) -> Colour,
@@ -102,13 +103,13 @@ pub(super) fn amplitudes(
     items
 }
 
-/// Draws a short line of this width in pixels.
+/// Draws a short line; `width` is in pixels.
 pub(super) fn line(colour: Colour, width: f64, at: PagePoint) -> Item {
     let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
     Path::stroked(line, Stroke::new(colour, width).mitred()).into()
 }
 
-/// Draws a scale bar of this length in pixels.
+/// Draws a scale bar; `length` is in pixels.
 pub(super) fn metres(length: f64, at: PagePoint, theme: &Theme) -> Item {
     let mut bar = Outline::line([at, at.moved(length, 0.0)]);
     for x in [0.0, length] {

@@ -62,7 +62,8 @@ fn parameter(toward: Toward) -> &'static str {
     }
 }
 
-/// Describes the margin of a frame that stands: the nearest end of the interval, and for loads also the lower end.
+/// Describes the margin of a frame that stands: the end of the interval nearest to the present value. For the load
+/// factor, also describes the least factor.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     // Below the least factor on its loads a frame falls, but it is not what loads may grow to.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
@@ -111,7 +112,8 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     }
 }
 
-/// Describes the nearer end of an interval about 0, and the end on its other side if that is known.
+/// Describes the end `edge` of an interval around 0, and the end on the other side of 0 if its value is known. `amount`
+/// formats a value.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     let ends = [interval.low(), interval.high()].into_iter().flatten();

@@ -28,7 +28,8 @@ pub(super) struct ArrowMaker<'a> {
 }
 
 impl ArrowMaker<'_> {
-    /// Adds the arrow of a force, unless the force is too small. `look` is its colour, and its width in unit edges.
+    /// Adds the arrow of a force, unless the force is too small. `look` is the colour of the arrow, and its width in
+    /// unit edges.
     pub(super) fn straight(
         &self,
         marks: &mut Marks,
@@ -58,7 +59,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns how the head of an arrow lies at its tip.
+    /// Returns the position of an arrow's head: beyond the end of its vector in printed figures, otherwise within its
+    /// length.
     pub(super) fn head(&self) -> Head {
         if self.options.printed() {
             Head::Beyond
@@ -67,7 +69,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the width of an arrow's shaft in metres: `full` unit edges, or less for a short arrow.
+    /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit edges; short
+    /// arrows are thinner.
     pub(super) fn width(&self, full: f64, vector: Vector) -> f64 {
         let share = match self.options.normalisation {
             Normalisation::Source => 1.0,
@@ -79,7 +82,8 @@ impl ArrowMaker<'_> {
         full * share * self.edge
     }
 
-    /// Adds the arrow of a torque, or the two vertical arrows of the thesis at half a unit edge to both sides.
+    /// Adds the arrow of a torque. In printed figures, a torque of a robot is drawn as in the thesis: as two vertical
+    /// arrows, half a unit edge to the left and right of the point.
     pub(super) fn torque(
         &self,
         marks: &mut Marks,
@@ -154,7 +158,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the contacts of each block, by its index.
+    /// Returns the contacts of each block, indexed by block.
     fn contacts_of_blocks<'c>(&self, found: &'c FrameAnalysis) -> Vec<Vec<&'c Contact>> {
         let mut touching: Vec<Vec<&Contact>> = vec![Vec::new(); self.scene.blocks.len()];
         for contact in &found.contacts {

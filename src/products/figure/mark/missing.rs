@@ -67,8 +67,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the colour of missing forces. Figures in the style of the thesis have its red. The red of other figures
-    /// is darker, so that a grey print shows the difference from green.
+    /// Returns the colour of missing forces. Printed figures with the theme of the thesis use its red. Other figures
+    /// use a darker red, so that it differs from green in a grey print.
     fn failure_colour(&self) -> Colour {
         let theme = &self.options.theme;
         if self.options.printed() && *theme == Theme::thesis() {
@@ -88,7 +88,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the vector in metres of the arrow of a missing force (N) on a block.
+    /// Converts a missing force (N) on a block to the vector of its arrow, in metres.
     fn missing_vector(&self, scale: &MissingScale, block: BlockId, force: Vector) -> Vector {
         match scale {
             MissingScale::OfBlocks(acting) if acting[block.0] > 0.0 => {
@@ -105,7 +105,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the beginning, in metres, at which the arrow of a missing force lies on its own block.
+    /// Returns the point, in metres, at which the arrow of a missing force begins. The arrow then lies on the block on
+    /// which it acts.
     ///
     /// A missing pull moves along its line of action until its head is at the joint: begun there, it would lie on the other
     /// block and look like a push. Missing friction moves across by half the distance of parallel arrows.
@@ -137,7 +138,7 @@ impl ArrowMaker<'_> {
     }
 }
 
-/// Returns the missing forces of a failure, in N, each with the body on which it would act.
+/// Returns the missing forces of a failure, in N. Each force comes with the body on which it would act.
 fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     match *failure {
         Failure::Tension {
@@ -170,8 +171,8 @@ fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     }
 }
 
-/// Returns the largest single unknown or weight on each block, by its index, in N. The thesis scales missing forces
-/// with it.
+/// Returns, for each block, the largest weight, force component or robot force component on it, in N. The list is
+/// indexed by block. The thesis scales missing forces with these values.
 fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);

@@ -18,7 +18,7 @@ use crate::geometry::Point;
 use maker::ArrowMaker;
 use part::parts;
 
-/// Returns the straight arrows of frame `frame` (from 0) at the frame's own scale, as in [`marks`]. Returns no arrows
+/// Returns the straight arrows of frame `frame` (from 0) at the scale of this frame, as in [`marks`]. The list is empty
 /// if the frame does not exist.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
     if frame >= analysis.frames.len() {
@@ -28,7 +28,7 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
     marks(analysis, frame, options, reference).arrows
 }
 
-/// Returns the force, in N, whose arrow is one unit edge long at the frame's own scale.
+/// Returns the force, in N, whose arrow is one unit edge long at the scale of this frame.
 ///
 /// With [`Normalisation::Drawn`] it is the largest drawn force; a torque counts as torque divided by the unit edge.
 /// With [`Normalisation::Source`] it is the largest single unknown, weight or load.

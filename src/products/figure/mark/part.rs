@@ -1,4 +1,4 @@
-//! [`parts`]: the forces of an interface that have an arrow of their own.
+//! [`parts`]: returns the forces of an interface that are drawn as arrows.
 
 use super::super::arrow::ArrowKind;
 use super::super::option::ForceStyle;
@@ -16,7 +16,8 @@ pub(super) struct Part {
     pub at: Point,
 }
 
-/// Returns the forces of an interface on its first body: one or two, by style.
+/// Returns the forces of an interface on its first body: the resultant, or the normal and the friction force, as
+/// `style` selects.
 pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
     let at = contact.resultant.at;
     let part = |kind, force| Part { kind, force, at };

@@ -13,7 +13,7 @@ const HEAD: f64 = 0.18;
 const DOT: f64 = 2.2;
 
 impl Pen<'_> {
-    /// Draws each listed contact of the frame as a dot with its normal and its friction cone.
+    /// Draws each contact that the scene lists in the frame: a dot with its normal and its friction cone.
     pub(super) fn listed_contacts(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let mut group = Group::with_class("contacts");
@@ -54,7 +54,7 @@ impl Pen<'_> {
         group
     }
 
-    /// Returns the mark of a centre at which a weight acts: a circle with a cross.
+    /// Returns the mark of the point at which a weight acts: a circle with a cross.
     pub(super) fn centre(&self, at: Point) -> Path {
         let (theme, at) = (&self.context.options.theme, self.camera.place(at));
         let mut mark = Outline::circle(at, 2.0 * DOT);

@@ -1,5 +1,5 @@
-//! [`Strip`]: draws a page of panels, one per frame, each with its caption and verdict, and one legend below all
-//! panels. [`PanelContent`] draws the content of a panel.
+//! [`Strip`]: draws a page of panels, one per frame, with one legend below all panels. Each panel has a caption and a
+//! verdict. [`PanelContent`] draws the content of a panel.
 //!
 //! This file decides which panels are on which page. `page` draws a page, `panel` a panel, and `words` has their texts.
 
@@ -54,8 +54,8 @@ pub(crate) fn strip(
     }
 }
 
-/// Draws the panels of [`strip`] for these frames, each on a page of its own. All pages have the same size and scale,
-/// as an animation needs.
+/// Draws the panels of [`strip`] for these frames, each on a separate page. All pages have the same size and scale, as
+/// an animation needs.
 pub(crate) fn pages(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -66,7 +66,7 @@ pub(crate) fn pages(
     steps_of(analysis, content, options, steps)
 }
 
-/// Like [`pages`], for pairs of a frame and the share of their paths (0 to 1) by which its blocks are displaced.
+/// Like [`pages`], for pairs of a frame and a share from 0 to 1. The blocks are displaced by this share of their paths.
 pub(crate) fn steps_of(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -93,8 +93,8 @@ pub(crate) fn steps_of(
     pages
 }
 
-/// Draws the panels of [`strip`] on several pages at one scale. A page has as many rows as fit if it is at most `high`
-/// times as high as wide, but at least one.
+/// Draws the panels of [`strip`] on several pages at one scale. A page has as many rows as fit if its height is at most
+/// `high` times its width, and at least one row.
 pub(crate) fn split(
     analysis: &Analysis,
     content: &'static dyn PanelContent,

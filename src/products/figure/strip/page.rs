@@ -28,8 +28,8 @@ struct Gaps {
 }
 
 impl Gaps {
-    /// Returns the gaps of a page. They are smaller on a page as wide as a column of print, so that text does not fill
-    /// half of it.
+    /// Returns the gaps of a page. The gaps are smaller if the page is only as wide as a column of print, so that text
+    /// does not fill half of the page.
     fn new(width: Option<f64>) -> Gaps {
         match width.is_some_and(|width| width < PRINT_COLUMN) {
             true => Gaps {
@@ -48,8 +48,8 @@ impl Gaps {
     }
 }
 
-/// Draws a page of panels with one legend below them. `order` gives the index of the strip and the frame of each panel.
-/// All strips have one layout. The structures of a row are on one level.
+/// Draws a page of panels with one legend below them. `order` has, for each panel, the index of its strip and its
+/// frame. All strips have the same layout. All structures in a row are at the same height.
 pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &str) -> Drawing {
     let Some(first) = strips.first() else {
         return Drawing::default();
@@ -95,7 +95,8 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     }
 }
 
-/// Returns the width of a page without its margins, pixels. A narrow picture gets a page wide enough for its words.
+/// Returns the width of a page without its margins, pixels. The page is wide enough for the legend, even if the picture
+/// is narrow.
 fn inner_width(options: &Options, layout: &Layout, entries: &[Entry]) -> f64 {
     match options.width {
         Some(width) => (width - 2.0 * layout.margin).max(1.0),
@@ -124,7 +125,7 @@ impl PageWriter<'_> {
         self.inner + 2.0 * self.layout.margin
     }
 
-    /// Returns the middle of the page, pixels.
+    /// Returns the x coordinate of the middle of the page, pixels.
     fn middle(&self) -> f64 {
         self.width() / 2.0
     }
@@ -144,8 +145,8 @@ impl PageWriter<'_> {
         self.y += self.gaps.below_title;
     }
 
-    /// Draws a row of panels. All panels of the row show the same heights of the scene. Their verdicts are on one
-    /// level, below the longest caption.
+    /// Draws a row of panels. All panels of the row show the same heights of the scene. Their verdicts are at the same
+    /// height, below the longest caption.
     fn row(&mut self, row: &[(usize, usize)]) {
         let views = row.iter();
         let views = views.map(|(strip, frame)| self.strips[*strip].shows(*frame));
@@ -180,7 +181,7 @@ impl PageWriter<'_> {
         self.y = bottom;
     }
 
-    /// Draws the legend below a thin line.
+    /// Draws a thin line, and the legend below it.
     fn legend(&mut self, entries: &[Entry]) {
         let theme = &self.options.theme;
         self.y += self.gaps.above_rule;

@@ -1,4 +1,4 @@
-//! Draws a panel: its picture with the caption, the verdict and its reason below.
+//! Draws a panel: the picture, and below it the caption, the verdict and the reason for the verdict.
 
 use super::super::dimension;
 use super::super::label;
@@ -32,7 +32,8 @@ pub(super) struct Place {
 }
 
 impl Strip<'_> {
-    /// Draws the panel of a frame: picture, caption and verdict. Also returns the position of its lower end, pixels.
+    /// Draws the panel of a frame: picture, caption and verdict. Also returns the y coordinate of its lower end,
+    /// pixels.
     pub(super) fn panel(&self, frame: usize, place: Place) -> (Group, f64) {
         let (context, layout) = (self.context, self.layout);
         let (view, at) = (place.view, place.at);
@@ -72,8 +73,8 @@ impl Strip<'_> {
         (group, below.y)
     }
 
-    /// Writes the caption of a frame below the point `top`, in space for `captions` lines. Also returns the point below
-    /// that space.
+    /// Writes the caption of a frame below the point `top`. The space for the caption has `captions` lines. Also
+    /// returns the point below this space.
     fn caption_at(&self, frame: usize, top: PagePoint, captions: usize) -> (Vec<Item>, PagePoint) {
         let theme = &self.context.options.theme;
         let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);
@@ -92,8 +93,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Draws the mark and the text of a verdict and the scale of arrows in one line about `centre`. If the panel is too
-    /// narrow, the scale is below. Also returns the additional height in pixels.
+    /// Draws the mark and the text of a verdict and the scale of arrows in one line, centred at `centre`. If the panel
+    /// is too narrow, the scale is on a second line. Also returns the additional height in pixels.
     fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let options = self.context.options;
         let theme = &options.theme;
@@ -152,7 +153,7 @@ impl Strip<'_> {
         )
     }
 
-    /// Draws the mark of a verdict and its text, with their left end at `start`.
+    /// Draws the mark of a verdict and its text. `start` is the middle of the left edge of the mark.
     fn marked_verdict(&self, frame: usize, words: String, start: PagePoint) -> [Item; 2] {
         let theme = &self.context.options.theme;
         let found = &self.context.analysis.frames[frame];
@@ -167,8 +168,8 @@ impl Strip<'_> {
         ]
     }
 
-    /// Writes the reason for a verdict below the point `top`, then the notes on arrows that are too small, and on labels
-    /// without space (`cramped`). Also returns the point below them.
+    /// Writes the reason for a verdict below the point `top`. Notes follow: on arrows that are too small, and on labels
+    /// without space (`cramped`). Also returns the point below the text.
     fn reason(
         &self,
         frame: usize,
@@ -212,7 +213,7 @@ fn mark_radius(size: f64) -> f64 {
     size * 7.5 / 13.5
 }
 
-/// Returns the note of a picture on labels without space; `None` if there is no such label.
+/// Returns the note on labels for which the picture has no space; `None` if there is no such label.
 fn without_room(picture: &Group) -> Option<String> {
     let groups = picture.items.iter().filter_map(|item| match item {
         Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),

@@ -51,7 +51,7 @@ impl Strip<'_> {
         }
     }
 
-    /// Returns a text about a frame, after its caption if it has one.
+    /// Returns a text about a frame: the caption, if the frame has one, followed by `what`.
     pub(super) fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
         let caption = self.caption(frame, between);
         if caption.is_empty() {
@@ -61,7 +61,7 @@ impl Strip<'_> {
         }
     }
 
-    /// Returns the lines of the caption; none if the options exclude captions.
+    /// Returns the lines of the caption; empty if the options exclude captions.
     pub(super) fn caption_lines(&self, frame: usize) -> Vec<String> {
         if !self.context.options.captions {
             return Vec::new();
@@ -75,8 +75,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Returns the text next to the mark of a verdict. If it is wider than the panel, returns only the verdict, and the
-    /// rest of the text separately.
+    /// Returns the text next to the mark of a verdict. If this text is wider than the panel, the first part is only the
+    /// verdict, and the second part is the rest of the text.
     pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
         let found = &self.context.analysis.frames[frame];
@@ -96,8 +96,9 @@ impl Strip<'_> {
         (badge.to_owned(), Some(rest).filter(|rest| !rest.is_empty()))
     }
 
-    /// Returns the caption of a frame, such as `(a) Initial situation`. It has no letter if there is only one frame,
-    /// and no title if the heading already has this title. A zoomed figure names its block.
+    /// Returns the caption of a frame, such as `(a) Initial situation`. The letter is left out if there is only one
+    /// frame, and the title if the heading already has this title. In a zoomed figure, the caption names the block in
+    /// the centre.
     fn caption(&self, frame: usize, between: &str) -> String {
         let scene = &self.context.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {

@@ -56,8 +56,8 @@ pub(crate) struct Fans {
 }
 
 impl Fans {
-    /// The fans of a frame to the right of the structure; `None` if no chain of blocks has a thrust. `unit` is the unit
-    /// edge in metres.
+    /// Computes the fans of a frame, to the right of the structure. Returns `None` if no chain of blocks has a thrust.
+    /// `unit` is the unit edge in metres.
     pub fn new(scene: &Scene, frame: &Frame, found: &FrameAnalysis, unit: f64) -> Option<Fans> {
         let blocks = frame.placed.iter();
         let structure = blocks
@@ -112,7 +112,7 @@ impl Fans {
         })
     }
 
-    /// Draws the fans, and the numbers of the joints on the structure. Labels avoid `ink`.
+    /// Draws the fans, and the numbers of the joints on the structure. Labels do not cover `ink`.
     pub fn draw(
         &self,
         scene: &Scene,
@@ -135,7 +135,7 @@ impl Fans {
         group
     }
 
-    /// Draws a bar of a round force below the fans.
+    /// Draws a scale bar for a round force below the fans.
     fn draw_scale(
         &self,
         camera: &Camera,
@@ -172,7 +172,7 @@ impl Fans {
 }
 
 impl Fan {
-    /// Draws the load line, the rays and their numbers, which follow `before`.
+    /// Draws the load line, and the rays with their numbers. The first number is `before` + 1.
     fn draw(
         &self,
         scene: &Scene,
@@ -266,7 +266,7 @@ impl Fan {
         }
     }
 
-    /// Writes the number of each joint next to the end of the joint that is farther from the middle of the structure.
+    /// Writes the number of each joint next to the outer or upper end of the joint.
     fn number_joints(
         &self,
         found: &FrameAnalysis,
@@ -307,7 +307,8 @@ impl Fan {
     }
 }
 
-/// The left end of a text of this width that begins at `x` if the page has space for it, and ends at its edge otherwise.
+/// Returns the x coordinate of the left end of a text of this width: `x` if the text then fits on the page. Otherwise
+/// the text ends at the right edge of the page.
 fn within(x: f64, wide: f64, page: PageRect) -> f64 {
     x.min(page.at.x + page.width - wide)
 }

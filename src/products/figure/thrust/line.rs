@@ -1,4 +1,4 @@
-//! Draws a line of thrust, the joints and the dots at the points of action of their forces.
+//! Draws a line of thrust, the joints, and dots at the points where the forces of the joints act.
 
 use super::super::bearing::bearings;
 use super::super::by_colour::ByColour;
@@ -18,7 +18,7 @@ const MIN_WIDTH_SHARE: f64 = 0.22;
 /// Number of widths if lines of many blocks are joined into few paths.
 const WIDTH_STEPS: f64 = 8.0;
 
-/// Returns the colour of the line.
+/// Returns the colour of the line of thrust.
 pub(super) fn colour(theme: &Theme) -> Colour {
     theme.motion
 }
@@ -28,12 +28,13 @@ pub(super) fn schematic_colour(theme: &Theme) -> Colour {
     theme.page.mixed(theme.motion, 0.45)
 }
 
-/// Returns the colour of what a frame that does not stand carries: weaker than a line of equilibrium, visible in print.
+/// Returns the colour of the forces that are carried in a frame that does not stand. It is weaker than the colour of a
+/// line in equilibrium, but visible in print.
 pub(super) fn carried_colour(theme: &Theme) -> Colour {
     theme.block.mixed(theme.faint, 0.7)
 }
 
-/// Returns the width of the line of the largest force, for a unit edge of this length; both in pixels.
+/// Returns the width of the line of the largest force, in pixels. `unit` is the unit edge in pixels.
 pub(super) fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
@@ -63,7 +64,7 @@ pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     seams.with(Path::stroked(outline, stroke))
 }
 
-/// Draws the line of thrust: first its schematic parts, above them its true lines of action.
+/// Draws the line of thrust: first its schematic parts, and above them the true lines of action.
 pub(super) fn lines(
     pen: &Pen<'_>,
     scene: &Scene,
@@ -92,7 +93,8 @@ pub(super) fn lines(
     group
 }
 
-/// Returns a line of this width in pixels, grey if the frame does not stand. `through` is false for schematic lines.
+/// Returns a line; `width` is in pixels. The line is grey if the frame does not stand. `through` is false for schematic
+/// lines.
 fn stroked(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -109,7 +111,7 @@ fn stroked(
     Path::stroked(outline, Stroke::new(colour, width))
 }
 
-/// Draws the segments of very many blocks as few paths: one for all segments of about the same width.
+/// Draws the segments of very many blocks as few paths: one path for all segments of about the same width.
 fn joined_lines<'s>(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -133,7 +135,7 @@ fn joined_lines<'s>(
         .collect()
 }
 
-/// Describes a segment of the line: the block, the origin of the force and its magnitude.
+/// Describes a segment of the line: the block, the object from which the force comes, and the magnitude of the force.
 fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.origin {

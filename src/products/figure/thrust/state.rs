@@ -1,5 +1,5 @@
-//! The states of the figure: most central, least and greatest thrust. Draws the thin lines of the last two, and writes the
-//! texts on all of them.
+//! The states of the figure: most central thrust, least thrust and greatest thrust. Draws the thin lines of least and
+//! greatest thrust, and writes the texts on all states.
 
 use super::super::context::FigureContext;
 use super::super::funicular::segments;
@@ -17,8 +17,8 @@ const THIN: f64 = 1.3;
 const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
 const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 
-/// Formats the horizontal thrust of a state (N): `, horizontal thrust 28.3 kN`. Empty for several frames, whose thrusts
-/// differ.
+/// Formats the horizontal thrust of a state (N): `, horizontal thrust 28.3 kN`. Empty if there are several frames,
+/// because their thrusts differ.
 fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     if context.analysis.frames.len() == 1 {
         format!(
@@ -35,7 +35,8 @@ fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c Thru
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
-/// Returns the text of the legend on the thrust of the most central line; `None` if no frame shows this line.
+/// Returns the part of a legend text that gives the thrust of the most central line. Returns `None` if no frame shows
+/// this line.
 pub(super) fn central(context: &FigureContext<'_>) -> Option<String> {
     let state = families(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))
@@ -69,7 +70,8 @@ pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option
     ))
 }
 
-/// Names the state that a frame without a family of lines shows; `None` if balance alone fixes all forces.
+/// Returns a note that names the state shown in a frame without a family of lines. Returns `None` if the number of
+/// unknowns shows that equilibrium determines all forces.
 pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let unknowns = |contact: &Contact| match contact.interface.kind {
@@ -82,7 +84,7 @@ pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<S
         .then(|| "the line shown is that of the forces of least sum".to_owned())
 }
 
-/// Draws thin lines of least and of greatest thrust.
+/// Draws thin lines of least and greatest thrust.
 pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Group; 2] {
     let scene = &pen.context.analysis.scene;
     let states = [
