@@ -32,7 +32,8 @@ impl CapacityArgs {
         self.capacity.is_some()
     }
 
-    /// Adds the request to the options of the analysis of a scene.
+    /// Adds the request of `--capacity` and `--for-all` to the options of an analysis. Without `--capacity`, the
+    /// options stay unchanged.
     pub(crate) fn add_to(&self, options: Options, scene: &Scene) -> Result<Options, CliError> {
         let Some(typed) = &self.capacity else {
             return Ok(options);
@@ -43,10 +44,11 @@ impl CapacityArgs {
     }
 }
 
-/// Reads `BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, and the ranges of the cases.
+/// Parses the value of `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in metres) and the ranges of
+/// `--for-all`.
 ///
 /// # Errors
-/// A sentence for the user.
+/// A message for the user, if a text is not valid or the scene has no such block.
 pub(crate) fn requested(
     scene: &Scene,
     typed: &str,
@@ -54,7 +56,7 @@ pub(crate) fn requested(
 ) -> Result<CapacityRequest, String> {
     let cases = for_all.map_or(Ok(Cases::default()), cases)?;
     cases.check().map_err(|why| format!("--for-all: {why}"))?;
-    // A name may contain @ itself.
+    // The name of a block may contain @, so the whole text is first tried as a name.
     if let Some(block) = scene.block_named(typed) {
         return Ok(CapacityRequest::of_block(block).cases(cases));
     }
@@ -84,7 +86,7 @@ fn unknown(scene: &Scene, name: &str) -> String {
     format!("--capacity: the scene has no block {}{hint}", line(name))
 }
 
-/// Reads `x,y` or `x,y..x,y`.
+/// Parses one point `x,y`, or two different points `x,y..x,y`, in metres. The error is a message for the user.
 fn force_at(places: &str) -> Result<ForceAt, String> {
     let wrong = || {
         format!(
@@ -107,7 +109,8 @@ fn force_at(places: &str) -> Result<ForceAt, String> {
     .ok_or_else(wrong)
 }
 
-/// Reads `tilt=±2,horizontal=±0.05,friction=0.5..0.7`.
+/// Parses the ranges of `--for-all`, such as `tilt=±2,horizontal=±0.05,friction=0.5..0.7`. The error is a message for
+/// the user.
 fn cases(typed: &str) -> Result<Cases, String> {
     let mut cases = Cases::default();
     for part in typed.split(',') {
@@ -131,7 +134,7 @@ fn cases(typed: &str) -> Result<Cases, String> {
             "friction" => cases.friction = Some(range),
             other => {
                 return Err(format!(
-                    "--for-all: {} cannot be given; it knows tilt, horizontal and friction. For other quantities the \
+                    "--for-all: {} is not one of tilt, horizontal and friction. For other quantities the \
                      extreme values do not show what happens between them",
                     line(other)
                 ));
@@ -141,7 +144,7 @@ fn cases(typed: &str) -> Result<Cases, String> {
     Ok(cases)
 }
 
-/// Reads `±2`, `+-2`, `0.5..0.7` or a single number.
+/// Parses a range: `±2`, `+-2`, `0.5..0.7`, or a single number as a range of one value. `None` for any other text.
 fn range(text: &str) -> Option<[f64; 2]> {
     let number = |v: &str| v.trim().parse::<f64>().ok().filter(|v| v.is_finite());
     if let Some(size) = text.strip_prefix('±').or_else(|| text.strip_prefix("+-")) {

@@ -258,7 +258,7 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     words
 }
 
-/// Writes the most effective changes of each frame below a table.
+/// Writes the sensitivity of each frame, as the lines below a table.
 fn sensitivities(analysis: &Analysis) -> Page {
     let mut page = Page::default();
     let scene = &analysis.scene;

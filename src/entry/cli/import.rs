@@ -114,7 +114,7 @@ impl Import {
             self.drawing.display().to_string()
         };
         let text = self.text(&name, format).map_err(|c| vec![c])?;
-        // The ending .json does not tell what is in the file.
+        // Files with the ending .json have one of three formats, so the content decides.
         let format = match (self.format, format) {
             (None, Format::GeoJson) => Format::of_json(&text),
             _ => format,

@@ -49,7 +49,7 @@ pub(crate) enum Varied {
 }
 
 impl Varied {
-    /// Returns the margin.
+    /// Returns the kind of margin that this word of the command line selects.
     pub(crate) fn kind(self) -> MarginKind {
         match self {
             Varied::LoadFactor => MarginKind::LoadFactor,

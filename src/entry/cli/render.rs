@@ -129,7 +129,8 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// Refuses `--margin` and `--capacity` for figures without them, and parts of a figure that cannot be files.
+    /// Refuses `--margin` and `--capacity` for figures that do not show them. Refuses `--panels` and `--pages` for
+    /// free-body diagrams and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let why = if self.margin.is_some() && !self.kind.needs_margins() {
@@ -308,8 +309,8 @@ impl Render {
         }
     }
 
-    /// Adds the forces that a block can carry, if the figure shows them: of the block on the command line, or of a
-    /// usual one.
+    /// Adds the request for the forces that a block can carry. Without `--capacity`, a figure that shows these forces
+    /// gets the request that `CapacityRequest::usual` chooses.
     fn with_capacity(
         &self,
         asked: &analysis::Options,

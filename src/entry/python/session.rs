@@ -86,7 +86,8 @@ impl Session {
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))
     }
 
-    /// Returns the forces that a block can carry, as JSON.
+    /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` have the form
+    /// of the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
         let request = cli::capacity::requested(self.now.scene(), typed, for_all);
         let request = request.map_err(|why| fault(py, &why))?;

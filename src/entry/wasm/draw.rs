@@ -7,7 +7,8 @@ use crate::analysis::{self, Analysis};
 use crate::figure;
 use crate::scene::Sketch;
 
-/// Draws a figure of a scene, or with `broken` the outlines of a scene that is not valid.
+/// Draws a figure of a scene, and returns the SVG. With the option `broken`, draws the outlines of a scene that is not
+/// valid.
 pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refusal> {
     if options.broken {
         let sketch = Sketch::from_bytes(text.as_bytes(), options.contact_tolerance);
@@ -26,7 +27,7 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
     drawn(&found, options)
 }
 
-/// Draws a figure of an analysis.
+/// Draws a figure of an existing analysis, and returns the SVG.
 pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
     let zoom = options.zoom.as_deref();
     let zoom = zoom.map(|name| figure::named_block(&found.scene, name));

@@ -26,7 +26,7 @@ pub(super) struct ImportOptions {
     gravity: Option<[f64; 2]>,
 }
 
-/// Imports a drawing. Returns the log as JSON, with the text of the scene file.
+/// Imports a drawing. Returns JSON with the log of the import and the text of the scene file.
 pub(super) fn imported(
     text: &str,
     format: &str,

@@ -5,7 +5,7 @@ use super::option::{self, CheckOptions};
 use crate::analysis::Analysis;
 use crate::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
 
-/// Analyses a scene, and returns the result as `check --json` prints it.
+/// Analyses a scene, and returns the same JSON as `drystone check --json`.
 pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {
     let asked = options.asked()?;
     let scene = option::scene(scene, options.contact_tolerance, options.frame)?;

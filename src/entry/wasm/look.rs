@@ -55,7 +55,7 @@ pub(super) struct FigureOptions {
 }
 
 impl FigureOptions {
-    /// Returns the kind of the panels; `None` for a free-body diagram.
+    /// Returns the kind of the figure; `None` for a free-body diagram. The error names the known kinds.
     pub(super) fn kind(&self) -> Result<Option<Kind>, Refusal> {
         match self.kind.as_deref() {
             None => Ok(Some(Kind::default())),
@@ -82,7 +82,7 @@ impl FigureOptions {
         }
     }
 
-    /// Returns the options of the figure, limited to the surroundings of a block.
+    /// Returns the options of the figure. With `zoom`, the figure shows only the surroundings of this block.
     pub(super) fn figure(&self, zoom: Option<BlockId>) -> Result<figure::Options, Refusal> {
         if let Some(millimetres) = self.width_mm
             && !WIDTHS_MM.contains(&millimetres)
@@ -126,7 +126,7 @@ impl FigureOptions {
         })
     }
 
-    /// Writes a drawing as SVG.
+    /// Writes a drawing as SVG with the selected background and width.
     pub(super) fn svg(&self, drawing: Drawing) -> Result<String, Refusal> {
         let background = match self.background.as_deref() {
             None => drawing.background,

@@ -34,13 +34,13 @@ pub fn start() {
     }
 }
 
-/// The version of drystone.
+/// Returns the version of drystone, such as `0.1.0`.
 #[wasm_bindgen]
 pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
 }
 
-/// The kinds of figures as a JSON list: `[{ "kind", "label", "help" }]`.
+/// Returns the kinds of figures as a JSON list of objects `{ "kind", "label", "help" }`.
 #[wasm_bindgen]
 pub fn kinds() -> String {
     let panels = Kind::ALL.map(|kind| (kind.name(), kind.help()));
@@ -62,10 +62,10 @@ pub fn kinds() -> String {
     format!("[{}]", entries.join(","))
 }
 
-/// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is JSON with the
-/// names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
-/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`; and `timing` to include times,
-/// and `file` for a name.
+/// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is a JSON object
+/// with the names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
+/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks` and `no_notes`. Two more options
+/// are `timing`, which includes times, and `file`, the name of the file in the result.
 ///
 /// # Errors
 /// The problems of the scene, or an option that is not valid.
@@ -74,9 +74,10 @@ pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
     examine::checked(scene, &option::read(options.as_deref())?)
 }
 
-/// Draws a scene as SVG, as `drystone render` does. `options` is JSON with the names of the options of `render`:
-/// `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill` and others. `style` is an object with changes of
-/// the theme, `width_px` is the width of the page, and `way`, from 0 to 1, the position of a moving mechanism.
+/// Draws a scene as SVG, as `drystone render` does. `options` is a JSON object with the names of the options of
+/// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill` and others. Three more options exist.
+/// `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from 0 to 1, is the
+/// position of a moving mechanism.
 ///
 /// # Errors
 /// As [`check`].

@@ -36,7 +36,7 @@ pub(super) struct CheckOptions {
 }
 
 impl CheckOptions {
-    /// Returns the options of the analysis. A time limit starts with this call.
+    /// Returns the options of the analysis. A time limit is counted from this call.
     pub(super) fn asked(&self) -> Result<Options, Refusal> {
         let mut asked = Options::default()
             .accuracy(self.accuracy.accuracy())
@@ -50,7 +50,8 @@ impl CheckOptions {
     }
 }
 
-/// Returns the time at which an analysis stops that may take this many seconds from now.
+/// Returns the time at which an analysis must stop if it may take `time_limit` seconds from now. `None` if there is no
+/// limit.
 pub(super) fn deadline(time_limit: Option<f64>) -> Result<Option<Instant>, Refusal> {
     match time_limit {
         Some(seconds) if !(0.0..=1e6).contains(&seconds) => Err(Refusal::of_option(
@@ -60,7 +61,8 @@ pub(super) fn deadline(time_limit: Option<f64>) -> Result<Option<Instant>, Refus
     }
 }
 
-/// Reads a scene with an optional tolerance in metres, and reduces it to one of its frames.
+/// Reads a scene. `tolerance`, in metres, replaces the contact tolerance of the file. With `frame`, the scene keeps
+/// only this frame.
 pub(super) fn scene(
     text: &str,
     tolerance: Option<f64>,

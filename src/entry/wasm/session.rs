@@ -18,7 +18,7 @@ pub struct Session {
 
 #[wasm_bindgen]
 impl Session {
-    /// Starts with a scene and the options of `check`.
+    /// Analyses a first scene with the options of `check`. Later scenes get the same options.
     ///
     /// # Errors
     /// The problems of the scene, or an option that is not valid.
@@ -29,7 +29,7 @@ impl Session {
         Ok(Session { options, found })
     }
 
-    /// Replaces the scene, and returns its verdict: stable, unstable or undecided.
+    /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
     ///
     /// # Errors
     /// The problems of the scene; the session then keeps the former scene.
@@ -38,17 +38,18 @@ impl Session {
         Ok(self.verdict())
     }
 
-    /// The worst verdict of all frames: stable, unstable or undecided.
+    /// Returns the worst verdict of all frames: stable, unstable or undecided.
     pub fn verdict(&self) -> String {
         word(self.found.verdict()).to_owned()
     }
 
-    /// The result as `check` returns it.
+    /// Returns the result as JSON, in the form of `check`.
     pub fn result(&self) -> String {
         examine::written(self.found.clone(), &self.options)
     }
 
-    /// A figure of the analysed frames; `options` as for `figure`, without those of the analysis.
+    /// Draws a figure of the analysed frames as SVG. `options` are those of `figure`; options of the analysis have no
+    /// effect.
     ///
     /// # Errors
     /// An option that is not valid.

@@ -168,7 +168,8 @@ impl SceneFile {
 }
 
 impl SceneFile {
-    /// Replaces the contact tolerance by one in metres, if there is one.
+    /// Replaces the contact tolerance of the file if `tolerance`, in metres, is given. The file keeps it in its own
+    /// unit of length.
     pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
         let unit = self.units.unwrap_or_default().length();
         let given = tolerance.map(|metres| unit.from_si(metres));

@@ -75,13 +75,14 @@ pub struct Healed {
     pub first_kept: Option<BodyId>,
 }
 
-/// The tolerance of healing: at what distance edges touch, and how far corners may move.
+/// The tolerance of healing: at what distance edges touch, and how far corners may move. All lengths are in the unit of
+/// the corners: that of the file, or metres if a resolved scene is healed again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HealingReach {
     pub(super) source: ToleranceSource,
-    /// A millionth of the scene's extent, metres: edges at this distance touch, however their coordinates are written.
+    /// A millionth of the scene's extent: edges at this distance touch, however their coordinates are written.
     pub(super) usual: f64,
-    /// Corners and edges up to this distance apart are snapped, metres; 0 if nothing is snapped.
+    /// Corners and edges up to this distance apart are snapped; 0 if nothing is snapped.
     pub(super) healing: f64,
 }
 
@@ -93,12 +94,12 @@ impl HealingReach {
         healing: 0.0,
     };
 
-    /// Two edges touch if their distance is at most this, metres.
+    /// Returns the largest distance at which two edges touch.
     pub(super) fn gap(self) -> f64 {
         self.usual.max(self.healing)
     }
 
-    /// The largest distance, in metres, by which corners of a body of the given size (metres) move.
+    /// Returns the largest distance by which corners of a body of this size may move.
     fn healing_of(self, size: f64) -> f64 {
         let part = match self.source {
             ToleranceSource::Given => MOST,
@@ -108,7 +109,7 @@ impl HealingReach {
         self.healing.min(part * size)
     }
 
-    /// The largest move of a corner, as a fraction of its shorter side.
+    /// Returns the largest move of a corner, as a fraction of the shorter of its two sides.
     fn share_of_edge(self) -> f64 {
         match self.source {
             ToleranceSource::Given => OF_EDGE,
@@ -117,22 +118,20 @@ impl HealingReach {
         }
     }
 
-    /// The largest error of the coordinates of a body, metres. `farthest` is its largest coordinate; all lengths in
-    /// metres.
+    /// Returns the largest error of the coordinates of a body. `farthest` is its largest coordinate.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
         self.healing_of(size).max(LAST * f64::EPSILON * farthest)
     }
 
-    /// The largest distance, in metres, at which a body touches another. `farthest` is its largest coordinate in
-    /// metres.
+    /// Returns the largest distance at which a body touches another body. `farthest` is its largest coordinate.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
         let usual = self.usual.min(SLIGHT * size);
         usual.max(self.rounding_of(size, farthest))
     }
 }
 
-/// The size of a body in metres: four times its area divided by the length of its boundary. For a square it is the
-/// side.
+/// Returns the size of a body, in the unit of its corners: four times its area divided by the length of its boundary.
+/// For a square, this is the side.
 ///
 /// For a long thin stone it is twice the thickness.
 pub(crate) fn size(polygon: &Polygon) -> f64 {
@@ -146,7 +145,7 @@ struct Drawn {
     parts: usize,
     /// Their numbers among all bodies, readable or not; the parts of the ground come first.
     numbers: Vec<usize>,
-    /// Their sizes, metres.
+    /// Their sizes, in the unit of the corners.
     sizes: Vec<f64>,
     outlines: Vec<Rings>,
     /// Whether they may not move, because they are cells of a lattice.
@@ -220,7 +219,7 @@ impl Drawn {
         drawn
     }
 
-    /// The id of the body with this index in the lists.
+    /// Returns the id of the body with this index among all bodies, the parts of the ground first.
     fn body(&self, drawn: usize) -> BodyId {
         let number = self.numbers[drawn];
         match number.checked_sub(self.parts) {
@@ -229,7 +228,7 @@ impl Drawn {
         }
     }
 
-    /// The largest distance by which the corners of each body may move, metres.
+    /// Returns the largest distance by which the corners of each body may move, in the unit of the corners.
     fn gaps(&self, reach: HealingReach) -> Vec<f64> {
         self.sizes.iter().map(|s| reach.healing_of(*s)).collect()
     }
@@ -313,7 +312,8 @@ impl Drawn {
     }
 }
 
-/// The bodies that could be read, with their numbers among all bodies. The parts of the ground come first.
+/// Iterates over the bodies that could be read, with their numbers among all bodies. The parts of the ground come
+/// first.
 fn bodies<'b>(
     ground: &'b mut [Option<Ground>],
     blocks: &'b mut [Option<Block>],
@@ -334,15 +334,15 @@ fn rings(polygon: &Polygon) -> Rings {
 }
 
 impl Scene {
-    /// The tolerance for contact between two bodies. Its gap is the smaller of their gaps, its rounding the larger of
-    /// their roundings.
+    /// Returns the tolerance for contact between two bodies. Its gap is the smaller of their gaps, its rounding the
+    /// larger of their roundings.
     pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
         let (a, b) = (self.body(a), self.body(b));
         Tolerance::from_gap(a.gap.min(b.gap)).with_rounding(a.rounding.max(b.rounding))
     }
 
-    /// The scene healed again with the tolerance `gap` in metres. Bodies that cannot be moved still touch within that
-    /// distance.
+    /// Returns the scene after healing with the tolerance `gap`, in metres. Bodies that cannot be moved still touch
+    /// within that distance.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {

@@ -133,7 +133,8 @@ impl Scene {
         &self.date
     }
 
-    /// The units of the file, in which results are written for people. The scene itself is in metres and newtons.
+    /// Returns the units of the file. Figures, tables and reports use these units. All numbers of the scene itself are
+    /// in metres and newtons.
     pub fn units(&self) -> format::UnitsEntry {
         self.units
     }
@@ -209,7 +210,7 @@ impl Scene {
         &self.friction_pairs
     }
 
-    /// The contacts that the file lists. If there are some, no others are searched.
+    /// Returns the contacts that the file lists. If the list is not empty, no other contacts are searched.
     pub fn contacts(&self) -> &[ListedContact] {
         &self.contacts
     }

@@ -233,7 +233,8 @@ impl Notes<'_> {
         }
     }
 
-    /// The distance of a point from a body, both in the units of the file; `None` if it is on the body.
+    /// Returns the distance of the point `at` from a body; `at` and the distance are in the units of the file. `None`
+    /// if the point is on the body, or if the body has no outline in the file.
     fn outside(&self, body: &Body, at: Pair) -> Option<f64> {
         let unit = self.scene.units.length();
         if body.is_schematic {

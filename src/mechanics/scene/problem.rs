@@ -48,9 +48,9 @@ pub struct Problem {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Place {
-    /// A point of the body's own outline, in metres, before it is rotated and moved.
+    /// A point of the body's own outline, in the units of the file, before it is rotated and moved.
     Own(Point),
-    /// A point, in metres, between the body with the problem and this body.
+    /// A point, in the units of the file, between the body with the problem and this body.
     Between(Point, BodyId),
 }
 
@@ -142,7 +142,7 @@ pub(super) struct Wording {
 }
 
 impl Wording {
-    /// Adds a place in the structure, in metres, to the message.
+    /// Adds a place in the structure, in the units of the file, to the message.
     pub(super) fn at(self, place: Place) -> Wording {
         Wording {
             place: Some(place),

@@ -158,7 +158,7 @@ impl<'f> Resolution<'f> {
             loads,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
-            // A listed contact acts at one point, like a corner.
+            // A listed contact acts at one point, so it is a corner contact.
             corner_contacts: self.file.corner_contacts.unwrap_or(false) || !contacts.is_empty(),
             contacts,
             frames,

@@ -23,7 +23,7 @@ const MOST: usize = 40;
 pub(super) struct Rounding {
     /// The kind of rounding.
     pub(super) source: ToleranceSource,
-    /// The largest error of a coordinate, metres.
+    /// The largest error of a coordinate, in the units of the file.
     pub(super) error: f64,
 }
 

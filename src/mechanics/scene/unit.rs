@@ -20,14 +20,14 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The symbol, without a prefix.
+    /// Returns the symbol of the unit, such as `kN·mm`.
     pub(crate) fn symbol(&self) -> String {
         self.symbol.concat()
     }
 
-    /// Converts a value from the SI unit.
+    /// Converts a value from the SI unit to this unit.
     pub(crate) fn from_si(&self, value: f64) -> f64 {
-        // Without chosen units, the value stays exactly as it is.
+        // In an SI unit, the value stays exactly as it is.
         if self.size == 1.0 {
             value
         } else {
@@ -48,7 +48,7 @@ impl From<&'static str> for Unit {
 }
 
 impl LengthUnit {
-    /// The symbol, the symbol of its square, and the length in metres.
+    /// Returns the symbol of the unit, the symbol of its square, and its length in metres.
     fn parts(self) -> (&'static str, &'static str, f64) {
         match self {
             LengthUnit::Metre => ("m", "m²", 1.0),
@@ -61,7 +61,7 @@ impl LengthUnit {
 }
 
 impl ForceUnit {
-    /// The symbol, and the force in newtons.
+    /// Returns the symbol of the unit, and its size in newtons.
     fn parts(self) -> (&'static str, f64) {
         match self {
             ForceUnit::Newton => ("N", 1.0),
@@ -73,7 +73,7 @@ impl ForceUnit {
 }
 
 impl UnitsEntry {
-    /// The unit of lengths.
+    /// Returns the unit of lengths.
     pub fn length(&self) -> Unit {
         let (symbol, _, size) = self.length.unwrap_or_default().parts();
         Unit {
@@ -83,7 +83,7 @@ impl UnitsEntry {
         }
     }
 
-    /// The unit of forces and weights.
+    /// Returns the unit of forces and weights.
     pub fn force(&self) -> Unit {
         let (symbol, size) = self.force.unwrap_or_default().parts();
         Unit {
@@ -93,7 +93,7 @@ impl UnitsEntry {
         }
     }
 
-    /// The unit of torques: that of forces times that of lengths.
+    /// Returns the unit of torques: the unit of forces times the unit of lengths.
     pub fn torque(&self) -> Unit {
         let (length, force) = (self.length(), self.force());
         Unit {
@@ -103,7 +103,7 @@ impl UnitsEntry {
         }
     }
 
-    /// The unit of stresses: that of forces per square of that of lengths.
+    /// Returns the unit of stresses: the unit of forces divided by the square of the unit of lengths.
     pub fn stress(&self) -> Unit {
         let (length, force) = (self.length(), self.force());
         let (_, square, _) = self.length.unwrap_or_default().parts();
@@ -144,7 +144,8 @@ pub(super) fn to_si(scene: &mut Scene) {
     let lattice = scene.lattice.filter(|_| scene.exact);
     for body in grounds.chain(blocks) {
         convert(body, length);
-        // The corners of cells are computed from the lattice everywhere, with the same rounding.
+        // All modules compute the corners of cells from the lattice. They are computed again here, so that they have
+        // the same rounding.
         let cells = body.cells.as_ref().zip(lattice);
         if let Some(polygon) = cells.and_then(|(cells, lattice)| lattice.polygon(cells)) {
             body.polygon = polygon;

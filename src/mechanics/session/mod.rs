@@ -274,7 +274,7 @@ impl Session {
         frames.into_iter().next()?.margins
     }
 
-    /// Computes all forces that a placed block can carry, in addition to what acts already; see [`Analysis::capacity`].
+    /// Computes all forces that a placed block can carry, in addition to its present loads; see [`Analysis::capacity`].
     ///
     /// # Errors
     /// If the request is not valid, or if no proof was found.
@@ -340,7 +340,7 @@ impl Session {
     /// Reads all placed blocks again as one scene. If this fails, the current scene is kept.
     fn read_again(&mut self) -> Result<(), SceneError> {
         let mut file = self.file.clone();
-        // Contacts of blocks that were removed do not exist.
+        // Leave out the contacts of blocks that were removed.
         let names: BTreeSet<&str> = (self.file.blocks.iter())
             .filter_map(|b| b.id.as_deref())
             .chain(["ground"])

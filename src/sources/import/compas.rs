@@ -1,4 +1,5 @@
-//! Reads an assembly of `compas_assembly` from JSON: prismatic blocks, whose section in a plane is taken.
+//! Reads an assembly of `compas_assembly` from JSON. Its blocks must be prisms; the scene gets their section in a
+//! plane.
 //!
 //! The file is searched for the first object with nodes that have blocks, so that all versions of COMPAS are read: some
 //! wrap data as `data`, older ones as `value`.
@@ -29,14 +30,14 @@ struct Solid {
     faces: Vec<Vec<[f64; 3]>>,
 }
 
-/// True if a JSON text is an assembly with blocks.
+/// True if a JSON text contains an assembly with blocks.
 pub(super) fn is_assembly(text: &str) -> bool {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).unwrap_or_default();
     nodes(&value).is_some()
 }
 
-/// Reads an assembly. Also returns sentences about how it was read.
+/// Reads an assembly. Also returns notes: the plane of the section, the unit of length and the thickness.
 ///
 /// # Errors
 /// Blocks that are not prisms across a plane, and blocks of different thickness.
@@ -105,7 +106,8 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Says which block is not a prism across any plane, or that no plane fits all.
+/// Returns a message that names the first block that is not a prism across any of the planes. If there is no such
+/// block, the message says that the prisms have different planes.
 fn not_prismatic(solids: &[Solid]) -> String {
     let odd = solids
         .iter()
@@ -120,7 +122,7 @@ fn not_prismatic(solids: &[Solid]) -> String {
     }
 }
 
-/// Returns the nodes of the first graph with blocks.
+/// Returns the nodes of the first graph whose nodes have blocks. `None` if there is no such graph.
 fn nodes(value: &Value) -> Option<&Map<String, Value>> {
     match value {
         Value::Object(object) => {
@@ -133,7 +135,7 @@ fn nodes(value: &Value) -> Option<&Map<String, Value>> {
     }
 }
 
-/// Returns the object with the vertices and faces of a block.
+/// Returns the object with the vertices and faces of a block. `None` if there is no such object.
 fn mesh(block: &Value) -> Option<&Map<String, Value>> {
     let object = block.as_object()?;
     if object.get("vertex").is_some_and(Value::is_object) && object.contains_key("face") {
@@ -174,7 +176,8 @@ fn solid(name: &str, node: &Value) -> Option<Solid> {
     })
 }
 
-/// Returns the outline of a prism across the plane with these axes, and its thickness. `None` if it is not one.
+/// Returns the section of a block in the plane of the axes `right` and `up`, and its thickness along the axis `across`.
+/// `None` if the block is not a prism along that axis.
 fn prism(solid: &Solid, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f64)> {
     let size = solid
         .faces

@@ -20,14 +20,14 @@ struct Row {
     numbers: Vec<f64>,
 }
 
-/// True if a JSON text is a contact list.
+/// True if a JSON text is a contact list: an object with the lists `bodies` and `contacts`.
 pub(super) fn is_contact_list(text: &str) -> bool {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).unwrap_or_default();
     value["bodies"].is_array() && value["contacts"].is_array()
 }
 
-/// Reads a contact list. Also returns sentences about how it was read.
+/// Reads a contact list. Also returns notes about the units and the normals.
 ///
 /// # Errors
 /// All rows that are neither a body nor a contact, or that name a body that does not exist.
@@ -107,7 +107,7 @@ fn problem(element: &str, message: String, help: &str) -> Remark {
     }
 }
 
-/// The name of a body by its number; `None` if there is no such body.
+/// Returns the name of the body with this number; 0 is the ground. `None` if there is no such body.
 fn name(number: f64, bodies: usize) -> Option<String> {
     let is_body = number.fract() == 0.0 && (0.0..=bodies as f64).contains(&number);
     is_body.then(|| match number {
@@ -116,7 +116,7 @@ fn name(number: f64, bodies: usize) -> Option<String> {
     })
 }
 
-/// Converts a direction to degrees.
+/// Converts a direction to degrees. A direction very close to a multiple of 15° becomes that multiple.
 fn degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let near = 15.0 * (degrees / 15.0).round();
@@ -126,8 +126,8 @@ fn degrees(radians: f64) -> f64 {
     }
 }
 
-/// Reads rows of numbers, separated by commas, semicolons, tabs or spaces. Lines without a number, such as headings, and
-/// comments are skipped.
+/// Reads rows of numbers, separated by commas, semicolons, tabs or spaces. Skips comments, which begin with `#` or `%`,
+/// and lines without a number, such as headings. Also returns the problems.
 fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     let (mut rows, mut problems) = (Vec::new(), Vec::new());
     for (number, line) in text.lines().enumerate() {
@@ -152,7 +152,7 @@ fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     (rows, problems)
 }
 
-/// Reads a number, also with π: `pi`, `-pi/2`, `3*pi/2`.
+/// Parses a finite number, also with π: `pi`, `-pi/2`, `3*pi/2`. `None` for other text.
 fn value(cell: &str) -> Option<f64> {
     let cell = cell.replace('π', "pi").to_lowercase();
     if let Ok(number) = cell.parse::<f64>() {
@@ -172,7 +172,8 @@ fn value(cell: &str) -> Option<f64> {
     number.is_finite().then_some(number)
 }
 
-/// Reads the bodies and contacts of a JSON object: each a list of numbers, or an object with names.
+/// Reads the bodies and contacts of a JSON object. Each entry is a list of numbers, or an object with named numbers.
+/// Also returns the problems.
 fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     let file: Value = match serde_json::from_str(text) {
         Ok(file) => file,
@@ -211,7 +212,8 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     (rows, problems)
 }
 
-/// The number under the first of these names that exists; `centre.0` is the first entry of `centre`.
+/// Returns the number under the first of these names that the entry has. The name `centre.0` means the first entry of
+/// the list `centre`. `None` if the entry has none of the names.
 fn named(entry: &Value, names: &[&str]) -> Option<f64> {
     names.iter().find_map(|name| match name.split_once('.') {
         Some((list, number)) => entry[list][number.parse::<usize>().ok()?].as_f64(),

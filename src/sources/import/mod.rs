@@ -212,7 +212,7 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     }
 }
 
-/// Checks a scene that was not read from a drawing.
+/// Checks the scene of a contact list or of an assembly. The problems of the scene become remarks.
 fn complete(
     read: Result<(SceneFile, Vec<String>), Vec<Remark>>,
 ) -> Result<Imported, DrawingProblems> {

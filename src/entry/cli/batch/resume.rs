@@ -259,12 +259,12 @@ fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> 
     let expected = entry(scene, line);
     let (expected, found) = (expected.as_bytes(), &entry_line[..ENTRY_BYTES - 1]);
     if found[16..] != expected[16..] {
-        return Err("is not the one that drystone batch wrote: it was changed later".into());
+        return Err("was changed after drystone batch wrote it".into());
     }
     let now = input::origin(record);
     let then = Origin::of_line(line).unwrap_or_default();
     if now != then {
-        return Err(format!("answers {then}, and the input has {now} there"));
+        return Err(format!("answers {then}, but the input has {now} at this place"));
     }
     if found[..16] != expected[..16] {
         return Err(format!("answers another scene than {now} has now"));

@@ -6,7 +6,7 @@ use crate::cli::source::Source;
 use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
 
-/// Makes the entry of one scene, or of two scenes that are compared; `None` without a scene.
+/// Makes the entry of one scene, or of two scenes that are compared. `None` if there is no scene.
 pub(super) fn entry(
     read: &[(Source, String)],
     analyses: &[Analysis],
@@ -30,8 +30,8 @@ pub(super) fn entry(
     }
 }
 
-/// Replaces the characters that the fonts of drystone lack, but only in figures. The program that shows the Markdown has
-/// fonts of its own for the other text.
+/// Replaces characters that drystone's fonts do not have in the figures of an entry. The other text stays unchanged:
+/// the program that shows the Markdown has its own fonts.
 pub(super) fn make_figures_legible(
     entry: &mut Entry,
     read: &[(Source, String)],
@@ -51,7 +51,7 @@ pub(super) fn make_figures_legible(
     }
 }
 
-/// Returns the path as typed.
+/// Returns the path of a source as the user typed it.
 fn shown(source: &Source) -> String {
     source.path.display().to_string()
 }

@@ -79,7 +79,7 @@ pub enum ForceUnit {
 }
 
 impl LengthUnit {
-    /// The name of the unit in the plural.
+    /// Returns the name of the unit in the plural, such as `metres`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             LengthUnit::Metre => "metres",
@@ -92,7 +92,7 @@ impl LengthUnit {
 }
 
 impl ForceUnit {
-    /// The name of the unit in the plural.
+    /// Returns the name of the unit in the plural, such as `newtons`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             ForceUnit::Newton => "newtons",

@@ -33,7 +33,7 @@ fn help(expected: &str, found: &str) -> String {
             let size = found.trim_start_matches("the number ").trim_start_matches('-');
             format!("write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block")
         }
-        "a number" if is_text => "write a bare number in SI units: metres, newtons, kilograms, degrees".into(),
+        "a number" if is_text => "write a number without a unit: metres, newtons, kilograms, degrees, or the `units` of the file".into(),
         // The format has only one whole number: its version.
         "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {

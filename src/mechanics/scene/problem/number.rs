@@ -28,7 +28,7 @@ pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntr
     )
 }
 
-/// Returns the remedy for a number of a strange size.
+/// Returns the remedy for a number that is too large or too small: to check its unit.
 fn check_units(units: UnitsEntry) -> String {
     format!(
         "check the units: {}, kilograms, {}",

@@ -185,7 +185,7 @@ pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> W
 
 /// The overlap of two bodies.
 pub(in crate::mechanics::scene) struct Common {
-    /// How far one body must move so that they no longer overlap, metres.
+    /// How far one body must move so that they no longer overlap, in the units of the file.
     pub(in crate::mechanics::scene) depth: f64,
     /// The common area, m².
     pub(in crate::mechanics::scene) area: f64,

@@ -180,7 +180,7 @@ impl Resolution<'_> {
             .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
             .unwrap_or(self.density);
         let weighs_by_area = weight.is_none() && mass.is_none();
-        // Weights in newtons, from lengths and forces in the units of the file.
+        // The weight is in newtons. The area and the thickness are in the units of the file.
         let [length, force] = [self.units.length().size, self.units.force().size];
         let volume = || area * self.thickness * (length * length * length);
         let weight = match weight {
@@ -202,7 +202,8 @@ impl Resolution<'_> {
 }
 
 impl Resolution<'_> {
-    /// A block that gives its centre instead of an outline. The weight is in newtons.
+    /// Makes a block that has a centre and no outline in the file. `weight` is in newtons. Returns `None` if the block
+    /// is not valid.
     fn schematic_block(
         &self,
         findings: &mut Findings,
@@ -245,7 +246,7 @@ impl Resolution<'_> {
             body: Body {
                 material,
                 fill: fill.or(values.and_then(|v| v.fill)),
-                // The contacts are not known yet; see `add_schematic_outlines`.
+                // This outline is a placeholder. `add_schematic_outlines` replaces it when the contacts are known.
                 ..self.schematic([vec![centroid], beside.to_vec()].concat())
             },
             weight,

@@ -9,8 +9,8 @@ use crate::scene::path::Trail;
 use crate::scene::rounding::{self, Rounding};
 use crate::scene::{Block, Ground};
 
-/// The largest distance, in metres, by which rounding can move a corner off the edge that it touches. The corner and
-/// both ends of the edge can each have the error of a coordinate.
+/// Returns the largest distance by which rounding can move a corner off the edge that it touches, in the units of the
+/// file. The corner and both ends of the edge can each have the error of a coordinate.
 fn misfit(rounding: &Rounding) -> f64 {
     3.0 * rounding.error
 }
@@ -23,12 +23,12 @@ pub(super) struct Closeness {
     reach: HealingReach,
     /// The bodies and corners that healing moved.
     pub(super) healed: Healed,
-    /// The largest distance, in metres, by which rounding can move a corner off the edge that it touches.
+    /// The largest distance by which rounding can move a corner off the edge that it touches, in the units of the file.
     pub(super) misfit: f64,
 }
 
 impl Closeness {
-    /// The contact tolerance of the whole scene.
+    /// Returns the contact tolerance of the whole scene, in the units of the file.
     pub(super) fn tolerance(&self) -> Tolerance {
         if self.exact {
             Tolerance::EXACT
@@ -37,7 +37,7 @@ impl Closeness {
         }
     }
 
-    /// Whether the file or the caller gives the tolerance.
+    /// True if the file or the caller gives the tolerance.
     pub(super) fn is_given(&self) -> bool {
         self.reach.source == ToleranceSource::Given
     }
@@ -83,8 +83,8 @@ impl Resolution<'_> {
     }
 }
 
-/// The tolerance of healing: the given one, or else an estimate from the digits of the coordinates and the scene's
-/// extent. Lengths in metres.
+/// Returns the tolerance of healing: the given tolerance, or else an estimate from the digits of the coordinates and
+/// the scene's extent. All lengths are in the units of the file.
 fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>]) -> HealingReach {
     if let Some(gap) = given {
         return HealingReach {

@@ -1,4 +1,4 @@
-//! Resolves the listed contacts, and gives bodies without an outline a schematic one.
+//! Resolves the listed contacts, and gives each body without an outline a schematic outline.
 
 use super::Resolution;
 use crate::geometry::{Bounds, Point, Polygon, Vector, cross, quarter_turn, sin_cos_degrees};
@@ -21,7 +21,7 @@ impl Resolution<'_> {
         !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
     }
 
-    /// Returns the listed contacts that are valid.
+    /// Returns the listed contacts that are valid. Reports the problems of the others.
     pub(super) fn contacts(
         &self,
         findings: &mut Findings,
@@ -54,7 +54,7 @@ impl Resolution<'_> {
             };
             let (sin, cos) = sin_cos_degrees(entry.normal);
             let normal = Vector::new(cos, sin);
-            // The later block comes first, the ground last, as in every interface.
+            // The two bodies are in the order of every interface: the later block first, the ground last.
             let (bodies, normal) = match a > b {
                 true => ([a, b], normal),
                 false => ([b, a], -normal),
@@ -69,8 +69,8 @@ impl Resolution<'_> {
         contacts
     }
 
-    /// Replaces the outline of each block without one by the hull of its centre and its contacts. If the scene has no
-    /// ground, adds a small support below each contact with the ground.
+    /// Gives each block without an outline the convex hull of its contacts and a small disc around its centre. If the
+    /// scene has no ground, adds a small support behind each contact with the ground.
     pub(super) fn add_schematic_outlines(
         &self,
         ground: &mut Vec<Option<Ground>>,
@@ -105,7 +105,8 @@ impl Resolution<'_> {
         }
     }
 
-    /// A schematic support behind a contact with the ground.
+    /// Makes a schematic support for a contact with the ground at the point `at`. The support lies opposite to the
+    /// direction of `normal`, and its width is twice `size`.
     fn support(&self, at: Point, normal: Vector, size: f64) -> Body {
         let along = quarter_turn(normal) * size;
         let back = normal * (-0.8 * size);
@@ -113,7 +114,7 @@ impl Resolution<'_> {
         self.schematic(corners)
     }
 
-    /// A body with this outline, which does not come from the file.
+    /// Makes a schematic body. Its outline is the convex hull of the corners.
     pub(super) fn schematic(&self, corners: Vec<Point>) -> Body {
         Body {
             polygon: Polygon::from_valid_rings(vec![hull(corners)]),

@@ -16,7 +16,7 @@ pub struct SketchedBody {
     pub id: BodyId,
     /// A block's id, or `ground[2]`.
     pub name: String,
-    /// Its outline and holes in metres. They may cross, and may have any number of corners.
+    /// Its outline and holes, in the units of the file. They may cross, and may have any number of corners.
     pub rings: Vec<Vec<Point>>,
     pub(in crate::mechanics::scene) placement: Placement,
 }
@@ -125,7 +125,8 @@ impl Resolution<'_> {
             .collect()
     }
 
-    /// The corners of one cell in metres. `None` if the scene has no lattice or the cell's coordinates are not allowed.
+    /// The corners of one cell, in the units of the file. `None` if the scene has no lattice or the cell's coordinates
+    /// are not allowed.
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
         let (x, y, half) = match cell {

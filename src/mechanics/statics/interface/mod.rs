@@ -133,7 +133,8 @@ pub struct Interfaces {
 }
 
 impl Interfaces {
-    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if it is made of lattice cells, otherwise within its tolerance.
+    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if it is made of lattice
+    /// cells, otherwise within its tolerance.
     ///
     /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched
     /// only if the scene requests them.
@@ -159,7 +160,7 @@ impl Interfaces {
         found
     }
 
-    /// The contacts that the scene lists: each is a point, like the contact of a corner.
+    /// Returns the contacts that the scene lists. Each acts at one point, like a corner contact.
     fn listed(scene: &Scene) -> Interfaces {
         let contacts = scene.contacts.iter().map(|contact| Interface {
             bodies: contact.bodies,

@@ -28,7 +28,7 @@ pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     }
 }
 
-/// True if a box coincides with one of the boxes, which are sorted by their left sides.
+/// True if the box `own` coincides with one of `boxes` within a tolerance. `boxes` must be sorted by their left sides.
 pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
     let tolerance = SAME_TOL * own.diagonal();
     let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);

@@ -49,7 +49,8 @@ impl<'t> Groups<'_, 't> {
         Some(*first)
     }
 
-    /// Skips to the next group with this code, which is read next. `None` if there is none; nothing is skipped then.
+    /// Skips the groups before the next group with this code. `None` if there is no such group; then nothing is
+    /// skipped.
     fn skip_to(&mut self, code: i32) -> Option<()> {
         let skipped = self.rest.iter().position(|(c, _)| *c == code)?;
         self.rest = &self.rest[skipped..];
