@@ -264,7 +264,9 @@ fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> 
     let now = input::origin(record);
     let then = Origin::of_line(line).unwrap_or_default();
     if now != then {
-        return Err(format!("answers {then}, but the input has {now} at this place"));
+        return Err(format!(
+            "answers {then}, but the input has {now} at this place"
+        ));
     }
     if found[..16] != expected[..16] {
         return Err(format!("answers another scene than {now} has now"));
