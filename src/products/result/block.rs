@@ -1,4 +1,4 @@
-//! The placed blocks of a frame, as written in JSON on request.
+//! The placed blocks of a frame, which the JSON result contains on request.
 
 use serde::Serialize;
 

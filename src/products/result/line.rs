@@ -136,7 +136,7 @@ impl Fields {
         self.chosen.iter().any(|path| path == &["all"])
     }
 
-    /// True if only the title or the worst verdict are selected. Then [`verdict_line`] is sufficient.
+    /// True if no fields except the title and the worst verdict are selected. [`verdict_line`] is then sufficient.
     pub fn are_few(&self) -> bool {
         let few = |path: &Vec<&str>| matches!(path[..], ["scene"] | ["verdict"]);
         self.chosen.iter().all(few)
@@ -225,7 +225,8 @@ pub fn line_of(
     ended(out)
 }
 
-/// Writes a line with the title of the scene and its verdict, as far as they are selected, with a line feed.
+/// Writes a line with the title of the scene and its verdict, and a line feed. Fields that are not selected are left
+/// out.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
     let mut out = begun(origin);
     put_few(&mut out, title, verdict, fields);
@@ -274,13 +275,14 @@ fn put(out: &mut String, name: &str, value: &Value) {
     out.push_str(&value.to_string());
 }
 
-/// Returns the rest of each selected path that begins with `name`. The rest is empty if the name itself is selected.
+/// Selects the paths that begin with `name`, and returns the rest of each path. The rest is empty if `name` is the
+/// whole path.
 fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     let under = chosen.iter().filter(|path| path.first() == Some(&name));
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value, in the order of `parts`.
+/// Writes the selected parts of a value as JSON, in the order of `parts`.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

@@ -104,7 +104,7 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     written(&Result::new(analysis, timing), layout)
 }
 
-/// Like [`to_json`], with the path of the scene file as `file`.
+/// Like [`to_json`], with the path of the scene file under the key `file`.
 pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let mut result = Result::new(analysis, timing);
     result.file = Some(file);
@@ -163,7 +163,7 @@ struct Tolerance {
     largest_move: Number,
 }
 
-/// True if serde leaves the key out: the total is proved to be the least.
+/// True if the key is left out because the total is proved to be the least.
 fn is_least(least: &bool) -> bool {
     *least
 }
@@ -344,7 +344,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// True if the effect was simulated.
+/// True if the analysis simulated this effect in the frame.
 fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
     frame
         .effects

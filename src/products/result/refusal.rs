@@ -100,7 +100,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     )
 }
 
-/// Makes the entries for the problems of a text that begins after `before` lines of its file.
+/// Makes the entries for the problems of a text. `before` is the number of lines before this text in its file.
 fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
     problems

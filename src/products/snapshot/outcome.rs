@@ -1,4 +1,4 @@
-//! [`CheckOutcome`]: the references that do not match, with descriptions and their new contents.
+//! [`CheckOutcome`]: the references that do not match, with descriptions and new contents.
 
 use std::path::{Path, PathBuf};
 
@@ -101,12 +101,12 @@ impl Snapshot {
         self.findings.is_empty()
     }
 
-    /// Returns the folders of its references, sorted and without duplicates.
+    /// Returns the folders of the references of this snapshot, sorted and without duplicates.
     pub fn folders(&self) -> Vec<PathBuf> {
         folders(&self.references)
     }
 
-    /// Describes the findings, one or more lines for each.
+    /// Describes the findings; each finding has one or more lines.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for finding in &self.findings {
@@ -139,7 +139,7 @@ impl Snapshot {
         lines
     }
 
-    /// Returns the files and new contents that can be written as references.
+    /// Returns the files that can be written as references, with their new contents.
     fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
@@ -178,7 +178,7 @@ impl Snapshot {
 }
 
 impl CheckOutcome {
-    /// True if all references match and have a scene, and the program failed on no scene.
+    /// True if all references match, every reference has a scene, and the program did not fail on any scene.
     pub fn matches(&self) -> bool {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }

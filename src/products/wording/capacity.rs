@@ -5,7 +5,7 @@ use crate::analysis::{CapacityShape, LoadCapacity};
 use crate::scene::Scene;
 use crate::text;
 
-/// Describes a capacity in one or two sentences: where the force acts, and how large it may be to each side.
+/// Describes a capacity in one or two sentences: where the force acts, and how large it may be in each direction.
 pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
     let what = match capacity.shape() {
@@ -56,7 +56,8 @@ const SIDES: [([f64; 2], &str); 4] = [
     ([0.0, -1.0], "down"),
 ];
 
-/// Lists the largest force straight to each side; `None` if the frame does not stand without a force.
+/// Lists the largest force to the right, to the left, up and down. Returns `None` if the frame does not stand without a
+/// force.
 pub fn sides(capacity: &LoadCapacity) -> Option<String> {
     let each = SIDES.map(|(direction, word)| {
         let most = capacity.reach(direction)?;
@@ -96,7 +97,8 @@ pub fn ranges(capacity: &LoadCapacity) -> String {
     )
 }
 
-/// A force that is only the rounding of larger ones is 0.
+/// Returns 0 for a force that is only a rounding error relative to the largest force of the capacity; otherwise the
+/// force itself.
 fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     let largest = sizes.chain(capacity.edges.iter().map(|e| e.limit.abs()));

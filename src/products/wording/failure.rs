@@ -9,7 +9,7 @@ use crate::scene::{BlockId, BodyId, Scene, Unit};
 /// At most this many unsupported blocks are named; the rest is counted.
 const MAX_LISTED_BLOCKS: usize = 6;
 
-/// Returns the size of the missing force (N) or torque (N·m).
+/// Returns the magnitude of the missing force (N) or torque (N·m).
 pub fn amount(failure: &Failure) -> f64 {
     match failure {
         Failure::Tension { force, .. }
@@ -19,7 +19,7 @@ pub fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// Sorts the failures of a frame by size, largest first. Equal failures keep their order.
+/// Sorts the failures of a frame by magnitude, largest first. Equal failures keep their order.
 pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
@@ -123,8 +123,8 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Writes a clause that names the bodies or the robot that would have to provide the missing force. `write` writes an amount
-/// with its unit.
+/// Writes a clause that names the bodies or the robot that would have to provide the missing force. `write` formats an
+/// amount with its unit.
 pub fn missing_sentence(
     scene: &Scene,
     failure: &Failure,
@@ -165,7 +165,7 @@ pub fn missing_sentence(
     }
 }
 
-/// Names the blocks that even adhesion could not hold; `None` if there are none.
+/// Names the blocks that even adhesion could not hold; `None` if there are no such blocks.
 pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let blocks = found.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
@@ -237,7 +237,7 @@ fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     reached
 }
 
-/// Keeps the first `max` parts, and replaces the others by their number: `3 more`.
+/// Keeps the first `max` parts, and replaces the others by a count: `3 more`.
 pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
     if parts.len() > max {
         let left = parts.len() - max;

@@ -8,7 +8,7 @@ use crate::scene::format::UnitsEntry;
 pub const NO_BREAK: char = '\u{a0}';
 
 /// Writes a value in an SI unit with three significant digits, a prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
-/// In a unit that the scene chooses there is no prefix: `0.0024 kN`.
+/// Units that the scene chooses have no prefix: `0.0024 kN`.
 pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
     match unit.is_chosen {
@@ -92,7 +92,8 @@ fn superscript(value: i32) -> String {
     value.to_string().chars().map(raised).collect()
 }
 
-/// Writes the norm and direction of a force: `7.1 N at 30°`, anticlockwise from the positive x axis.
+/// Writes the magnitude and the direction of a force: `7.1 N at 30°`. The angle is anticlockwise from the positive x
+/// axis.
 pub fn force(force: Vector, units: UnitsEntry) -> String {
     // Round before reducing to 0 … 359, so that an angle just below 0 gives 0° and neither −0° nor 360°.
     let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
@@ -130,7 +131,7 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// Returns the largest number at most `value` that is 1, 2 or 5 times a power of ten; 0 if there is none.
+/// Returns the largest number at most `value` that is 1, 2 or 5 times a power of ten; 0 if there is no such number.
 pub fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 0.0;
@@ -145,7 +146,7 @@ pub fn round_below(value: f64) -> f64 {
     format!("{lead}e{exponent}").parse().unwrap_or(0.0)
 }
 
-/// Like [`round_below`], for a number in an SI unit that is round in another unit.
+/// Like [`round_below`], but the number is round in `unit`. Both `value` and the result are in the SI unit.
 pub fn round_below_in(value: f64, unit: Unit) -> f64 {
     match unit.size {
         1.0 => round_below(value),
@@ -162,7 +163,7 @@ pub fn listed(parts: &[String]) -> String {
     }
 }
 
-/// Returns the letter of a panel, counted from 0: a … z, then aa, ab ….
+/// Returns the letter of a panel: a … z, then aa, ab …. `number` is counted from 0.
 pub fn letter(number: usize) -> String {
     let mut rest = number + 1;
     let mut letters = Vec::new();
@@ -205,18 +206,18 @@ pub fn three(x: f64) -> String {
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
-/// Writes a number above 0 like [`three`], but never larger than it is, as far as margins are accurate.
+/// Writes a number above 0 like [`three`], but rounded down, within the accuracy of margins.
 pub fn three_down(x: f64) -> String {
     three_beyond(x, -1.0)
 }
 
-/// Writes a number above 0 like [`three`], but never smaller than it is, as far as margins are accurate.
+/// Writes a number above 0 like [`three`], but rounded up, within the accuracy of margins.
 pub fn three_up(x: f64) -> String {
     three_beyond(x, 1.0)
 }
 
-/// Writes a number with three significant digits, or the next such number in the direction of `sign` if rounding went the
-/// other way.
+/// Writes a number with three significant digits, rounded in the direction of `sign`. Differences smaller than the
+/// accuracy of margins do not count.
 fn three_beyond(x: f64, sign: f64) -> String {
     // Margins are accurate to this relative distance.
     const ACCURATE: f64 = 1e-6;
@@ -229,8 +230,8 @@ fn three_beyond(x: f64, sign: f64) -> String {
     three(written + sign * digit)
 }
 
-/// Chooses one unit for a column of numbers up to `largest`. Returns the unit with its SI prefix, and the factor for
-/// the numbers.
+/// Chooses one SI prefix for a column of numbers up to `largest`. Returns the unit with this prefix, and the factor by
+/// which the numbers are multiplied.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     let (prefix, factor) = match largest {
         x if x >= 2e9 => ("G", 1e-9),
@@ -255,7 +256,7 @@ pub fn tenths(share: f64) -> String {
     format!("{} %", digits((share * 1000.0).round() / 10.0))
 }
 
-/// Writes a time in ms or s with four digits.
+/// Writes a time in ms or s with four digits. `seconds` is the time in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{} ms", digits(seconds * 1e3))

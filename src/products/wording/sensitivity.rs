@@ -1,4 +1,4 @@
-//! Describes the sensitivity of a margin in words: the changes with the largest effect, with their amounts.
+//! Describes the sensitivity of a margin: the changes of the scene with the largest effect, with their amounts.
 
 use super::failure::{named, pair};
 use super::number::{digits, round_below, three};
@@ -45,8 +45,7 @@ pub struct Change {
     pub after: f64,
 }
 
-/// Returns the changes with the largest effect, the most effective first: at most `most` of them. All make the interval
-/// of the margin larger.
+/// Returns at most `most` changes that make the interval of the margin larger, the most effective first.
 pub fn most_effective(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -64,12 +63,12 @@ pub fn most_effective(
     list
 }
 
-/// The length by which corners and loads are moved, metres: 1, 2 or 5 times a power of ten.
+/// Returns the length by which corners and loads are moved, metres. It is 1, 2 or 5 times a power of ten.
 pub fn step_length(found: &FrameAnalysis) -> f64 {
     round_below(SHARE_OF_LENGTH * found.length * (1.0 + 1e-9))
 }
 
-/// Writes a length in millimetres, or in metres if it is longer than one.
+/// Writes a length in millimetres, or in metres from 1 m.
 pub fn length(metres: f64) -> String {
     match metres < 1.0 {
         true => format!("{} mm", digits(1e3 * metres)),
@@ -77,7 +76,7 @@ pub fn length(metres: f64) -> String {
     }
 }
 
-/// The changes of corners. Corners that move together are listed once.
+/// Returns the changes of corners. Corners that move together are listed once.
 fn corners(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -127,7 +126,7 @@ fn corners(
     list
 }
 
-/// The changes of weights, friction and loads.
+/// Returns the changes of weights, friction and loads.
 fn others(scene: &Scene, found: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<Change> {
     let mut list = Vec::new();
     let mut add = |target: Target, words: String, amount: f64, rate: f64| {
@@ -180,7 +179,8 @@ fn others(scene: &Scene, found: &FrameAnalysis, end: &EndSensitivity, outward: f
     list
 }
 
-/// Returns the side, 1 or −1, to which the interval grows most, and its growth per unit there. `None` if it does not grow.
+/// Returns the sign of the change (1 or −1) for which the interval grows most, and its growth per unit. Returns `None`
+/// if the interval does not grow.
 fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     let [backward, forward] = slope.both()?;
     let sides = [(1.0, outward * forward), (-1.0, -outward * backward)];
@@ -188,8 +188,8 @@ fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     (best.1 > 0.0).then_some(best)
 }
 
-/// Returns the unit vector along which the interval grows most, and its growth per metre. At a kink only the axes are
-/// compared.
+/// Returns the unit vector along which the interval grows most, and its growth per metre. At a kink only the directions
+/// of the axes are compared. Returns `None` if the interval does not grow.
 pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)> {
     if let [Slope::Unique(x), Slope::Unique(y)] = slopes {
         let gradient = Vector::new(x, y) * outward;
@@ -204,7 +204,7 @@ pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)>
     both.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Names one of eight directions: `up and to the left`.
+/// Names the nearest of eight directions: `up and to the left`.
 fn toward(direction: Vector) -> String {
     // The tangent of 22.5°.
     const NARROW: f64 = 0.414_213_562_373_095_1;
@@ -220,7 +220,7 @@ fn toward(direction: Vector) -> String {
     }
 }
 
-/// The name of a margin's value.
+/// Returns the name of an end of a margin. `is_high` selects the upper end.
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Friction, _) => "least friction",
@@ -234,7 +234,7 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     }
 }
 
-/// Writes a value of a margin, without its sign if the name gives the side.
+/// Writes a value of a margin. The sign is left out if the name gives the direction.
 pub fn value(kind: MarginKind, value: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", three(value.abs())),
@@ -243,7 +243,7 @@ pub fn value(kind: MarginKind, value: f64) -> String {
     }
 }
 
-/// Describes the ends of a margin in lines: for each end the most effective changes.
+/// Describes the ends of a margin in lines. Each end has its most effective changes.
 pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
     let kind = sensitivity.kind;
     let mut lines = Vec::new();
@@ -276,7 +276,7 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
     lines
 }
 
-/// Why there is no sensitivity, in a sentence.
+/// Returns a sentence that explains why there is no sensitivity.
 pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
     let name = name(kind, true);
     match reason {
@@ -301,7 +301,7 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
     }
 }
 
-/// The number of derivatives that were not computed.
+/// Returns the number of corners, weights, friction coefficients and loads for which a derivative is not unique.
 fn kinks(end: &EndSensitivity) -> usize {
     let is_kink = |slope: &Slope| slope.both().is_none();
     let corners = end.corners.iter().filter(|corner| match corner.moves {

@@ -26,7 +26,7 @@ pub fn plain(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Writes a number of frames or scenes with their verdict: `1 stands`, `3 fall`.
+/// Writes a number of frames or scenes with a verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {
         (Verdict::Stable, 1) => "stands",
@@ -38,8 +38,8 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
     format!("{count} {word}")
 }
 
-/// Describes briefly why a frame does not stand, or that it stands only by wedging, for the line below a figure.
-/// Empty if it stands otherwise.
+/// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this below the
+/// verdict. Empty for all other frames.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
         // What decides has to fit in two lines. Remedies are in the report and on the terminal.
@@ -64,8 +64,8 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty if it
-/// stands otherwise.
+/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty for all
+/// other frames.
 pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
     reasons_with(scene, found, &|value, unit| quantity(value, unit))
 }
@@ -99,7 +99,7 @@ pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     sentence_with(scene, found, &|value, unit| quantity(value, unit))
 }
 
-/// The same; `write` writes an amount with its unit.
+/// Like [`sentence`]; `write` formats an amount with its unit.
 pub fn sentence_with(
     scene: &Scene,
     found: &FrameAnalysis,

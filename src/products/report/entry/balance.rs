@@ -1,5 +1,5 @@
-//! [`whole`] and [`of_block`]: tables of balanced forces for a check by hand. One is for the whole structure with its
-//! reactions, the other for one block as a free body.
+//! [`whole`] and [`of_block`]: tables of forces for a check of equilibrium by hand. One table lists the external forces
+//! on the whole structure, the other lists the forces on one block.
 
 use super::unit::Units;
 use super::{Grid, TableCell};
@@ -40,7 +40,7 @@ impl Force {
         }
     }
 
-    /// Adds several forces up to one row: the sums of forces and of moments.
+    /// Adds several forces to one row with the sum of the forces and the sum of the moments.
     fn sum(what: impl Into<String>, forces: &[Force]) -> Force {
         Force {
             what: what.into(),
@@ -88,7 +88,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     table(caption, &forces, Units::new(scene, found))
 }
 
-/// Lists the forces on one block, and their sum. Moments are about its centroid.
+/// Lists the forces on one block, and their sum. Moments are about the centroid of the block.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
@@ -136,8 +136,8 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
     }
 }
 
-/// Returns the forces of the ground on the blocks: one for each joint, or one for each part of the ground if there
-/// are more than [`MAX_REACTIONS`] joints.
+/// Returns the forces of the ground on the blocks, one for each joint. If there are more than [`MAX_REACTIONS`] joints,
+/// returns one force for each part of the ground.
 fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &found.contacts {
@@ -187,8 +187,8 @@ fn robots(
     holding.map(force).collect()
 }
 
-/// Returns the missing forces on these blocks, without those that the blocks would exert on each other. More than
-/// [`MAX_REACTIONS`] are added up.
+/// Returns the missing forces on these blocks. Forces that these blocks would exert on each other cancel and are left
+/// out. More than [`MAX_REACTIONS`] forces are added to one sum.
 fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &found.failures {

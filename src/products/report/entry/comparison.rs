@@ -35,7 +35,7 @@ pub struct Side<'s> {
     pub analysis: &'s Analysis,
 }
 
-/// Makes the content of a report that compares two scenes: the first, then the second.
+/// Makes the content of a report that compares two scenes. `sides` has the first scene, then the second.
 pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     let [was, is] = sides;
     let (stated, sections) = steps(sides, wanted);
@@ -73,7 +73,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     }
 }
 
-/// Compares the steps in their order: a sentence about each, and the sections of the report.
+/// Compares the steps in order. Returns a sentence about each step, and the sections of the report.
 fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Section>) {
     let [was, is] = sides;
     let options = sheet::options(wanted);
@@ -134,7 +134,7 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// Describes a step that only one of the scenes has: its sentence `why`, and its section.
+/// Describes a step that only one of the scenes has. Returns the sentence `why`, and a section for the step.
 fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
     let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
     let mut section = sheet::empty(scene, number, found.verdict);
@@ -144,7 +144,7 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
     (why.to_owned(), section)
 }
 
-/// Compares a step that both scenes have: a sentence about the changes, and the section.
+/// Compares a step that both scenes have. Returns a sentence about the changes, and a section for the step.
 fn both(
     sides: [Side<'_>; 2],
     number: usize,

@@ -9,7 +9,7 @@ use crate::result::Timing;
 use crate::text::line;
 use crate::wording::number::{counted, duration};
 
-/// Makes the table of the effects of a step. Times are in it only if `timing` includes them.
+/// Makes the table of the effects of a step. The table has times only if `timing` includes them.
 pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     let timed = timing == Timing::Included;
     let (caption, heads): (&str, &[&str]) = match timed {
@@ -36,7 +36,7 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     grid
 }
 
-/// Returns the cells of an effect, and its time.
+/// Returns the table cells of an effect, and the time of the effect.
 fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
     let time = match described.effect {
         _ if !described.simulated => "none".to_owned(),
@@ -58,7 +58,7 @@ fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
     ([name, simulated.to_owned(), why, unknowns], time)
 }
 
-/// Returns the cells of the stages that all effects share, and their times.
+/// Returns the table cells of the stages that all effects share, and their times.
 fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     let stage = |name: &str, why: &str, seconds: f64| {
         let cells = [name, "", why, ""].map(str::to_owned);
@@ -78,7 +78,7 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     ]
 }
 
-/// Returns the cells of the last row, with the sums of all effects, and the total time.
+/// Returns the cells of the last row, which has the sums over all effects, and the total time.
 fn sum(found: &FrameAnalysis) -> ([String; 4], String) {
     let solve = &found.solve;
     let simulated = found.effects.iter().filter(|e| e.simulated);

@@ -1,4 +1,4 @@
-//! [`appendix`]: all other results of a frame, for a full report.
+//! [`appendix`]: the results of a frame that only a full report shows.
 
 use super::cost::cost;
 use super::joints::{Ranking, missing};

@@ -75,7 +75,7 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-/// Returns the density of a block in kg/m³, computed from its weight. `None` if gravity or thickness is zero.
+/// Returns the density of a block in kg/m³, computed from its weight. Returns `None` if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
     if own.body.is_schematic {

@@ -74,9 +74,9 @@ impl<'a> Ranking<'a> {
         }
     }
 
-    /// Returns the block to draw as a free body: a block at the largest failure, else a block at the joint with the
-    /// highest utilisation. If that joint lies between two blocks, it is the heavier one. `None` if no joint carries
-    /// force.
+    /// Returns the block that is drawn as a free body. This is a block at the largest failure or, without failures, at
+    /// the joint with the highest utilisation. Of two blocks it is the heavier one. Returns `None` if there is no
+    /// failure and no joint carries force.
     pub fn block(&self) -> Option<BlockId> {
         let bodies = match failure::by_amount(self.found).first() {
             Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
@@ -99,7 +99,7 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. `None` if no joint carries
+    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. Returns `None` if no joint carries
     /// force.
     pub fn governing(&self) -> Option<String> {
         let first = self.used.first()?;
@@ -113,7 +113,7 @@ impl<'a> Ranking<'a> {
         Some(format!("{}: {why}", name(self.scene, contact)))
     }
 
-    /// Makes the table of the first [`MAX_JOINTS`] joints, or of `all` joints that carry force.
+    /// Makes the table of joints that carry force: all of them with `all`, otherwise the first [`MAX_JOINTS`].
     pub fn table(&self, all: bool) -> Grid {
         let shown: &[Used] = match all {
             true => &self.used,
@@ -170,7 +170,7 @@ impl<'a> Ranking<'a> {
         grid
     }
 
-    /// Explains the columns of the table, and how many of the joints it lists.
+    /// Explains the columns of the table, and states how many joints it lists.
     pub fn words(&self) -> String {
         let count = self.found.contacts.len();
         let shown = self.used.len().min(MAX_JOINTS);
@@ -190,7 +190,7 @@ impl<'a> Ranking<'a> {
         )
     }
 
-    /// Returns the hover targets of joints, robots and failures in a figure. Empty if there are more than
+    /// Returns the parts of a figure with a tooltip: joints, robots and failures. Empty if there are more than
     /// [`MAX_HOVER_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
         if self.found.contacts.len() > MAX_HOVER_TARGETS {
@@ -232,7 +232,7 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// A failure in words, in the unit of the sheet.
+/// Describes a failure, with amounts in the unit of the sheet.
 pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
     let write = |value: f64, unit: Unit| units.words(value, unit);
     failure::missing_sentence(scene, failed, &write)
@@ -252,8 +252,8 @@ pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
     line(&format!("{a} / {b}"))
 }
 
-/// Returns the distance of a resultant from the middle of its joint, m, and that distance relative to the largest one
-/// allowed. `None` for a corner or a joint without length.
+/// Returns the distance of a resultant from the middle of its joint, m, and the same distance divided by the largest
+/// allowed distance (at most 1). Returns `None` for a corner or a joint of length 0.
 fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let interface = &contact.interface;
     let half = 0.5 * interface.length() * (1.0 - kernel);
@@ -272,7 +272,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// Makes a table of the robots of a frame, with their forces and the highest utilisation of their limits.
+/// Makes a table of the robots of a frame, with their forces and the largest used share of their limits.
 pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
     let units = Units::new(scene, found);

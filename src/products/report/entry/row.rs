@@ -1,4 +1,4 @@
-//! [`Row`]: the row of a scene in the table of all scenes.
+//! [`Row`]: the row of one scene in the table of all scenes.
 
 use super::bullet;
 use super::governing::{governing, headline_words};
@@ -132,7 +132,7 @@ impl Row {
         }
     }
 
-    /// Returns the headline margin as text, or a dash if there is none.
+    /// Returns the headline margin as text, or a dash if there is no margin.
     pub(crate) fn margin_words(&self) -> String {
         match self.headline.as_str() {
             "" => "–".to_owned(),
@@ -140,19 +140,19 @@ impl Row {
         }
     }
 
-    /// Returns the largest share of the available friction that is used, as text.
+    /// Returns the largest used share of the available friction as text; `none stands` if no frame stands.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
     }
 
-    /// Returns the largest force as text, with its unit.
+    /// Returns the largest force as text with its unit; `none stands` if no frame stands.
     pub(crate) fn largest_words(&self) -> String {
         let words = |largest| quantity(largest, self.units.force());
         self.largest.map_or_else(|| "none stands".into(), words)
     }
 }
 
-/// Returns the name of a file without folders and extension.
+/// Returns the name of a file without folders and without `.json`.
 pub(super) fn file_name(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = last.strip_suffix(".json").unwrap_or(last);
@@ -192,7 +192,8 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     Thumbnail { blocks, ground }
 }
 
-/// SVG path data, rounded to 0.1 pixels. Points outside are moved to the border.
+/// Returns the SVG path data of an outline, rounded to 0.1 pixels. Points outside the thumbnail are moved to its
+/// border.
 fn path_data(outline: &Outline) -> String {
     let (width, height) = THUMBNAIL;
     let number = |x: f64| {

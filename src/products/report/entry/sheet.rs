@@ -23,7 +23,8 @@ const WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
 const HEIGHT: f64 = 300.0;
 
-/// Returns the options for figures in a report. Figures have no titles and verdicts, because the page shows them.
+/// Returns the options for figures in a report. The figures have no titles and no verdicts, because the page shows
+/// both.
 pub(super) fn options(wanted: &ReportOptions) -> Options {
     Options {
         theme: wanted.theme.clone(),
@@ -36,7 +37,7 @@ pub(super) fn options(wanted: &ReportOptions) -> Options {
     }
 }
 
-/// Makes a section without parts. It has the title of the step, and its letter if there are several steps.
+/// Makes a section without parts. Its title is the title of the step, with a letter if there are several steps.
 pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
@@ -56,7 +57,7 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     }
 }
 
-/// Makes the two pages on a frame.
+/// Makes the two pages of a frame.
 pub(super) fn sheet(
     analysis: &Analysis,
     number: usize,
@@ -96,7 +97,8 @@ pub(super) fn sheet(
     section
 }
 
-/// Describes other steps that do not stand, two next to each other: the first figure of each, and the reason.
+/// Describes other steps that do not stand, in two columns. Each step has its first figure and the reason for its
+/// verdict.
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
@@ -127,7 +129,7 @@ pub(super) fn others(
         .collect()
 }
 
-/// The verdict with its reasons, in the unit of the sheet.
+/// Returns a sentence with the verdict and its reasons, with amounts in the unit of the sheet.
 fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     let units = Units::new(scene, found);
     let write = |value: f64, unit: Unit| units.words(value, unit);
@@ -143,8 +145,8 @@ fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
     }
 }
 
-/// Draws the pictures of a frame. If it falls, they show the collapse and the forces. Otherwise they show the force
-/// flow, and how it would fall beyond its margin.
+/// Draws the pictures of a frame. If the frame falls, they show the collapse and the forces. Otherwise they show the
+/// force flow, and how the frame would fall beyond its margin.
 fn figures(
     analysis: &Analysis,
     number: usize,

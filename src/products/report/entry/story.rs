@@ -14,8 +14,8 @@ const MAX_NAMED: usize = 4;
 /// Speeds below this share of the largest one are rounding of the solver.
 const MOTION_TOL: f64 = 2e-3;
 
-/// Returns the margin whose end shows how a standing frame would fall: load factor, else tilt, else horizontal load.
-/// `None` if no end of these has a mechanism.
+/// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,
+/// horizontal load. Returns `None` if no end of these margins has a mechanism.
 pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
     let intervals = &found.margins.as_ref()?.intervals;
     let has_edge = |interval: &Option<Interval>| {
@@ -33,8 +33,8 @@ pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
         .map(|way| way.1)
 }
 
-/// Describes how the frame falls, or how it would fall at the end of its margin. `None` if it is undecided, or if no
-/// mechanism is known.
+/// Describes how the frame falls, or how it would fall at the end of its margin. Returns `None` if the frame is
+/// undecided or if no mechanism is known.
 pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     match found.verdict {
@@ -69,8 +69,8 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
     }
 }
 
-/// Describes how blocks begin to move: `7 blocks move, with 4 hinges: a / b at (1, 2), …`. `None` if the mechanism is
-/// empty.
+/// Describes how blocks begin to move: `7 blocks move, with 4 hinges: a / b at (1, 2), …`. Returns `None` if the
+/// mechanism is empty.
 fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<String> {
     if mechanism.is_empty() {
         return None;
@@ -117,7 +117,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     })
 }
 
-/// Makes an analysis of one frame.
+/// Makes an analysis that contains only this frame.
 fn alone(analysis: &Analysis, number: usize) -> Analysis {
     Analysis {
         scene: analysis.scene.clone(),
@@ -132,8 +132,8 @@ fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
     moving.count()
 }
 
-/// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for
-/// each margin that was computed.
+/// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for each
+/// computed margin.
 pub(super) fn would_take(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     stated(scene, found)
         .iter()

@@ -1,4 +1,5 @@
-//! [`Units`]: the prefix that all forces of a sheet share; [`Column`]: the decimals that all numbers of a column share.
+//! [`Units`]: the SI prefix for all forces and torques of a sheet. [`Column`]: the number of decimals for all numbers
+//! of a column.
 
 use crate::analysis::FrameAnalysis;
 use crate::scene::format::UnitsEntry;
@@ -27,7 +28,7 @@ pub(super) struct Units {
 }
 
 impl Units {
-    /// The prefix for the forces of a frame: k where one exceeds 1000 N.
+    /// Chooses the prefix for the largest force, weight or load: M, k, none, m or µ. Above 1000 N the prefix is k.
     pub fn new(scene: &Scene, found: &FrameAnalysis) -> Units {
         let contacts = found.contacts.iter().map(|c| c.resultant.force.norm());
         let robots = found.robots.iter().map(|r| r.force.norm());
@@ -56,24 +57,24 @@ impl Units {
         }
     }
 
-    /// The column for numbers in newtons.
+    /// Returns the column format for numbers in newtons.
     pub fn newtons(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         self.column(numbers, self.scene.force())
     }
 
-    /// The column for numbers in newton metres.
+    /// Returns the column format for numbers in newton metres.
     pub fn torques(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         self.column(numbers, self.scene.torque())
     }
 
-    /// The units of lengths, forces and torques, the last two with the prefix.
+    /// Returns the symbols of the units of lengths, forces and torques. The last two have the prefix.
     pub fn symbols(self) -> [String; 3] {
         let length = self.scene.length().symbol();
         let [force, torque] = [self.scene.force(), self.scene.torque()].map(|u| self.symbol(u));
         [length, force, torque]
     }
 
-    /// The column for coordinates.
+    /// Returns the column format for coordinates in metres.
     pub fn lengths(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         Column::lengths(numbers, self.scene)
     }
@@ -101,25 +102,26 @@ impl Units {
         }
     }
 
-    /// An amount in a sentence: three significant digits and its unit.
+    /// Writes an amount for a sentence, with three significant digits and its unit. `value` is in the SI unit.
     pub fn words(self, value: f64, unit: Unit) -> String {
         let number = three(value * self.factor(unit));
         format!("{number} {}", self.symbol(unit))
     }
 
-    /// A force in a sentence.
+    /// Writes a force (N) for a sentence, with its unit.
     pub fn force(self, value: f64) -> String {
         self.words(value, self.scene.force())
     }
 
-    /// A torque in a sentence.
+    /// Writes a torque (N·m) for a sentence, with its unit.
     pub fn torque(self, value: f64) -> String {
         self.words(value, self.scene.torque())
     }
 }
 
 impl Column {
-    /// Chooses the decimals for coordinates in metres, which are written in the unit of the scene.
+    /// Chooses the number of decimals for coordinates. The numbers are in metres; they are written in the unit of the
+    /// scene.
     pub fn lengths(numbers: impl IntoIterator<Item = f64>, units: UnitsEntry) -> Column {
         let unit = units.length();
         let factor = 1.0 / unit.size;
@@ -130,7 +132,7 @@ impl Column {
         }
     }
 
-    /// Writes a number with the prefix and decimals of the column, without its unit.
+    /// Writes a number with the prefix and the decimals of the column, without the unit.
     pub fn write(&self, value: f64) -> String {
         let text = format!("{:.*}", self.decimals, value * self.factor);
         match text.strip_prefix('-') {
@@ -141,7 +143,7 @@ impl Column {
         }
     }
 
-    /// Writes a number with the prefix and decimals of the column, and its unit.
+    /// Writes a number with the prefix and the decimals of the column, followed by the unit.
     pub fn with_unit(&self, value: f64) -> String {
         format!("{} {}", self.write(value), self.unit)
     }

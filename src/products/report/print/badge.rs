@@ -28,7 +28,7 @@ struct Words {
 }
 
 impl Words {
-    /// Returns the height of the panel with these texts in lines of at most `room`.
+    /// Returns the height of the panel with these texts, pixels. A line is at most `room` pixels wide.
     fn height(&self, room: f64) -> f64 {
         let lines = |words: &str, face: Face, size: f64| {
             LINE * size * wrap(words, face, size, room).len() as f64
@@ -72,7 +72,7 @@ impl Flow {
         self.y = top + high + 8.0;
     }
 
-    /// Draws the tinted panel of this height, and the word of the verdict at its left.
+    /// Draws the tinted panel with this height, and the word of the verdict at its left edge.
     fn verdict_panel(&mut self, verdict: Verdict, high: f64) {
         let (ink, tint) = match verdict {
             Verdict::Stable => (Colour::hex(0x17743f), Colour::hex(0xe8f3ec)),

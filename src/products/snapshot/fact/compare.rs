@@ -56,7 +56,7 @@ pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
 
 type Pair<'f> = (Option<&'f Section>, Option<&'f Section>);
 
-/// Pairs the sections of both lists: by position if both have equally many, otherwise by their titles.
+/// Pairs the sections of both lists: by position if both lists have the same length, otherwise by title.
 fn pairs<'f>(expected: &'f [Section], found: &'f [Section]) -> Vec<Pair<'f>> {
     if expected.len() == found.len() {
         return expected
@@ -153,7 +153,7 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
     }
 }
 
-/// Returns the keys of both lists in the order of the new facts. Keys that only the old facts have come last.
+/// Returns the keys of both lists, in the order of the new facts. Keys of old facts only are at the end.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
         let kind = if key.0 == FALLING { "block" } else { &key.0 };
@@ -167,7 +167,7 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
     names
 }
 
-/// Reports blocks that begin or stop to fall in one line, if there are many, and removes their keys from `names`.
+/// Removes from `names` the keys of blocks that begin or stop to fall, if there are many. Reports them in one line.
 fn group_falling(
     was: &ByName<'_>,
     is: &ByName<'_>,
@@ -270,7 +270,7 @@ fn described(value: &Value) -> String {
     parts.join(" ")
 }
 
-/// Returns the changed values in words, and the weight of the largest change; `None` if no value changed.
+/// Describes the changed values, and returns the weight of the largest change. Returns `None` if no value changed.
 fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     let mut words = Vec::new();
     let mut weight: f64 = 0.0;
@@ -323,8 +323,8 @@ fn change(old: &Value, new: &Value) -> String {
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
-/// Returns the difference of two values in units of their last digit; `None` if rounding can explain it. Values of
-/// different form differ by 1e6.
+/// Returns the difference of two values, divided by the unit of their last digit. Returns `None` if rounding can
+/// explain the difference. Values with different units or lengths differ by 1e6.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
     if !shape {

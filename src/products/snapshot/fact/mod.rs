@@ -99,8 +99,8 @@ impl Facts {
         read::facts(text)
     }
 
-    /// Describes how `found` differs from these facts: first what changed in the scene itself, then its effects, most
-    /// important first. Empty if they agree.
+    /// Describes how `found` differs from these facts. Changes of the scene come first, then their effects, the most
+    /// important first. Empty if there is no difference.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }

@@ -6,8 +6,8 @@ use super::list::friction;
 use crate::analysis::{FrameAnalysis, Interval, Verdict};
 use crate::scene::Scene;
 
-/// Describes how far a falling frame is from standing: `falls: carries 33 % of its load`. `None` if the frame does
-/// not fall, or if no computed margin says more than the verdict.
+/// Describes how far a falling frame is from standing: `falls: carries 33 % of its load`. Returns `None` if the frame
+/// does not fall, or if no margin gives more information than the verdict.
 pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     if found.verdict != Verdict::Unstable {
         return None;
@@ -20,8 +20,8 @@ pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     Some(format!("falls: {lack}"))
 }
 
-/// Describes which share of its loads a frame carries, or which factor on its loads it needs. `None` if neither is
-/// known.
+/// Describes which share of its loads a frame carries, or by which factor its loads must be multiplied. Returns `None`
+/// if neither is known.
 fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     let loads = match scene.loads.len() {
         1 => "load",
@@ -42,8 +42,8 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     }
 }
 
-/// Describes the friction coefficient with which a frame would stand. `None` if its own friction is large enough, or
-/// if no value is known.
+/// Describes the friction coefficient with which a frame would stand. Returns `None` if its present friction is large
+/// enough, or if no value is known.
 fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(found)?;
     match interval {
@@ -57,7 +57,7 @@ fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     }
 }
 
-/// Writes a positive number with two decimals, rounded up, so that the frame stands with it.
+/// Writes a positive number with two decimals, rounded up, so that the frame stands with the written value.
 fn above(value: f64) -> String {
     format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
 }

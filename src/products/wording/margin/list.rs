@@ -1,4 +1,4 @@
-//! [`stated`]: the margins of a frame, with their present values.
+//! [`stated`]: lists the margins of a frame with their present values.
 
 use super::{Parameter, Position, StatedMargin};
 use crate::analysis::{FrameAnalysis, Interval, Intervals, Verdict};
@@ -94,8 +94,8 @@ fn robot_limits<'a>(
     list
 }
 
-/// Returns the index of the most important margin: the load factor if there is one and it has a limit, otherwise the
-/// margin with the least reserve.
+/// Returns the index of the most important margin. This is the load factor, if it is in the list and has a limit.
+/// Otherwise it is the margin with the least reserve. Returns `None` for an empty list.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list
         .iter()
@@ -120,8 +120,8 @@ pub(super) fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// Returns the position of the friction coefficients relative to an interval for one common coefficient. `alike` is
-/// the position if all coefficients are equal.
+/// Returns the position of the present friction coefficients relative to an interval for one common coefficient.
+/// `alike` is the result if all present coefficients are equal.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,

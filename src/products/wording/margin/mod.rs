@@ -123,7 +123,7 @@ impl StatedMargin<'_> {
         })
     }
 
-    /// Returns true if it stands at the present value and however much the parameter grows or shrinks.
+    /// True if the frame stands at the present value, and also if the parameter grows or decreases without limit.
     pub fn has_no_limit(&self) -> bool {
         let free = |end: Option<&End>| matches!(end, Some(End::Unbounded));
         let from_zero = self.interval.low().and_then(confirmed) == Some(0.0);
@@ -132,8 +132,8 @@ impl StatedMargin<'_> {
             && (from_zero || free(self.interval.low()))
     }
 
-    /// Returns the relative distance of the present value from the nearest end: 0 at or beyond an end, 1 if there is
-    /// no end.
+    /// Returns the relative distance of the present value from the nearest end of the interval. The result is 0 at or
+    /// beyond an end, and 1 if there is no end.
     ///
     /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the
     /// present value. The distance of a tilt is divided by 90°. A horizontal force is a fraction of the weight already.
@@ -163,8 +163,8 @@ impl StatedMargin<'_> {
     }
 }
 
-/// Returns the end of the interval, or, if it is not confirmed, the farthest value at which the frame is known to
-/// stand. `None` if there is no end.
+/// Returns the end of the interval if it is confirmed. Otherwise returns the farthest value at which the frame is known
+/// to stand. Returns `None` if the interval has no end.
 pub fn confirmed(end: &End) -> Option<f64> {
     match end {
         End::At { value, .. } => Some(*value),
@@ -173,7 +173,7 @@ pub fn confirmed(end: &End) -> Option<f64> {
     }
 }
 
-/// Describes the margins of a frame, one line each, the headline margin first. Notes follow.
+/// Describes each margin of a frame in one line, the headline margin first. Notes follow.
 pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, found);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());

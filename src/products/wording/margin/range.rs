@@ -1,4 +1,4 @@
-//! [`stands`]: the values at which a frame stands, in words.
+//! [`stands`]: describes the values of a parameter at which a frame stands.
 
 use super::{Parameter, confirmed};
 use crate::analysis::{End, Exclusion, Interval};
@@ -45,8 +45,8 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     format!("stands {}{unconfirmed}", range(parameter, low, high))
 }
 
-/// Returns the value below which the frame falls by one motion, and the value above which it falls by another, if
-/// these two motions exclude all values.
+/// Returns two values if two motions exclude all values of the parameter. Below the first value the frame falls by one
+/// motion; above the second value it falls by the other motion.
 fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     match excluded {
         [below, above] if below.from.is_none() && above.to.is_none() => {

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// The smallest and largest radius of the ring around a changed force, in pixels.
 const RING: (f64, f64) = (3.0, 9.0);
 
-/// Returns the radius of the rings in pixels: smaller if many rings would overlap.
+/// Returns the radius of the rings in pixels. It is smaller if many rings would overlap.
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING;
     let span = |of: fn(&PagePoint) -> f64| {
@@ -33,8 +33,8 @@ fn radius(places: &[PagePoint]) -> f64 {
     }
 }
 
-/// Marks blocks with an outline and points with a ring in a drawing of the scene. `blocks` are numbers of blocks;
-/// `rings` are in metres.
+/// Draws an outline around blocks and a ring around points in a drawing of the scene. `blocks` has indices of blocks;
+/// `rings` has points in metres.
 pub(super) fn mark(
     drawing: &mut Drawing,
     scene: &Scene,

@@ -5,7 +5,7 @@ use crate::analysis::FrameAnalysis;
 use crate::report::entry::{Grid, bullet};
 use crate::wording::number::{digits, tenths};
 
-/// Describes a change of a number, relative to its first value.
+/// Describes a change of a number as a share of `before`, in percent.
 pub(super) fn change(before: f64, after: f64) -> String {
     if (after - before).abs() <= 1e-9 * before.abs() {
         return "none".to_owned();
@@ -20,7 +20,7 @@ pub(super) fn change(before: f64, after: f64) -> String {
     }
 }
 
-/// Makes the table of weight and sums of forces.
+/// Makes the table of the weights and the sums of forces of two frames.
 pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
     let largest = |f: &FrameAnalysis| {
@@ -42,7 +42,7 @@ pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
     grid
 }
 
-/// Makes the table of margins.
+/// Makes the table of the margins of two frames.
 pub(super) fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
     let [first, second] =
