@@ -1,4 +1,4 @@
-//! Pages of shapes and text, and the files to which they are written. This folder does not use the mechanics.
+//! Draws pages of shapes and text, and writes them to files. This folder does not use the mechanics.
 
 pub mod drawing;
 

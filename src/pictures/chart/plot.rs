@@ -56,8 +56,8 @@ pub(super) fn document(
     ))
 }
 
-/// Returns the exponents of the powers of ten that enclose some positive numbers; they differ by at least 2. Returns
-/// (−1, 1) if there are no numbers or if they are not positive and finite.
+/// Returns the exponents of two powers of ten that enclose some positive numbers. The exponents differ by at least 2.
+/// Returns (−1, 1) if there are no numbers, or if a number is not positive and finite.
 pub(super) fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let most = values.fold(0.0, f64::max);
@@ -79,12 +79,12 @@ type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Axes with a logarithmic scale in both directions.
 type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// Returns the style of text of this size in pixels.
+/// Returns a text style; `size` is the font size in pixels.
 fn font<'a>(size: i32) -> TextStyle<'a> {
     (FONT, size * FINE).into_font().color(&INK)
 }
 
-/// Returns the same style for text that begins at its point and is vertically centred on it.
+/// Returns the same style for text that begins at a point and is vertically centred on this point.
 fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
     style.pos(Pos::new(HPos::Left, VPos::Center))
 }

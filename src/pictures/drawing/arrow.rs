@@ -1,4 +1,4 @@
-//! Arrows as filled outlines: straight arrows and arrows along a circle.
+//! Draws arrows as filled outlines: straight arrows and arrows along a circle.
 //!
 //! The length of an arrow from tail to tip is exactly the length of the vector that it shows. For a shaft of width w
 //! the head is 3·w wide and 4.5·w long and lies within that length. An arrow shorter than its head is only a head,
@@ -13,7 +13,8 @@ pub const HEAD_WIDTH: f64 = 3.0;
 /// Length of a head in shaft widths.
 pub const HEAD_LENGTH: f64 = 4.5;
 
-/// Returns the length and width of the head of an arrow with this length and shaft width. All are in the same unit.
+/// Returns the length and the width of the head of an arrow. `length` is the length of the arrow, `width` the width of
+/// its shaft. All are in the same unit.
 pub fn head_size(length: f64, width: f64) -> (f64, f64) {
     let full = HEAD_LENGTH * width;
     let long = length.min(full);
@@ -44,8 +45,8 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     ])
 }
 
-/// Returns the outline of the head of the arrow that [`straight`] draws. It is open towards the shaft, so that a stroke
-/// along it does not cross the arrow between head and shaft.
+/// Returns the outline of the head of the arrow that [`straight`] draws. The outline is open towards the shaft, so that
+/// a stroke along it does not cross the arrow between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
     // Corners 1 to 5 of the arrow lead from one edge of the shaft around the tip to the other edge.
@@ -53,9 +54,9 @@ pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     Outline::line(corners)
 }
 
-/// Returns the outline of an arrow along a circle about `centre`. It begins at the angle `start` and turns through the
-/// angle `sweep`, in radians, anticlockwise on the page, 0 to the right. The shaft is `width` pixels wide. The outline
-/// is empty for a zero sweep.
+/// Returns the outline of an arrow along a circle around `centre`. The arrow begins at the angle `start` and turns
+/// through the angle `sweep`. Angles are in radians, anticlockwise on the page from the right. The shaft is `width`
+/// pixels wide. The outline is empty if `sweep` is zero.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();
@@ -92,8 +93,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
 }
 
-/// Appends a circular arc as cubics of at most an eighth of a turn each. The outline must already end at the beginning of
-/// the arc.
+/// Appends a circular arc, as cubic curves of at most an eighth of a turn each. The outline must end at the beginning
+/// of the arc.
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;

@@ -30,7 +30,7 @@ impl Camera {
         }
     }
 
-    /// The same camera with its picture moved right by `x` and down by `y` pixels.
+    /// Returns the same camera with its picture moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> Camera {
         Camera {
             at: self.at.moved(x, y),
@@ -38,20 +38,20 @@ impl Camera {
         }
     }
 
-    /// Returns the position on the page of a point of the scene.
+    /// Converts a point of the scene to its position on the page.
     pub fn place(&self, p: Point) -> PagePoint {
         // Subtract before multiplying: far from the origin this has less rounding error.
         let d = p - self.corner;
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
-    /// Returns the point of the scene at a position on the page.
+    /// Converts a position on the page to the point of the scene.
     pub fn back(&self, at: PagePoint) -> Point {
         let (right, down) = (at.x - self.at.x, at.y - self.at.y);
         self.corner + Vector::new(right, -down) / self.scale
     }
 
-    /// Returns the position on the page of the origin of the scene.
+    /// Returns the position of the scene's origin on the page.
     pub fn origin(&self) -> PagePoint {
         self.place(Point::origin())
     }
@@ -71,7 +71,7 @@ impl Camera {
         pixels / self.scale
     }
 
-    /// Returns the rectangle on the page that shows a box of the scene.
+    /// Converts a box of the scene to the rectangle on the page that shows it.
     pub fn rect(&self, bounds: Bounds) -> PageRect {
         PageRect {
             at: self.place(Point::new(bounds.min.x, bounds.max.y)),
@@ -80,7 +80,7 @@ impl Camera {
         }
     }
 
-    /// Returns the outline on the page of a polygon of the scene with its holes.
+    /// Converts a polygon of the scene, with its holes, to its outline on the page.
     pub fn polygon(&self, polygon: &Polygon) -> Outline {
         let mut outline = Outline::default();
         for ring in polygon.rings() {

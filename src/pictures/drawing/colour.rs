@@ -20,7 +20,7 @@ impl Colour {
         Colour([(value >> 16) as u8, (value >> 8) as u8, value as u8])
     }
 
-    /// The colour as `#rrggbb`.
+    /// Returns the colour as CSS text: `#rrggbb`.
     pub fn css(self) -> String {
         let [r, g, b] = self.0;
         format!("#{r:02x}{g:02x}{b:02x}")
@@ -59,7 +59,8 @@ impl Colour {
         Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
     }
 
-    /// Returns an approximate brightness from 0 to 1: the weights of Rec. 709 applied to the encoded channels.
+    /// Returns the approximate brightness from 0 to 1. It is the weighted sum of the encoded channels, with the weights
+    /// of Rec. 709.
     pub fn brightness(self) -> f64 {
         let [r, g, b] = self.0;
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0

@@ -1,5 +1,5 @@
-//! Differences between colours as people see them: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts a
-//! colour to its appearance for colour-blind readers and in grey print.
+//! Computes perceived differences between colours: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts
+//! a colour to its appearance for colour-blind readers and in grey print.
 //!
 //! About 1 is the least difference that can be seen side by side. A difference of 10 is seen at a glance, and black and
 //! white differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies follow
@@ -24,7 +24,7 @@ pub enum Sight {
     Grey,
 }
 
-/// Returns the colour as a reader with `sight` sees it.
+/// Returns the colour that a reader with `sight` perceives.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::{Sight, difference, seen}};
@@ -61,8 +61,8 @@ pub fn lightness(colour: Colour) -> f64 {
     lab(colour)[0]
 }
 
-/// Returns the contrast of two colours as defined by WCAG 2: the ratio of their luminances, with 0.05 added to each. It
-/// is 1 for equal luminances and 21 for black on white. Small text needs at least 4.5.
+/// Returns the contrast of two colours as defined by WCAG 2: (L₁ + 0.05) / (L₂ + 0.05) for the luminances L₁ ≥ L₂. The
+/// contrast is 1 for equal luminances and 21 for black on white. Small text needs at least 4.5.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::contrast};
@@ -88,7 +88,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Returns the three channels as linear light, from 0 to 1.
+/// Converts the three channels to linear light, from 0 to 1.
 fn linear(colour: Colour) -> [f64; 3] {
     colour.0.map(|channel| {
         let v = f64::from(channel) / 255.0;
@@ -100,7 +100,7 @@ fn linear(colour: Colour) -> [f64; 3] {
     })
 }
 
-/// Returns linear light as an sRGB channel. Values outside 0 to 1 are clamped.
+/// Converts linear light to an sRGB channel. Values outside 0 to 1 are clamped.
 fn coded(light: f64) -> u8 {
     let v = if light <= 0.003_130_8 {
         12.92 * light

@@ -1,4 +1,4 @@
-//! [`hatch`]: fills an outline with parallel lines, as the ground in mechanical drawings.
+//! [`hatch`]: fills an outline with parallel lines, as mechanical drawings show ground.
 
 use super::{Outline, PagePoint, PageRect};
 
@@ -39,7 +39,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     lines
 }
 
-/// Joins the lines into one outline.
+/// Joins these lines to one outline.
 pub fn lines(lines: &[[PagePoint; 2]]) -> Outline {
     let mut outline = Outline::default();
     for line in lines {

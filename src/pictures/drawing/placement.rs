@@ -1,4 +1,4 @@
-//! [`place`]: finds positions for labels. Labels do not cover ink or other labels, and lie on the page.
+//! [`place`]: finds positions for labels. Labels do not cover ink or other labels, and they lie inside the page.
 //!
 //! The method is greedy, with one round of exchanges at the end. See Christensen, Marks and Shieber, *An empirical
 //! study of algorithms for point-feature label placement* (ACM Transactions on Graphics 14, 1995).
@@ -72,7 +72,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Creates a label in this rectangle with a leader to its anchor.
+    /// Creates a label in a rectangle, with a leader to the anchor.
     fn with_leader(rect: PageRect, anchor: PagePoint) -> Placed {
         Placed {
             avoided: false,
@@ -82,14 +82,15 @@ impl Placed {
     }
 }
 
-/// Finds a position for each label. Returns the positions in the order of the requests, `None` for a label without a
-/// free position. Placed labels are added to the ink.
+/// Finds a position for each label. Returns the positions in the order of the requests, with `None` for a label without
+/// a free position. Adds the placed labels to the ink.
 pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
     place_avoiding(ink, page, requests, &|_, _| false)
 }
 
-/// Like [`place`]. `avoid` gets the index of a request and a rectangle. A rectangle for which it returns true is used
-/// only if no other free position is nearby, and then with a leader. `avoid` does not apply to preferred positions.
+/// Like [`place`], with a function `avoid` that gets the index of a request and a rectangle. If it returns true, the
+/// rectangle is used only if no other free position is nearby, and then with a leader. `avoid` does not apply to
+/// preferred positions.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,
@@ -119,8 +120,8 @@ pub fn place_avoiding(
     placed
 }
 
-/// Returns the label's rectangle about a centre. Returns `None` if the rectangle, enlarged by the clearance (pixels),
-/// does not lie on the page or touches ink.
+/// Returns the rectangle of a label with this centre. Returns `None` if the rectangle, enlarged by the clearance
+/// (pixels), does not lie inside the page or touches ink.
 fn fitting(
     ink: &Ink,
     page: PageRect,
@@ -134,7 +135,7 @@ fn fitting(
 }
 
 /// Returns the first preferred position that is free of ink. Tries all positions with the full padding, then with 40 %
-/// of it, then with none.
+/// of the padding, then without padding.
 fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Option<Placed> {
     let clearances = [request.padding, 0.4 * request.padding, 0.0];
     clearances.into_iter().find_map(|padding| {
@@ -148,7 +149,7 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     })
 }
 
-/// Returns the position of least cost on the rings about the anchor; `None` if no position is free.
+/// Returns the position of least cost on rings around the anchor. Returns `None` if no position on the rings is free.
 fn ring_position(
     ink: &Ink,
     page: PageRect,
@@ -188,7 +189,8 @@ fn ring_position(
     best.map(|(_, placed)| placed)
 }
 
-/// Returns the penalties of this position, in pixels of distance, and the label there, with a leader if it needs one.
+/// Returns the penalties of a position, in pixels of distance, and the label at this position. The label has a leader
+/// if it needs one.
 fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -> (f64, Placed) {
     let anchor = request.anchor;
     let end = nearest(rect, anchor);

@@ -141,19 +141,20 @@ impl Sizes {
 }
 
 impl Theme {
-    /// Returns the arrow colour of a block. `place` is its number in the order of placing, from 1. With n arrow colours
-    /// it is entry `place` mod n, so the first block has the second colour, as in the thesis.
+    /// Returns the arrow colour of a block. `place` is the block's number in the order of placing, from 1. The colour
+    /// is entry `place` mod n of the n arrow colours. The first block therefore has the second colour, as in the
+    /// thesis.
     pub fn arrow(&self, place: usize) -> Colour {
         entry(&self.arrows, place).unwrap_or(self.ink)
     }
 
-    /// Returns the colour of a robot by its index, from 0. The list starts again after its end.
+    /// Returns the colour of the robot with this index, from 0. After its last entry, the list of colours starts again.
     pub fn robot(&self, number: usize) -> Colour {
         entry(&self.robots, number).unwrap_or(self.ink)
     }
 
-    /// Returns the colour of an amplitude. `share` is the amplitude divided by the largest one. The colour is entry
-    /// ⌊256·share⌋ of 256; the index is clamped to 0 … 255.
+    /// Returns the colour of an amplitude. `share` is the amplitude divided by the largest amplitude. The colour is
+    /// entry ⌊256·share⌋ of 256; the index is clamped to 0 … 255.
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
@@ -167,8 +168,9 @@ impl Theme {
         self.amplitudes.get(entry).copied().unwrap_or(self.block)
     }
 
-    /// Returns the colour of the border that separates an arrow from its block. It is a dark shade of the arrow's
-    /// colour on a bright block, unless the arrow is much darker than the block. Otherwise it is [`Theme::casing`].
+    /// Returns the colour of the border that separates an arrow from its block. On a bright block, the border is a dark
+    /// shade of the arrow's colour, unless the arrow is much darker than the block. In all other cases the border is
+    /// [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
         let lost =
             block.brightness() > BRIGHT_FILL && lightness(block) - lightness(arrow) < STANDS_OFF;
@@ -179,8 +181,9 @@ impl Theme {
         }
     }
 
-    /// Returns the colour of the lines between the cells of a block. It is the colour of the block, mixed with the
-    /// lighter or darker of page and ink. `share` (0 to 1) is the share of the latter.
+    /// Returns the colour of the lines between the cells of a block: a mixture of the block's colour with another
+    /// colour. The other colour is the lighter of page and ink for a dark block, and the darker for a bright block.
+    /// `share` (0 to 1) is the share of the other colour.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
         let towards = if block.brightness() < 0.5 {
             self.lighter()

@@ -46,7 +46,7 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// Creates a symbol of one letter with the subscript `below`. Letter and subscript may be empty.
+    /// Creates a symbol that consists of one letter and the subscript `below`. Both may be empty.
     pub fn new(letter: &str, accent: Accent, below: &str) -> Symbol {
         let letter = Letter {
             letter: letter.to_owned(),
@@ -59,7 +59,7 @@ impl Symbol {
         }
     }
 
-    /// The same symbol with the superscript `above` at its last letter.
+    /// Returns the same symbol with the superscript `above` at its last letter.
     pub fn raised(mut self, above: &str) -> Symbol {
         if let Some(last) = self.letters.last_mut() {
             above.clone_into(&mut last.above);
@@ -67,7 +67,7 @@ impl Symbol {
         self
     }
 
-    /// The letters of this symbol, followed by those of `next`.
+    /// Appends the letters of `next` to the letters of this symbol.
     pub fn then(mut self, next: Symbol) -> Symbol {
         self.letters.extend(next.letters);
         self
@@ -85,13 +85,13 @@ impl Symbol {
         self.letters.iter().map(one).collect()
     }
 
-    /// Returns the width and height in pixels at a font size in pixels.
+    /// Returns the width and height of the symbol in pixels. `size` is the font size in pixels.
     pub fn size(&self, size: f64) -> (f64, f64) {
         let width = self.letters.iter().map(|l| wide(l, size)).sum();
         (width, (REACH.0 + REACH.1) * size)
     }
 
-    /// Draws the symbol at the upper left corner of `rect`. `size` is the font size in pixels.
+    /// Draws the symbol in the upper left corner of `rect`. `size` is the font size in pixels.
     pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
         let mut group = Group::with_class("symbol");
         let mut at = rect.at.moved(0.0, REACH.0 * size);
@@ -139,7 +139,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
     text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)
 }
 
-/// Splits text into runs of one face: letters are italic, all other characters are upright.
+/// Splits a text into parts with one face each. Letters are italic, all other characters are upright.
 fn runs(words: &str) -> Vec<(String, Face)> {
     let mut runs: Vec<(String, Face)> = Vec::new();
     for c in words.chars() {
@@ -156,8 +156,8 @@ fn runs(words: &str) -> Vec<(String, Face)> {
     runs
 }
 
-/// Returns the arrow or hat above a letter; `None` if it has none. `at` is the left end of the letter on its baseline.
-/// `size` is the font size in pixels.
+/// Returns the arrow or hat above a letter; `None` if the letter has no accent. `at` is the left end of the letter on
+/// its baseline. `size` is the font size in pixels.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
     let tall = letter
         .letter

@@ -1,4 +1,4 @@
-//! Animated PNG and GIF: pictures that follow one another and repeat without end.
+//! Writes animated PNG and GIF files. Their pictures are shown one after the other and repeat without end.
 //!
 //! A picture is stored as the part that differs from the picture before it. If every pixel is opaque, all pictures
 //! share one palette, and files of both formats are about equally large.

@@ -1,4 +1,4 @@
-//! [`write_whole`]: writes files so that each is complete or does not exist.
+//! [`write_whole`]: writes files. Each file is written completely or not at all.
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
 //! step. So nobody ever sees half a file, and a full disk leaves the old file unchanged. A link is followed, and its
@@ -72,8 +72,8 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
     Ok(())
 }
 
-/// Deletes all temporary files and prevents new ones until the returned value is dropped. A process calls this before
-/// it ends.
+/// Deletes all temporary files, and prevents new ones until the returned value is dropped. A process calls this
+/// function before it ends.
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {

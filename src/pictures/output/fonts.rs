@@ -15,8 +15,8 @@ pub struct Fonts {
 }
 
 impl Fonts {
-    /// Adds font files or collections (.ttf, .otf, .ttc) to the built-in fonts. A character that the built-in fonts do
-    /// not have comes from the first file that has it.
+    /// Adds font files or collections (.ttf, .otf, .ttc) to the built-in fonts. If the built-in fonts do not have a
+    /// character, it comes from the first file that has it.
     ///
     /// # Errors
     /// The index, from 0, of the first file that is not a font.
@@ -50,7 +50,8 @@ impl Fonts {
             || self.more.iter().any(|data| text::covers(data, c))
     }
 
-    /// Returns the characters of a text that no font has, each once, in the order of their appearance.
+    /// Returns the characters of a text that no font has. Each character is listed once, in the order of first
+    /// appearance.
     pub fn lacking(&self, text: &str) -> Vec<char> {
         let mut lacking = Vec::new();
         for c in text
@@ -64,7 +65,7 @@ impl Fonts {
         lacking
     }
 
-    /// Replaces each character that no font has by its code point, so that two different names stay different.
+    /// Replaces each character that no font has by its code point. Two different names therefore stay different.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

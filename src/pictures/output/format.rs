@@ -1,5 +1,5 @@
 //! [`Format`]: the formats in which the command line writes a drawing. Each format is declared here once, with its file
-//! ending, its help and its writer. The writers are in other files.
+//! ending, its help and its writer. The writers are in separate files.
 
 use super::animation::{self, Step};
 use super::fonts::Fonts;
@@ -126,7 +126,8 @@ impl Format {
         self.declaration().ending
     }
 
-    /// Returns the format with this file ending, in lower case without its dot.
+    /// Returns the format with this file ending; `None` if there is no such format. `ending` is in lower case without a
+    /// dot.
     pub(crate) fn from_ending(ending: &str) -> Option<Format> {
         Format::ALL
             .into_iter()
@@ -152,12 +153,13 @@ impl Format {
         self.declaration().has_pixels
     }
 
-    /// True if the writer lays out text in the given fonts. Otherwise the program that opens the file does.
+    /// True if the writer lays out the text of a drawing with the given fonts. False if the program that opens the file
+    /// lays out the text.
     pub(crate) fn lays_out_words(self, words: Words) -> bool {
         self.declaration().lays_out_words || (self == Format::Svg && words == Words::Outlines)
     }
 
-    /// Returns a message that says why the format is not written to a terminal; `None` for a text format.
+    /// Returns a message that explains why this format is not written to a terminal; `None` for a text format.
     pub(crate) fn unreadable(self) -> Option<String> {
         let declaration = self.declaration();
         let name = declaration.ending.to_ascii_uppercase();
@@ -165,7 +167,7 @@ impl Format {
             .then(|| format!("a {name} cannot be shown on a terminal; write it to a file with -o"))
     }
 
-    /// Returns the bytes of a drawing in this format.
+    /// Converts a drawing to the bytes of a file in this format.
     pub(crate) fn write(
         self,
         drawing: &Drawing,

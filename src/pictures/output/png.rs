@@ -40,7 +40,7 @@ pub enum Compression {
 }
 
 impl Compression {
-    /// Returns the compression level of deflate.
+    /// Returns the level of the deflate compression.
     fn level(self) -> u8 {
         match self {
             Compression::Small => 6,
@@ -156,7 +156,8 @@ pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
-/// Returns the width and height of a picture in whole pixels, from those of its drawing.
+/// Returns the width and height of a picture in whole pixels. `natural_width` and `natural_height` are the size of its
+/// drawing.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
@@ -179,7 +180,7 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
     }
 }
 
-/// Draws an SVG as pixels.
+/// Renders an SVG to pixels.
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
     let natural = (

@@ -13,7 +13,7 @@ use crate::drawing::{
 /// PostScript points per inch; TeX calls them big points (`bp`).
 const BIG_POINTS: f64 = 72.0;
 
-/// Writes a drawing as a `tikzpicture`, `width_mm` wide; for `None` one pixel is 1/96 inch.
+/// Writes a drawing as a `tikzpicture`. `width_mm` is its width in millimetres. For `None`, one pixel is 1/96 inch.
 ///
 /// # Panics
 /// If a number of the drawing is not finite. No valid scene causes this.

@@ -1,4 +1,4 @@
-//! [`read`]: reads an SVG with resvg, with all text laid out in the built-in and added fonts.
+//! [`read`]: reads an SVG with resvg. All text is laid out with the built-in and the added fonts.
 //!
 //! Pixel images, PDF and text outlines are all made from this tree, so text has the same position in all of them. Only
 //! the built-in and the added fonts are used, never those of the machine. A character that no font has is drawn as a
@@ -124,7 +124,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     runs
 }
 
-/// Returns the built-in face of a font in the tree; `None` for an added font.
+/// Returns the face of a built-in font in the tree; `None` for an added font.
 pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
     known

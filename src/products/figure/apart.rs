@@ -63,8 +63,8 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
 }
 
-/// Returns an offset to the left of the arrow, in metres, at which it overlaps no placed arrow. Of the candidates it is
-/// the one nearest to `ideal`.
+/// Returns an offset to the left of the arrow, in metres, at which the arrow does not overlap any placed arrow. Of all
+/// candidates, the result is the offset nearest to `ideal`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -107,7 +107,7 @@ fn offset_of_least_change(
         .unwrap_or(ideal)
 }
 
-/// Returns a box around an arrow and its gap. Arrows whose boxes are disjoint do not overlap.
+/// Returns a box around an arrow, enlarged by the gap between arrows. Arrows whose boxes are disjoint do not overlap.
 fn space_around(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.reach();
     let ends = Bounds {
@@ -117,8 +117,8 @@ fn space_around(arrow: &ForceArrow) -> Bounds {
     ends.grown((HEAD_WIDTH + 2.0 * GAP) * arrow.width)
 }
 
-/// True if an arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the arrows
-/// from left to right.
+/// True if another arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the
+/// arrows from left to right.
 fn has_opposite(by_x: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> bool {
     let (x, far) = (arrows[i].at.x, 0.5 * arrows[i].width);
     let from = by_x.partition_point(|entry| entry.0 < x - far);
@@ -132,7 +132,7 @@ fn opposite(a: &ForceArrow, b: &ForceArrow) -> bool {
     near && a.reach().dot(&b.reach()) < 0.0 && side_by_side(a, b).is_some()
 }
 
-/// Returns the unit vector to the left of an arrow; `None` for an arrow without length.
+/// Returns the unit vector to the left of an arrow; `None` for an arrow of length 0.
 fn across(arrow: &ForceArrow) -> Option<Vector> {
     let reach = arrow.reach();
     let length = reach.norm();
@@ -144,8 +144,8 @@ fn too_close(a: &ForceArrow, b: &ForceArrow) -> bool {
     side_by_side(a, b).is_some_and(|(needed, distance)| distance < needed * (1.0 - CLEAR_TOL))
 }
 
-/// Returns, for two parallel arrows that overlap along their direction, the least distance of their axes and their
-/// actual distance, in metres. Returns `None` for any other pair.
+/// Returns two distances in metres for two parallel arrows that overlap along their direction: the least allowed
+/// distance of their axes, and their actual distance. Returns `None` for any other pair.
 fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let (u, v) = (a.reach(), b.reach());
     let (long, other) = (u.norm(), v.norm());
@@ -184,7 +184,8 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     (needed > 0.0).then_some((needed, distances[0].min(distances[1])))
 }
 
-/// Returns, for the shaft and for the head: where it begins and ends along the arrow, and half its width; all in metres.
+/// Returns three lengths in metres for the shaft and for the head: its beginning and its end along the arrow, and half
+/// its width.
 fn parts(arrow: &ForceArrow) -> [(f64, f64, f64); 2] {
     let length = arrow.reach().norm();
     let (long, wide) = head_size(length, arrow.width);

@@ -107,7 +107,8 @@ impl DxfWriter {
         self.group(8, layer);
     }
 
-    /// Writes the header with the version and the unit metre, the layers, and the beginning of the entities.
+    /// Writes the header, the layers and the start of the entities. The header gives the version, and metres as the
+    /// unit.
     fn head(&mut self) {
         let header = [
             (0, "SECTION"),
@@ -174,8 +175,8 @@ impl DxfWriter {
     }
 }
 
-/// Returns the text as one line of ASCII, because a line break would end the group. Other characters become `\U+XXXX`,
-/// which CAD programs show as characters.
+/// Returns the text as one line of ASCII, because a line break would end the group. Other characters are written as
+/// `\U+XXXX`, which CAD programs show as characters.
 fn ascii(text: &str) -> String {
     let mut line = String::new();
     for c in crate::text::line(text).chars() {

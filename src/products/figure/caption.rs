@@ -1,11 +1,11 @@
-//! [`caption`]: describes a figure in plain words, from the result of the analysis.
+//! [`caption`]: describes a figure in words, from the result of the analysis.
 
 use super::verdict::word;
 use super::words::letter;
 use crate::analysis::{Analysis, Verdict};
 use crate::wording::verdict::reasons;
 
-/// Returns the caption of a figure: the title, and for every frame the verdict and its reasons.
+/// Returns the caption of a figure: the title, followed by the verdict and its reasons for every frame.
 ///
 /// ```
 /// use drystone::{Analysis, Scene, figure};

@@ -130,7 +130,7 @@ impl Sentences<'_> {
         body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// Returns the joints of a body with other bodies, and these bodies. Joints with bodies at rest come first.
+    /// Returns the joints of a body with other bodies, each with the other body. Joints with bodies at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =
@@ -159,8 +159,8 @@ impl Sentences<'_> {
         }
     }
 
-    /// Returns the name of the robot about whose grip point a body turns; `None` if there is none. `fastest` is the
-    /// speed of the fastest point of the body.
+    /// Returns the name of the robot about whose grip point a body turns. Returns `None` if the body does not turn
+    /// about a grip point. `fastest` is the speed of the fastest point of the body.
     fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
         let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;

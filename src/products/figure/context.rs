@@ -64,8 +64,8 @@ impl<'a> FigureContext<'a> {
             .collect();
     }
 
-    /// Returns the extreme states between which the forces of a frame may vary. They are computed for all frames at the
-    /// first call.
+    /// Returns the extreme states of a frame, between which its forces may vary. The first call computes them for all
+    /// frames.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
         let frames = 0..self.analysis.frames.len();
         let all = || {
@@ -94,8 +94,8 @@ impl<'a> FigureContext<'a> {
         self
     }
 
-    /// True if arrows are too small to read at this scale (pixels per metre). Then the colours of blocks show the
-    /// forces instead.
+    /// True if arrows are too small to read at this scale (pixels per metre). In this case the colours of blocks show
+    /// the forces.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
         let has_plain_block = self
             .analysis
@@ -112,8 +112,8 @@ impl<'a> FigureContext<'a> {
             && !self.options.printed()
     }
 
-    /// True if nearly all arrows are too short to be visible at this scale (pixels per metre). It would be misleading
-    /// to show only the others.
+    /// True if nearly all arrows are too short to be visible at this scale (pixels per metre). A figure with only the
+    /// visible arrows would be misleading.
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
@@ -127,8 +127,8 @@ impl<'a> FigureContext<'a> {
         !self.colours_show_amplitudes || self.fills.scale == FillScale::Plain
     }
 
-    /// Returns the box in metres that the panels of a row show. It is as wide as all frames need, so that structures
-    /// are aligned in columns. It is as high as the frames of this row need.
+    /// Returns the box in metres that the panels of a row show. The box is as wide as all frames need, so that
+    /// structures are aligned in columns. It is as high as the frames of this row need.
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
         let row = rows.reduce(Bounds::union).unwrap_or(self.view);

@@ -56,7 +56,8 @@ struct GroupCourse {
 }
 
 impl Course {
-    /// Computes the course of a frame that falls; it is empty for any other frame. `unit` is the unit edge in metres.
+    /// Computes the course of a frame that falls. The course of any other frame is empty. `unit` is the unit edge in
+    /// metres.
     pub fn new(analysis: &Analysis, frame: usize, unit: f64) -> Course {
         if analysis.frames[frame].verdict != Verdict::Unstable {
             return Course::default();
@@ -75,8 +76,8 @@ impl Course {
         course
     }
 
-    /// Returns the displacement of each block at this share of the path (0 to 1), by the index of the block. It is
-    /// `None` for a block at rest. The list is empty if nothing moves.
+    /// Returns the displacements of the blocks at this share of the path (0 to 1), indexed by block. The displacement
+    /// of a block at rest is `None`. The list is empty if no block moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
         if self.groups.is_empty() {
             return Vec::new();
@@ -90,8 +91,8 @@ impl Course {
         displaced
     }
 
-    /// Returns a box around all moving blocks and all arrows along the whole path; `None` if nothing moves. `marks` are
-    /// the arrows before the motion.
+    /// Returns a box in metres around all moving blocks and all arrows along the whole path; `None` if no block moves.
+    /// `marks` are the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=PLACES).map(|place| self.at(f64::from(place) / f64::from(PLACES)));
         let each = places.filter_map(|displaced| {
@@ -109,7 +110,7 @@ impl Course {
         each.reduce(Bounds::union)
     }
 
-    /// Shortens the paths of groups until no blocks overlap at any position along them.
+    /// Shortens the paths of groups until no blocks overlap at any position along the paths.
     fn stop_before_overlaps(&mut self, analysis: &Analysis, frame: usize) {
         let moving: usize = self.groups.iter().map(|g| g.linkage.len()).sum();
         if moving > MAX_TESTED_BLOCKS {
@@ -141,8 +142,8 @@ impl Course {
         }
     }
 
-    /// Returns the first of the [`PLACES`] positions along the path, from 1, at which blocks overlap, and the
-    /// overlapping pairs. Returns `None` if no blocks overlap.
+    /// Returns the first of the [`PLACES`] positions along the path at which blocks overlap, and the pairs of blocks
+    /// that overlap. Positions are numbered from 1. Returns `None` if no blocks overlap.
     fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
         (1..=PLACES).find_map(|place| {
             let displaced = self.at(f64::from(place) / f64::from(PLACES));
@@ -152,8 +153,8 @@ impl Course {
     }
 }
 
-/// Moves each arrow on a displaced block with the point of the block at its tip. The direction of the force does not
-/// change.
+/// Moves each arrow on a displaced block together with the point of the block at the tip of the arrow. The direction of
+/// the force does not change.
 pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> Marks {
     let way = |on: BodyId, tip: Point| match on {
         BodyId::Block(id) => {
@@ -176,8 +177,8 @@ pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> 
     marks
 }
 
-/// Returns the amplitude of a group before overlaps are considered: the displacement in metres of a point with speed 1.
-/// `unit` is the unit edge in metres.
+/// Returns the amplitude of a group, without regard to overlaps. The amplitude is the displacement in metres of a point
+/// with speed 1. `unit` is the unit edge in metres.
 fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);

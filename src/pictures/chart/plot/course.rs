@@ -53,7 +53,7 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Draws the lines. Returns the vertical position of the end of each line on the page, and its name.
+/// Draws the lines. Returns, for each line, the vertical position of its end on the page, and its name.
 fn draw_lines<'c>(
     axes: &mut Axes<'_, '_>,
     chart: &'c Course,

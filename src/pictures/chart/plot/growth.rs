@@ -1,4 +1,4 @@
-//! Draws lines on two logarithmic axes, with their names at their ends.
+//! Draws lines on two logarithmic axes. Each line has its name at its end.
 
 use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
@@ -79,7 +79,7 @@ fn crossing_pen() -> ShapeStyle {
     INK.stroke_width(2 * FINE as u32)
 }
 
-/// Draws the lines, the important ones on top. Returns their ends.
+/// Draws the lines, the important lines on top. Returns the ends of the lines.
 fn draw_lines<'c>(
     axes: &mut LogAxes<'_, '_>,
     lines: &'c [Growing],
@@ -151,7 +151,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     heights
 }
 
-/// Formats a power of ten with a space before the thousands: `10 000`, `0.1`.
+/// Formats a power of ten with a space before its last three zeros: `10 000`, `0.1`.
 fn grouped(value: f64) -> String {
     let text = tick(value);
     match text.strip_suffix("000").filter(|_| !text.contains('.')) {

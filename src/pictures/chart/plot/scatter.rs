@@ -54,7 +54,7 @@ fn red() -> ShapeStyle {
     RGBColor(215, 20, 30).stroke_width(4 * FINE as u32)
 }
 
-/// Draws the front, above it the series, and on top the crosses on wrong points.
+/// Draws the front, then the series, and on top the crosses on wrong points.
 fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     let front = stair(&chart.front.1);
     axes.draw_series(LineSeries::new(front, GOLD.stroke_width(6 * FINE as u32)))?;
@@ -74,7 +74,7 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     Ok(())
 }
 
-/// Returns the corners of the front as a step line: y stays constant up to the x of the next point, then jumps.
+/// Returns the corners of the front as a step line. y stays constant up to the x of the next point, and then jumps.
 fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut stair: Vec<(f64, f64)> = Vec::new();
     for (x, y) in front {

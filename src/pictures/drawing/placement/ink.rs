@@ -1,5 +1,5 @@
-//! [`Ink`]: convex shapes that labels must not cover. They are stored in a uniform grid, so that a test only looks at
-//! nearby shapes.
+//! [`Ink`]: convex shapes that labels must not cover. The shapes are stored in a uniform grid, so that a test only
+//! checks nearby shapes.
 //!
 //! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A figure
 //! tests hundreds of positions for each label, so a test allocates nothing, and each side stores its own projection.
@@ -34,7 +34,7 @@ struct Piece {
 }
 
 impl Ink {
-    /// Adds a convex shape with these corners in order. Two corners give a line without width.
+    /// Adds a convex shape. `corners` has its corners in order. Two corners give a line of width 0.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
         self.piece(corners, false);
     }
@@ -106,7 +106,7 @@ impl Ink {
         false
     }
 
-    /// Adds a line `width` pixels wide. A line without length is ignored.
+    /// Adds a line `width` pixels wide. A line of length 0 is ignored.
     pub fn line(&mut self, from: PagePoint, to: PagePoint, width: f64) {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let length = libm::hypot(dx, dy);
@@ -122,7 +122,7 @@ impl Ink {
         ]);
     }
 
-    /// Adds a disc, as its circumscribed regular octagon.
+    /// Adds a disc. It is stored as its circumscribed regular octagon.
     pub fn disc(&mut self, centre: PagePoint, radius: f64) {
         let reach = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
@@ -155,7 +155,7 @@ impl Ink {
         self.convex(corners(rect));
     }
 
-    /// Adds a label and its leader. Other leaders should not cross them.
+    /// Adds a label and its leader. Leaders of other labels should not cross them.
     pub(super) fn add_label(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
         self.piece(corners(placed.rect), true);
@@ -164,7 +164,7 @@ impl Ink {
         }
     }
 
-    /// True if a rectangle overlaps no ink.
+    /// True if the rectangle does not overlap any ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
         // The bounding boxes overlap, so no side of the rectangle separates the two. Only the sides of the piece remain
@@ -176,7 +176,7 @@ impl Ink {
         !self.any_near(min, max, meets)
     }
 
-    /// Returns how many labels and leaders, and how many other pieces, a line touches.
+    /// Counts what a line touches: the number of labels and leaders, and the number of other pieces.
     pub(super) fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
         let (min, max) = (
             PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
@@ -232,7 +232,7 @@ impl Side {
         }
     }
 
-    /// Returns the signed distance of a point from the line through this side, times the length of the side.
+    /// Returns the signed distance of a point from the line through this side, multiplied by the length of the side.
     fn offset(&self, p: PagePoint) -> f64 {
         self.along.0 * (p.y - self.from.y) - self.along.1 * (p.x - self.from.x)
     }
@@ -357,7 +357,7 @@ impl Grid {
         }
     }
 
-    /// Returns the cells that a box touches. Parts outside the grid count to the cells at its border.
+    /// Returns the cells that a box touches. Parts of the box outside the grid belong to the cells at its border.
     fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
         let cell = |v: f64, first: f64, count: usize| {
             (((v / CELL).floor() - first).max(0.0) as usize).min(count - 1)

@@ -43,7 +43,8 @@ pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
     /// Reads the theme that a style file describes. The values of the file replace those of the theme `base`. If `base`
-    /// is `None`, they replace those of the theme that the file names, or else of the default theme.
+    /// is `None`, the file may name the theme whose values are replaced. Otherwise they replace those of the default
+    /// theme.
     ///
     /// # Errors
     /// All problems of the file.
@@ -197,7 +198,8 @@ const SIZES: [SizeField; 7] = [
 /// Least and largest font size. Smaller text cannot be read, and larger text leaves no space for the figure.
 const LETTERS: [f64; 2] = [8.0, 100.0];
 
-/// Returns the smallest list of evenly spaced stops that reproduces a ramp; in the worst case all 256 colours.
+/// Returns the smallest number of evenly spaced colours from which the ramp can be interpolated. If no smaller list is
+/// possible, returns all 256 colours.
 fn stops(ramp: &[Colour]) -> Vec<Colour> {
     // With steps that divide 255, each stop is an entry of the ramp.
     for step in [255, 85, 51, 17, 15, 5, 3] {

@@ -25,7 +25,7 @@ impl Theme {
         }
     }
 
-    /// The colours of the thesis on a white page.
+    /// Returns the theme with the colours of the thesis on a white page.
     pub fn thesis() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -53,8 +53,8 @@ impl Theme {
         }
     }
 
-    /// A theme for print in colour or grey: items that may touch differ in lightness. Arrows of forces are dark and
-    /// blocks are light. Robots are lighter than failures, and failures are lighter than forces.
+    /// Returns a theme for print in colour or grey, in which items that may touch differ in lightness. Arrows of forces
+    /// are dark and blocks are light. Robots are lighter than failures, and failures are lighter than forces.
     pub fn paper() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -80,8 +80,8 @@ impl Theme {
         }
     }
 
-    /// The colours of [Okabe08](crate::doc::references) on a white page, with amplitudes from yellow to blue. Suitable for
-    /// all kinds of colour blindness.
+    /// Returns a theme with the colours of [Okabe08](crate::doc::references) on a white page, and amplitudes from
+    /// yellow to blue. It is suitable for all kinds of colour blindness.
     pub fn colourblind() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -109,7 +109,7 @@ impl Theme {
         }
     }
 
-    /// Light ink on a dark page: for screens and projectors.
+    /// Returns a theme with light ink on a dark page, for screens and projectors.
     pub fn dark() -> Theme {
         Theme {
             page: Colour::hex(0x15181d),

@@ -21,7 +21,7 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Creates the palette of some pictures; `None` if a changed pixel is not opaque.
+    /// Creates the palette for some pictures; `None` if a changed pixel is not opaque.
     pub fn new(patches: &[Patch]) -> Option<Palette> {
         let counts = counts(patches)?;
         let colours = chosen(&counts);
@@ -37,12 +37,12 @@ impl Palette {
         })
     }
 
-    /// Returns the number of indices, including that of unchanged pixels.
+    /// Returns the number of indices, including the index of unchanged pixels.
     pub fn len(&self) -> usize {
         self.colours.len() + 1
     }
 
-    /// Returns red, green and blue of every index.
+    /// Returns the red, green and blue bytes of every index.
     pub fn bytes(&self) -> Vec<u8> {
         let all = [[0; 3]].into_iter().chain(self.colours.iter().copied());
         all.flatten().collect()
@@ -69,7 +69,7 @@ fn opaque([red, green, blue, _]: [u8; 4]) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Counts the changed pixels of each colour; `None` if one of them is not opaque.
+/// Counts the changed pixels of each colour; `None` if a changed pixel is not opaque.
 fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     let mut counts = BTreeMap::new();
     let changed = |patch: &'_ Patch| -> Vec<[u8; 4]> {
@@ -87,8 +87,8 @@ fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     Some(counts)
 }
 
-/// Returns the colours of the palette. If there are at most [`MAX_COLOURS`], these are all. Otherwise they are the most
-/// frequent ones, and one for each group of similar colours among the others.
+/// Returns the colours of the palette. If there are at most [`MAX_COLOURS`] colours, the result has all of them.
+/// Otherwise it has the most frequent colours, and one colour for each group of similar colours among the others.
 fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
     let mut colours: Vec<([u8; 3], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
     if colours.len() > MAX_COLOURS {

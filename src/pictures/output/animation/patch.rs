@@ -1,4 +1,4 @@
-//! [`Patch`]: the part of a picture that differs from the picture before it.
+//! [`Patch`]: the part of a picture that differs from the previous picture.
 
 use super::super::png::{PngError, Raster};
 
@@ -20,14 +20,14 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// Returns red, green, blue and opacity of all its pixels, changed or not.
+    /// Returns red, green, blue and opacity of all pixels of the patch, including unchanged pixels.
     pub fn all_pixels(&self) -> Vec<u8> {
         self.pixels.iter().flat_map(|(colour, _)| *colour).collect()
     }
 }
 
-/// Converts pictures with their times in seconds to patches. Returns the patches and the width and height of the
-/// pictures in pixels. A picture that equals the one before it only makes that one last longer.
+/// Converts pictures with their times in seconds to patches. Returns the patches, and the width and height of the
+/// pictures in pixels. If a picture equals the previous picture, the previous picture is shown for longer.
 pub(super) fn patches(
     rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>,
 ) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
@@ -56,8 +56,8 @@ pub(super) fn patches(
     Ok((patches, size))
 }
 
-/// Returns the smallest patch with all pixels that differ from the picture before it; `None` if no pixel differs.
-/// Without a picture before it, the patch is the whole picture.
+/// Returns the smallest patch with all pixels that differ from the previous picture; `None` if no pixel differs. The
+/// patch of the first picture is the whole picture.
 fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Patch> {
     let across = raster.width as usize;
     let Some(before) = before else {

@@ -7,8 +7,8 @@ use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash
 use resvg::tiny_skia::PathSegment;
 use resvg::usvg;
 
-/// Splits fill and stroke into passes in the order of drawing. Each pass has only one of the two; the fill is last if
-/// `order` says so.
+/// Splits fill and stroke into passes in the order of drawing. Each pass has either a fill or a stroke. `order`
+/// determines whether the fill or the stroke comes first.
 pub(super) fn passes(
     fill: Option<Fill>,
     stroke: Option<Stroke>,
@@ -35,7 +35,7 @@ fn paint(paint: &usvg::Paint) -> Option<Paint> {
     }
 }
 
-/// Converts an opacity from 0 to 1.
+/// Converts an opacity from 0 to 1 to the type of krilla.
 pub(super) fn share(share: usvg::Opacity) -> NormalizedF32 {
     NormalizedF32::new(share.get()).unwrap_or(NormalizedF32::ONE)
 }
@@ -81,7 +81,7 @@ pub(super) fn transform(t: usvg::Transform) -> Transform {
     Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
 }
 
-/// Joins the outlines of the shapes directly in a group into one path; `None` if there are none.
+/// Joins the outlines of the shapes directly in a group into one path; `None` if the group has no shapes.
 pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     let mut pen = PathBuilder::new();
     for node in group.children() {

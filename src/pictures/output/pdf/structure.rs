@@ -69,8 +69,8 @@ pub(super) fn outline(bookmarks: &[Bookmark], scale: f32) -> Outline {
     outline
 }
 
-/// Returns the first bookmark with all bookmarks that are part of it, and the bookmarks after these. Returns `None` for
-/// an empty list. `scale` is in points per pixel.
+/// Returns a node for the first bookmark and all bookmarks below it, and the remaining bookmarks. Returns `None` for an
+/// empty list. `scale` is in points per pixel.
 fn branch(bookmarks: &[Bookmark], scale: f32) -> Option<(OutlineNode, &[Bookmark])> {
     let (first, mut rest) = bookmarks.split_first()?;
     let place = Point::from_xy(0.0, scale * first.y as f32);

@@ -35,8 +35,8 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Sets the colour type of the encoder, and returns the rows of pixels, each after its filter type. A pixel takes one
-/// byte if there are at most 256 colours, three bytes in other opaque pictures, otherwise four.
+/// Sets the colour type of the encoder. Returns the rows of pixels; each row begins with its filter type. A pixel takes
+/// one byte if there are at most 256 colours, three bytes in other opaque pictures, and four bytes otherwise.
 fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
     let mut table = Table::default();
     if let Some(runs) = runs(&pixels, &mut table) {
@@ -73,8 +73,8 @@ fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u
     rows(&pixels, straight)
 }
 
-/// Returns the picture as runs of equal pixels, row by row: the index of the colour in `table` and the number of
-/// pixels. Returns `None` for more than [`MAX_COLOURS`] colours.
+/// Returns the picture as runs of equal pixels, row by row. A run consists of the index of the colour in `table` and
+/// the number of pixels. Returns `None` if there are more than [`MAX_COLOURS`] colours.
 fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     let mut runs = Vec::new();
     for row in pixels.pixels().chunks_exact(pixels.width() as usize) {
@@ -88,8 +88,8 @@ fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     Some(runs)
 }
 
-/// Returns the number of pixels at the beginning of `row` that equal `first`. Figures have large areas of one colour,
-/// so eight pixels are compared at once.
+/// Returns the number of pixels at the beginning of `row` that equal `first`. The function compares eight pixels at
+/// once, because figures have large areas of one colour.
 fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     let (eights, _) = row.as_chunks::<8>();
     let same = |eight: &&[PremultipliedColorU8; 8]| {

@@ -1,4 +1,4 @@
-//! [`embedded`]: embeds subsets of the built-in fonts with the characters of a drawing in the SVG.
+//! [`embedded`]: embeds subsets of the built-in fonts in the SVG. A subset has the characters of the drawing.
 //!
 //! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them. A
 //! browser does. So they are computed again from the positions of the glyphs in this drawing.
@@ -52,7 +52,7 @@ pub(super) fn family(face: Face, mark: &str) -> String {
     }
 }
 
-/// Returns a font file with only those glyphs of a face that some text uses.
+/// Returns a font file that contains only the glyphs of a face that the text uses.
 fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
     let mut characters = BTreeMap::new();
@@ -107,8 +107,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     Ok(font.build())
 }
 
-/// Returns the kerning of the glyph pairs in some text, in font units. It is negative if the second glyph is closer
-/// than without kerning.
+/// Returns the kerning of the glyph pairs in some text, in font units. Negative kerning moves the second glyph closer.
 fn kerning(
     font: &FontRef<'_>,
     face: Face,

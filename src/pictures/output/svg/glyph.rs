@@ -6,7 +6,7 @@ use resvg::usvg::{Node, Text};
 use super::outline::Steps;
 use crate::drawing::PagePoint;
 
-/// Returns the number in the id of a line of text (`t1`, `t2` …), and the path data of its letters. Returns `None` if
+/// Returns the number in the id of a line of text (`t1`, `t2` …), and the path data of the letters. Returns `None` if
 /// the id has another form.
 pub(super) fn numbered(text: &Text) -> Option<(usize, String)> {
     let number = text.id().strip_prefix('t')?.parse().ok()?;

@@ -66,7 +66,7 @@ impl Steps {
         self.at = to;
     }
 
-    /// Adds a curve through its control points to its end: `q` has one control point, `c` two.
+    /// Adds a curve. `points` are its control points and its end. The letter `q` has one control point, `c` has two.
     pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
         let from = self.at;
         for (number, point) in points.iter().enumerate() {
@@ -103,7 +103,7 @@ impl Steps {
         self.more(more);
     }
 
-    /// Appends numbers after another number.
+    /// Appends numbers that follow other numbers.
     fn more(&mut self, numbers: &[i64]) {
         for number in numbers {
             if *number >= 0 {
@@ -114,7 +114,7 @@ impl Steps {
     }
 }
 
-/// Rounds a point to whole hundredths of a pixel.
+/// Converts a point to whole hundredths of a pixel, rounded.
 fn hundredths(point: PagePoint) -> (i64, i64) {
     let whole = |value: f64| {
         assert!(
@@ -127,8 +127,8 @@ fn hundredths(point: PagePoint) -> (i64, i64) {
     (whole(point.x), whole(point.y))
 }
 
-/// Writes hundredths as a decimal number without trailing zeros. A drawing has thousands of numbers, and this is faster
-/// than `format!`.
+/// Writes hundredths as a decimal number without trailing zeros. This function is faster than `format!`; a drawing has
+/// thousands of numbers.
 fn put(data: &mut String, hundredths: i64) {
     let (whole, part) = (
         hundredths.unsigned_abs() / 100,

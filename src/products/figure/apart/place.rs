@@ -1,4 +1,4 @@
-//! [`Places`]: boxes in a uniform grid (a spatial hash), which finds the boxes near a given box quickly.
+//! [`Places`]: stores boxes in a uniform grid (a spatial hash), which finds the boxes near a given box quickly.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Creates an empty grid. The width of a cell is the mean diagonal of these boxes.
+    /// Creates an empty grid. The width of a cell is the mean diagonal of `boxes`.
     pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> Places {
         let count = boxes.len();
         Places {
@@ -43,7 +43,7 @@ impl Places {
     }
 
     /// True if `matches` is true for a box that overlaps `near`. `matches` gets the index of the box, and may be called
-    /// several times for it.
+    /// several times for the same box.
     pub fn any(&self, near: Bounds, mut matches: impl FnMut(usize) -> bool) -> bool {
         let mut tested = |number: &usize| near.intersects(self.boxes[*number]) && matches(*number);
         let Some((low, high)) = self.covered(near) else {
@@ -53,7 +53,7 @@ impl Places {
         self.large.iter().any(&mut tested) || cells.any(|cell| cell.iter().any(&mut tested))
     }
 
-    /// Returns the indices of the boxes that overlap `near`, in rising order; of all boxes for `None`.
+    /// Returns the indices of the boxes that overlap `near`, in ascending order. Returns all indices for `None`.
     pub fn meeting(&self, near: Option<Bounds>) -> Vec<usize> {
         let Some(near) = near else {
             return (0..self.boxes.len()).collect();
@@ -69,7 +69,7 @@ impl Places {
         found
     }
 
-    /// Returns the first and the last cell of a box; `None` if it covers more than [`MAX_CELLS`].
+    /// Returns the first and the last cell of a box; `None` if the box covers more than [`MAX_CELLS`] cells.
     fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
         let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
         let (low, high) = (cell(its.min), cell(its.max));

@@ -10,8 +10,8 @@ use crate::scene::{BlockId, BodyId};
 /// are solver noise or not visible.
 const REST_TOL: f64 = 1e-3;
 
-/// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to one body if no hinge or
-/// slip is between them. The bodies are in the order of their first blocks.
+/// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to one body if there is no
+/// hinge and no sliding joint between them. The bodies are in the order of their first blocks.
 pub(crate) fn rigid_bodies(
     analysis: &Analysis,
     frame: usize,
@@ -24,8 +24,8 @@ pub(crate) fn rigid_bodies(
     connected_groups(analysis, frame, |contact| !separated[contact])
 }
 
-/// Groups the motions of the moving blocks: returns the connected components if contacts are the edges of a graph. Only
-/// contacts for whose indices `joins` is true count. The groups are in the order of their first blocks.
+/// Groups the motions of the moving blocks into connected components. Two blocks are connected if `joins` is true for
+/// the index of a contact between them. The groups are in the order of their first blocks.
 pub(crate) fn connected_groups(
     analysis: &Analysis,
     frame: usize,

@@ -1,4 +1,4 @@
-//! [`Linkage`]: rigid bodies joined by hinges and sliding joints, which stay closed along the path.
+//! [`Linkage`]: rigid bodies that are joined by hinges and sliding joints. These joints stay closed along the path.
 //!
 //! Every body first moves along its own velocity. This alone would open the joints, by gaps proportional to the square
 //! of the angle. A few steps of Newton's method, each with the least-norm correction, then close all joints.

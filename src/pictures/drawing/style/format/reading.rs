@@ -22,7 +22,8 @@ impl Reading {
         });
     }
 
-    /// Returns the theme that a file names. An invalid name gives `None`; it is reported when its key is read.
+    /// Returns the theme that a file names. Returns `None` for an invalid name, which is reported later, when its key
+    /// is read.
     pub(super) fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
         let named = |(key, value): &(String, Value)| match value {
             Value::Text(name) if key == "theme" => Theme::named(name),
@@ -68,7 +69,7 @@ impl Reading {
         }
     }
 
-    /// Reports the key with this index if the same key occurs before it.
+    /// Reports the key with this index if the same key already occurred before.
     fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
         let key = &entries[number].0;
         if entries[..number].iter().any(|e| e.0 == *key) {
