@@ -37,7 +37,8 @@ impl Aabb {
 }
 
 impl Aabb<4> {
-    /// Bounds of some points in x, y, x + y and y − x: an upright box and a box rotated by 45°.
+    /// Returns the bounds of some points in the coordinates x, y, x + y and y − x: an upright box and a box rotated by
+    /// 45°.
     pub(crate) fn with_diagonals(points: &[Point]) -> Aabb<4> {
         points.iter().fold(Aabb::EMPTY, |bounds, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
@@ -177,7 +178,8 @@ impl<T, const D: usize> BoxTree<T, D> {
     }
 }
 
-/// The typical size of a box in each coordinate: the unit in which distances in different coordinates are compared.
+/// Returns the typical size of a box in each coordinate. Distances in different coordinates are divided by these sizes
+/// before they are compared.
 ///
 /// It is the median size plus a thousandth of the interquartile range of the centres. The second term keeps the size of
 /// point-like boxes above 0. Medians and quartiles are used because the ground may be far larger than all other items.
@@ -248,7 +250,7 @@ fn build<const D: usize>(
 }
 
 impl<T, const D: usize> BoxIndex<T, D> {
-    /// An index of `items`; `bounds` gives the box of an item.
+    /// Makes an index of `items`. `bounds` returns the box of an item.
     pub(crate) fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
         if items.len() > MAX_SCANNED_ITEMS {
             return BoxIndex::Tree(BoxTree::new(items, bounds));
@@ -274,8 +276,8 @@ impl<T, const D: usize> BoxIndex<T, D> {
         sorted.chain(tree.flat_map(move |tree| tree.intersecting(query)))
     }
 
-    /// Returns the variant that this index is, and `None` for the other. Callers chain both, so that one iterator type
-    /// serves both variants.
+    /// Returns two options: the variant that this index has is `Some`, and the other variant is `None`. Callers chain
+    /// both, so that one iterator type serves both variants.
     fn variants(&self) -> (Option<&SortedBoxes<T, D>>, Option<&BoxTree<T, D>>) {
         match self {
             BoxIndex::Sorted(list) => (Some(list), None),

@@ -54,7 +54,7 @@ impl Side {
     }
 }
 
-/// The crossings of a polygon's sides, in the order of the sides, at most [`MAX_CROSSINGS`].
+/// Returns the crossings of a polygon's sides, in the order of the sides, but at most [`MAX_CROSSINGS`].
 pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
     // List every side with its ring and its corner number.
     let mut sides: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
@@ -100,12 +100,12 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
     found
 }
 
-/// The corner `b` if the path a → b → c reverses its direction there.
+/// Returns the corner `b` if the path a → b → c reverses its direction there; otherwise `None`.
 fn folds_back(a: Point, b: Point, c: Point) -> Option<Point> {
     (orientation(a, b, c) == 0.0 && (a - b).dot(&(c - b)) > 0.0).then_some(b)
 }
 
-/// A common point of two segments, if they have one.
+/// Returns a common point of two segments; `None` if they have no common point.
 fn intersection(a: Edge, b: Edge) -> Option<Point> {
     let a_from = orientation(b.from, b.to, a.from);
     let a_to = orientation(b.from, b.to, a.to);

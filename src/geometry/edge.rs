@@ -48,7 +48,8 @@ pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
     })
 }
 
-/// Positive if the path a → b → c turns left, negative if it turns right, 0 if the three points are collinear.
+/// Returns a positive number if the path a → b → c turns left, a negative number if it turns right, and 0 if the three
+/// points are collinear.
 ///
 /// The sign is exact for any finite coordinates. Reference: Shewchuk, Adaptive Precision Floating-Point Arithmetic and
 /// Fast Robust Geometric Predicates, 1997.

@@ -188,7 +188,7 @@ impl Lattice {
         Point::from(sum / corners.len() as f64)
     }
 
-    /// The union of some cells as one polygon with its holes. Collinear edges are merged into one side.
+    /// Returns the union of some cells as one polygon with its holes. Collinear edges are merged into one side.
     ///
     /// `None` if the cells are not all connected by common edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
@@ -205,7 +205,7 @@ impl Lattice {
 /// √3/2: the height of a triangle with sides of length 1.
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// The boundary edges of a set of cells, sorted; the cells lie on their left.
+/// Returns the boundary edges of a set of cells in sorted order. The cells lie on the left of each edge.
 pub(crate) fn boundary(cells: &[Cell]) -> Vec<LatticeEdge> {
     let mut all: Vec<LatticeEdge> = cells.iter().flat_map(|c| c.edges()).collect();
     all.sort_unstable();
@@ -215,7 +215,8 @@ pub(crate) fn boundary(cells: &[Cell]) -> Vec<LatticeEdge> {
     all.iter().filter(is_outer).copied().collect()
 }
 
-/// The boundary rings of a set of cells: the outline first, then the holes. `None` unless the cells are connected.
+/// Returns the boundary rings of a set of cells: the outline first, then the holes. `None` if the cells are not
+/// connected by common edges.
 fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
     if !is_connected(cells) {
         return None;

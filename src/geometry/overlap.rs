@@ -1,4 +1,4 @@
-//! How far two polygons overlap: [`overlap`] returns area, centroid and depth of their intersection.
+//! Computes by how much two polygons overlap: [`overlap`] returns area, centroid and depth of their intersection.
 //!
 //! Each polygon is cut into convex pieces by ear clipping. Two convex pieces are disjoint if a side of one of them
 //! separates them; otherwise their depth is the smallest distance by which one must move across a side of the other to
@@ -53,15 +53,14 @@ impl<'p> Piece<'p> {
         })
     }
 
-    /// True if the other piece lies entirely on one side of this piece's extent along `across`. The pieces are then
-    /// disjoint.
+    /// True if a line perpendicular to `across` separates the two pieces, so that they have no common point.
     fn is_separated_from(&self, other: &Piece<'_>) -> bool {
         let [min, max] = extent(&other.corners, self.across);
         min > self.extent[1] || max < self.extent[0]
     }
 }
 
-/// The smallest and the largest dot product of the vector `along` with the coordinates of some points.
+/// Returns the smallest and the largest dot product of the vector `along` with the coordinates of the points.
 fn extent(points: &[Point], along: Vector) -> [f64; 2] {
     points
         .iter()
@@ -128,7 +127,7 @@ impl<'p> ConvexPieces<'p> {
     }
 }
 
-/// The overlap of two polygons, given as convex pieces; `None` if it is at most `gap` metres deep.
+/// Returns the overlap of two polygons, given as convex pieces. `None` if the overlap is at most `gap` metres deep.
 pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut overlapping = Vec::new();
@@ -164,7 +163,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
 /// Two convex pieces that overlap.
 type PiecePair<'p> = (&'p Cow<'p, [Point]>, &'p Cow<'p, [Point]>);
 
-/// The total common area of pairs of convex pieces, and its first moment about `base`.
+/// Returns the total common area of pairs of convex pieces, and its first moment about `base`.
 fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     let mut area = 0.0;
     let mut moment = Vector::zeros();
@@ -181,7 +180,8 @@ fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     (area, moment)
 }
 
-/// Returns how far `b` reaches behind the sides of the convex polygon `a`, in metres: the smallest value of all sides.
+/// For each side of the convex polygon `a`, takes the largest distance of a point of `b` behind this side. Returns the
+/// smallest of these distances, in metres.
 ///
 /// It is at most 0 if a side of `a` separates the two polygons.
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
@@ -203,7 +203,7 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
     depth
 }
 
-/// The part of the convex polygon `a` that lies in the convex polygon `b`: `a` is cut along each side of `b` in turn.
+/// Returns the part of the convex polygon `a` that lies in the convex polygon `b`. It cuts `a` along each side of `b`.
 fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut kept = a.to_vec();
     for i in 0..b.len() {

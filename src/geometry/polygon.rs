@@ -139,7 +139,7 @@ impl Polygon {
         )
     }
 
-    /// Whether a point lies inside the material. For a point exactly on a side either answer may be returned.
+    /// True if a point lies inside the material. A point exactly on a side may give either result.
     pub fn contains(&self, point: Point) -> bool {
         self.rings
             .iter()
@@ -196,7 +196,8 @@ struct CheckedRings {
     without_area: Vec<PolygonError>,
 }
 
-/// Drops repeated corners and checks each ring alone: at least three corners, finite coordinates, not all on one line.
+/// Drops repeated corners. Then checks each ring alone: at least three corners, finite coordinates, and not all corners
+/// on one line.
 fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonError>> {
     let mut errors = Vec::new();
     let mut checked = CheckedRings::default();
@@ -278,7 +279,7 @@ fn check_holes(rings: &[Vec<Point>]) -> Result<(), Vec<PolygonError>> {
 struct DroppedCorners(Vec<(usize, usize)>);
 
 impl DroppedCorners {
-    /// Removes each corner of a ring that equals the corner before it, and records its number.
+    /// Removes each corner of a ring that equals the corner before it. Records the number of each removed corner.
     fn drop_repeated(&mut self, points: &mut Vec<Point>, ring: usize) {
         let (mut before, mut number) = (None, 0);
         points.retain(|p| {

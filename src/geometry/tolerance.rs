@@ -39,7 +39,8 @@ impl Tolerance {
     /// The extent is limited to this many typical block sizes, so that scattered blocks keep their small contacts.
     pub const MAX_EXTENT_IN_BLOCKS: f64 = 1000.0;
 
-    /// The tolerance of a scene that is `extent` metres across and whose blocks are typically `typical` metres in size.
+    /// Returns the tolerance of a scene. Its extent is `extent` metres, and the typical size of its blocks is `typical`
+    /// metres.
     ///
     /// A scene without blocks has extent 0 and gets the tolerance 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
@@ -57,7 +58,7 @@ impl Tolerance {
         }
     }
 
-    /// The same tolerance for coordinates that are known to be off by at most `rounding` metres.
+    /// Returns the same tolerance for coordinates with errors of up to `rounding` metres.
     pub fn with_rounding(self, rounding: f64) -> Tolerance {
         Tolerance {
             rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length),
@@ -65,7 +66,7 @@ impl Tolerance {
         }
     }
 
-    /// The length in metres that two edges must have in common to form an interface. `edge` is the length of the
+    /// Returns the least common length, in metres, of two edges that form an interface. `edge` is the length of the
     /// shorter edge in metres.
     pub fn min_contact_length(&self, edge: f64) -> f64 {
         self.min_length

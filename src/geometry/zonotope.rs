@@ -1,4 +1,4 @@
-//! The gauge of a zonotope: how large the coefficients of a combination of given vectors must be to reach a point.
+//! Computes the gauge of a zonotope: the least factor by which it must be scaled to contain a point.
 //!
 //! The zonotope of the generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. Its gauge (Minkowski functional) at a point r
 //! is the smallest τ ≥ 0 for which r lies in the zonotope scaled by τ. A convex body is the intersection of the
@@ -39,7 +39,7 @@ const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 /// With ten times this value, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The smallest τ for which `point` lies in the zonotope scaled by τ. It is infinite if there is no such τ.
+/// Returns the smallest τ for which `point` lies in the zonotope scaled by τ; infinity if there is no such τ.
 ///
 /// The answer is exact up to rounding for at most 40 generators that are not parallel, and never too small. If there are
 /// more, generators of similar direction are added up, and the answer may be too large.

@@ -1,4 +1,4 @@
-//! Escapes untrusted text for each output format. It is applied to every string that does not come from this program.
+//! Escapes untrusted text for each output format. All text that does not come from this program is untrusted.
 //!
 //! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of
 //! terminals, characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return
@@ -52,7 +52,7 @@ pub fn heading(text: &str, max_chars: usize) -> String {
         .collect()
 }
 
-/// The character itself if it is visible, otherwise its replacement: a space or [`HIDDEN`].
+/// Returns the character itself if it is visible, otherwise its replacement: a space or [`HIDDEN`].
 fn visible(c: char) -> char {
     match c {
         '\t' | '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => ' ',

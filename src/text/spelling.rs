@@ -7,7 +7,8 @@
 /// The number of letters of a name that are compared. It is limited because the time grows with its square.
 const MAX_LETTERS: usize = 80;
 
-/// Returns the known name that is most similar to `name`; of several, the first. `None` if no name is similar enough.
+/// Returns the known name that is most similar to `name`; the first if several are equally similar. `None` if no name
+/// is similar enough.
 ///
 /// The distance to a similar name is at most a third of the letters of `name` plus one. It is also less than the number
 /// of these letters, unless the known name starts with `name`.
@@ -57,7 +58,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// The edit distance of two names. `None` if it exceeds `max_distance`.
+    /// Returns the edit distance of two names; `None` if it exceeds `max_distance`.
     fn distance(&mut self, a: &[char], b: &[char], max_distance: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > max_distance {
             return None;

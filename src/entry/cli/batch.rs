@@ -278,8 +278,8 @@ struct Answer {
 }
 
 impl Work {
-    /// Analyses one record, and returns its line. Returns an error if its picture could not be written: then no later
-    /// picture could be written either.
+    /// Analyses one record, and returns its line. Returns an error if its picture cannot be written, because later
+    /// pictures could then not be written either.
     fn answer(&self, record: Record) -> Result<Answer, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
@@ -337,8 +337,8 @@ impl Work {
         (line, ExitStatus::WrongInput)
     }
 
-    /// Returns the options of an analysis, which computes only what the line contains. A time limit starts with this
-    /// call.
+    /// Returns the options of an analysis. It computes only the values that the line contains. A time limit is counted
+    /// from this call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());
         if self.fields.ask(&["frames", "margins"]) {
@@ -352,7 +352,7 @@ impl Work {
 }
 
 impl Drawn {
-    /// Draws a scene into its file. The file is complete before the line that names it is written.
+    /// Draws a scene, and writes the picture to its file. The file is complete before the line of the scene is written.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {

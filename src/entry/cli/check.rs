@@ -126,7 +126,7 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Computes the answers for all scenes, in parallel, with their progress on the terminal.
+    /// Computes the answers for all scenes, in parallel. The terminal shows the progress.
     fn answers(
         &self,
         sources: &[(usize, Source)],
@@ -225,7 +225,8 @@ type Answer = (ExitStatus, Vec<Verdict>, String, Page);
 /// The number and the path of a file that got no answer, and the reason.
 type Refused = (usize, PathBuf, CliError);
 
-/// Returns the JSON of all files in their order: answers, and the problems of refused files, which are sorted by number.
+/// Returns the JSON of all files in their order: the answers of valid files, and the problems of refused files.
+/// `refused` must be sorted by the number of the file.
 fn objects(done: &[Answer], refused: &[Refused], layout: Layout) -> String {
     let mut objects: Vec<&str> = done.iter().map(|(_, _, json, _)| json.as_str()).collect();
     let problems = refused.iter().map(|(number, path, complaint)| {

@@ -216,7 +216,7 @@ impl<'a> Place<'a> {
         })
     }
 
-    /// True if the whole line fits the width, with the marked place and its label.
+    /// True if the whole line, with the mark and its label, fits into `width` columns.
     fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
         if self.line.chars().count() > LONG_LINE {
             return false;

@@ -19,8 +19,8 @@ pub(crate) enum Destination {
 }
 
 impl Destination {
-    /// Interprets the argument of `-o`. `-` is standard output. An existing folder, or a path with a slash at its
-    /// end, is a folder. Any other path is a file.
+    /// Interprets the argument of `-o`. The argument `-` is standard output. An existing folder, or a path with a slash
+    /// at its end, is a folder. Any other path is a file.
     pub(crate) fn from_path(typed: &Path) -> Destination {
         let text = typed.to_string_lossy();
         if text == "-" {

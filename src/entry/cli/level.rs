@@ -34,7 +34,7 @@ impl AnalysisArgs {
         self.wedging
     }
 
-    /// Returns the name and the value of each option, to record on which options an answer depends.
+    /// Returns the name and the value of each option on which an answer depends. A resume file records them.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",
@@ -53,7 +53,7 @@ impl AnalysisArgs {
         ]
     }
 
-    /// Returns the options of the analysis. A time limit starts with this call.
+    /// Returns the options of the analysis. A time limit is counted from this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,

@@ -34,7 +34,7 @@ impl StyleArgs {
         self.theme.as_deref().filter(|_| self.style.is_none())
     }
 
-    /// True if a theme or a style file was given.
+    /// True if the command line has a theme or a style file.
     pub(crate) fn is_chosen(&self) -> bool {
         self.theme.is_some() || self.style.is_some()
     }

@@ -127,7 +127,7 @@ pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
     Ok(kinds(&names))
 }
 
-/// Joins the optional list after `--margins` to the option.
+/// Joins the option `--margins` and a list in the next word to one word, `--margins=LIST`.
 ///
 /// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two.
 /// The word after `--margins` is a list if it looks like names, unless a file has this name.

@@ -78,12 +78,12 @@ enum Background {
 }
 
 impl Picture {
-    /// Returns the format that `--format` selects.
+    /// Returns the format that `--format` selects; `None` without this option.
     pub(crate) fn asked(&self) -> Option<Format> {
         self.format
     }
 
-    /// Sets the width in pixels for a format with pixels, if no size was given.
+    /// Sets the width in pixels if the format has pixels and the command line gives no size.
     pub(crate) fn or_width(mut self, pixels: u32, format: Format) -> Picture {
         let sized = self.width.is_some() || self.scale.is_some() || self.width_mm.is_some();
         if format.has_pixels() && !sized {
@@ -92,7 +92,7 @@ impl Picture {
         self
     }
 
-    /// Selects fast compression, for many pictures. The files are larger.
+    /// Selects fast compression for a command that writes many pictures. The files are larger.
     pub(crate) fn of_many(self) -> Picture {
         Picture {
             compression: Compression::Quick,
@@ -235,7 +235,8 @@ impl Picture {
     }
 }
 
-/// Returns the error. If it is about the size of a figure with several steps, it also suggests separate figures.
+/// Returns the error. If the error is about the size of a figure with several steps, adds the advice to draw separate
+/// figures.
 pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
         CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(

@@ -55,7 +55,7 @@ impl Render {
         watch::repeat(&files, terminal, || self.once(terminal))
     }
 
-    /// Draws everything once: checks the options, reads the scenes, draws in parallel, and writes.
+    /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let one = |complaint| vec![complaint];
         let destination = Destination::from_path(&self.output);
@@ -281,7 +281,7 @@ impl Render {
         })
     }
 
-    /// Returns the options with the block of `--zoom`.
+    /// Returns the options with the block that `--zoom` names.
     fn zoomed(
         &self,
         source: &Source,

@@ -160,7 +160,8 @@ impl Report {
         destination::apart(&[main], &inputs)
     }
 
-    /// Returns the pieces of all tasks, the files that are not valid scenes, and the worst exit status.
+    /// Describes all tasks. Returns the parts of the report, the files that are not valid scenes, and the worst exit
+    /// status.
     fn describe_all(
         &self,
         tasks: &[Task],
@@ -264,7 +265,7 @@ impl Report {
         }
     }
 
-    /// Makes the piece of the report for a task.
+    /// Makes the part of the report for one task. `number` is the number of the task.
     fn describe(
         &self,
         task: &Task,

@@ -120,7 +120,7 @@ impl Snapshot {
         destination::write(&written, Existing::Replace)
     }
 
-    /// Refuses contradictory options.
+    /// Refuses options that contradict each other.
     fn sound(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {

@@ -116,8 +116,8 @@ pub(crate) fn read(
     }
 }
 
-/// Reads all scenes, and separately returns the scenes on which the program itself failed. If other scenes cannot be
-/// read, it returns all problems of all scenes.
+/// Reads all scenes. Returns the scenes, and separately the errors of files on which the program itself failed. If
+/// another file cannot be read, returns all problems of all files.
 pub(crate) fn read_apart_from_faults(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,

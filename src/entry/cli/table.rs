@@ -322,7 +322,7 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
-/// Returns the remarks below the row of a frame, one sentence each.
+/// Returns the remarks below the row of a frame. Each remark is one sentence.
 fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Detail::Full(timing) = detail {

@@ -129,7 +129,7 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
     }
 }
 
-/// Converts an error of writing. A closed pipe counts as success: its reader has read enough.
+/// Converts an error of writing. A closed pipe counts as success: its reader needs no more output.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {

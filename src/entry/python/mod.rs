@@ -183,7 +183,7 @@ impl Analysis {
         self.found.verdict() == Verdict::Stable
     }
 
-    /// Returns the result as `check --json` prints it.
+    /// Returns the result in the form that `check --json` prints.
     fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
         let timing = match timing {
             true => Timing::Included,
@@ -199,7 +199,7 @@ impl Analysis {
         })
     }
 
-    /// Returns one of the tables, for one frame or for all.
+    /// Returns the table with this name, for one frame or for all frames.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
         table::Table::new(&self.found, name, frame)
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
@@ -360,7 +360,7 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     }
 }
 
-/// Returns a scene file in the layout in which the program writes it.
+/// Returns a scene file as text in drystone's own layout.
 #[pyfunction]
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
     let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
@@ -386,7 +386,7 @@ fn themes() -> Vec<&'static str> {
     Theme::NAMES.to_vec()
 }
 
-/// Runs the program with a command line, whose first word is its name, and returns its exit code.
+/// Runs the command line `words`, whose first word is the name of the program. Returns the exit code.
 #[pyfunction]
 fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| cli::run_with(words.into_iter()))

@@ -67,7 +67,7 @@ impl Session {
         placed.map(|b| scene.blocks()[b.0].id.as_str()).collect()
     }
 
-    /// Returns the robots that hold a block, each with its block.
+    /// Returns the pairs of a robot and the block that it holds.
     #[getter]
     fn holds(&self) -> Vec<(&str, &str)> {
         let scene = self.now.scene();

@@ -252,7 +252,7 @@ impl Line {
 }
 
 /// Returns the step, in metres, that minimises the sum of squared distances from a point to some lines. If several
-/// steps do, it returns the shortest.
+/// steps give the minimum, returns the shortest.
 fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
     // The normal equations [p q; q r] · step = pull.
     let (mut p, mut q, mut r) = (0.0, 0.0, 0.0);

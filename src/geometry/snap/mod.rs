@@ -81,7 +81,7 @@ pub(crate) struct Gaps<'g> {
 }
 
 impl<'g> Gaps<'g> {
-    /// Limits moves only by the bodies' gaps, in metres, and not by the lengths of sides.
+    /// Creates limits for moves: the gap of each body in metres. The lengths of sides give no further limit.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -154,7 +154,7 @@ pub(crate) fn snapped<'b>(
     }
 }
 
-/// The numbers of the bodies that are kept as drawn although the caller did not fix them.
+/// Returns the numbers of the bodies that snapping kept as drawn, without those that the caller fixed.
 fn kept_but_not_fixed(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
     let pairs = kept.iter().zip(fixed).enumerate();
     pairs
@@ -181,7 +181,8 @@ struct NodeNearSide<'s> {
     off: f64,
 }
 
-/// Snaps all bodies once; the corners of the bodies marked in `kept` do not move. The result is not checked.
+/// Snaps all bodies once. The corners of the bodies marked in `kept` do not move. The result may be damaged; the caller
+/// must check it.
 fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b> {
     // Step 1: merge close corners into nodes.
     let mut nodes = Nodes::new(bodies, gaps, kept);
@@ -303,7 +304,7 @@ fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     sides
 }
 
-/// Rebuilds the outlines: every corner moves to its node, and the nodes in `taken` become corners of curved sides.
+/// Rebuilds the outlines: every corner moves to its node, and curved sides get the nodes in `taken` as new corners.
 fn rebuild_bodies(
     bodies: &[Rings],
     nodes: &Nodes,

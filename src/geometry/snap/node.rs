@@ -1,4 +1,4 @@
-//! [`Nodes`]: the points that replace the corners; corners that are close together share one.
+//! [`Nodes`]: the points that replace the corners. Corners that are close together share one node.
 //!
 //! Corners are clustered bottom up with complete linkage: pairs are merged in the order of their distance, and two
 //! clusters are merged only if every corner of one lies within the gap of every corner of the other. Chains of close
@@ -48,7 +48,7 @@ struct UnplacedCorner {
 /// would have millions of such pairs.
 const MAX_COINCIDENT: usize = 64;
 
-/// The largest distance, in metres, by which each corner of a ring may move.
+/// Returns the largest distance, in metres, by which each corner of a ring may move.
 ///
 /// It is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
 fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item = f64> + '_ {
@@ -140,8 +140,8 @@ impl Clusters {
     }
 }
 
-/// Makes a node of each cluster. Returns the nodes, the list of their bodies, and for each cluster's first corner the
-/// index of its node.
+/// Makes one node for each cluster. Returns the nodes, the list of their bodies, and the index of the node for the
+/// first corner of each cluster.
 fn merge(
     corners: &[UnplacedCorner],
     joined: &Clusters,

@@ -22,8 +22,8 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// Capacity for `threads` workers: 64 items per worker, so that a slow item does not stop the others, and 64 MiB in
-    /// total.
+    /// Returns the capacity for `threads` workers: 64 items per worker, so that a slow item does not stop the others,
+    /// and 64 MiB in total.
     pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
         Capacity {
@@ -36,7 +36,7 @@ impl Capacity {
 
 /// The memory that an item occupies.
 pub trait ByteSize {
-    /// The approximate size in bytes.
+    /// Returns the approximate size in bytes.
     fn byte_size(&self) -> usize;
 }
 

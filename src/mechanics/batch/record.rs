@@ -92,7 +92,7 @@ impl Records {
         }
     }
 
-    /// Returns a counter of the bytes read so far. It is shared with this reader, so that it can show progress.
+    /// Returns the number of bytes read so far, as a counter that the reader shares. It serves to show progress.
     pub fn read(&self) -> Arc<AtomicU64> {
         Arc::clone(&self.read)
     }

@@ -62,8 +62,9 @@ pub struct Penetration {
     pub at: Point,
 }
 
-/// Reports each pair of bodies that overlap in some frame. Pairs with a small overlap, which may be a drawing error,
-/// are not reported but returned. If the scene gives a contact tolerance, they are reported too.
+/// Reports each pair of bodies that overlap in some frame. A pair with a small overlap, which may be a drawing error,
+/// is returned and not reported. All pairs are reported if the scene gives a contact tolerance, or if more than
+/// [`MOST`] pairs overlap.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
@@ -151,8 +152,8 @@ impl Presence {
         }
     }
 
-    /// The first frame in which both bodies are present. `None` if there is none, or if both bodies are parts of the
-    /// ground.
+    /// Returns the first frame in which both bodies are present. `None` if there is no such frame, or if both bodies
+    /// are parts of the ground.
     fn together(&self, a: BodyId, b: BodyId) -> Option<usize> {
         if matches!((a, b), (BodyId::Ground(_), BodyId::Ground(_))) {
             return None;

@@ -34,7 +34,7 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// An empty list of problems for a file of which the parts in `doubt` could not be read.
+    /// Creates an empty list of problems. `doubt` contains the parts of the file that could not be read.
     pub(super) fn doubting(doubt: UnreadParts) -> Findings {
         Findings {
             list: Vec::new(),
@@ -54,7 +54,7 @@ impl Findings {
         self.list.len() > MAX_FINDINGS
     }
 
-    /// True if there are still so few problems that their messages suggest a correction.
+    /// True if the list is short enough for hints. Messages then suggest corrections.
     pub(super) fn hints(&self) -> bool {
         self.list.len() < MAX_SUGGESTIONS
     }
@@ -83,8 +83,8 @@ impl Findings {
         }
     }
 
-    /// Adds a problem. If the list is full, it adds one entry which states that there are more problems, and after that
-    /// none.
+    /// Adds a problem. When the list is full, adds one last entry, which states that there are more problems. Later
+    /// problems are dropped.
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
             n if n < MAX_FINDINGS => self.list.push(finding),
@@ -139,8 +139,8 @@ impl UnreadParts {
             .any(|p| p.starts_with(&key) || p.0.is_empty())
     }
 
-    /// The index of the first entry of a list that could not be read completely; 0 if the list itself could not be
-    /// read. `None` if all entries could be read.
+    /// Returns the index of the first entry of a list that could not be read completely; 0 if the list itself could not
+    /// be read. `None` if all entries were read.
     pub(super) fn first_entry(&self, list: &str) -> Option<usize> {
         let mut first = None;
         for path in &self.paths {

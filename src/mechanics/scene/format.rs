@@ -319,7 +319,7 @@ pub(super) fn agrees(text: &str) -> bool {
                 .collect(),
         }
     }
-    /// Converts every number to a float, because the syntax tree holds floats.
+    /// Converts every number to a float, because all numbers of the syntax tree are floats.
     fn floats(value: serde_json::Value) -> serde_json::Value {
         match value {
             serde_json::Value::Number(x) => x.as_f64().into(),

@@ -161,7 +161,7 @@ struct Closed<'d> {
     reach: HealingReach,
 }
 
-/// Moves corners and edges that are within tolerance onto each other, and sets the gap of every body.
+/// Moves corners and edges that are within tolerance of each other together, and sets the gap of every body.
 ///
 /// 1. Measure the bodies.
 /// 2. Snap corners and edges within the tolerance that was given, or that follows from the digits of the coordinates.
@@ -193,7 +193,7 @@ pub(super) fn heal(
 }
 
 impl Drawn {
-    /// Step 1: measures the bodies. Every part of the ground gets the size of the largest block, even if it is drawn
+    /// Step 1: measures the bodies. Every part of the ground gets the size of the largest block, even if the part is
     /// thin.
     fn new(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>]) -> Drawn {
         let parts = ground.len();
@@ -277,8 +277,8 @@ impl Drawn {
         }
     }
 
-    /// Step 4: counts what moved, and returns the new outlines of the bodies that changed, by the numbers of the
-    /// bodies.
+    /// Step 4: counts the bodies and corners that moved. Returns the counts, and the new outline of each changed body
+    /// by the number of the body.
     fn changes<'c>(&self, closed: &'c Closed<'_>) -> (Healed, BTreeMap<usize, &'c Rings>) {
         let reach = closed.reach;
         let mut healed = Healed {
@@ -360,8 +360,8 @@ impl Scene {
         scene
     }
 
-    /// Describes for users at what distance edges touch, where this tolerance comes from, and what healing moved.
-    /// `None` on a lattice, where contacts are exact.
+    /// Describes for users the distance at which edges touch, the source of this tolerance, and the corners that
+    /// healing moved.
     pub fn tolerance_words(&self) -> Option<String> {
         let from: String = match self.healed.source {
             ToleranceSource::Lattice => return None,

@@ -113,22 +113,22 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Title, empty if the file gives none.
+    /// Returns the title; empty if the file gives no title.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// Author of the calculation, empty if the file gives none.
+    /// Returns the author of the calculation; empty if the file gives no author.
     pub fn author(&self) -> &str {
         &self.author
     }
 
-    /// Project that the structure belongs to, empty if the file gives none.
+    /// Returns the project that the structure belongs to; empty if the file gives no project.
     pub fn project(&self) -> &str {
         &self.project
     }
 
-    /// Date of the calculation as written in the file, empty if the file gives none.
+    /// Returns the date of the calculation as written in the file; empty if the file gives no date.
     pub fn date(&self) -> &str {
         &self.date
     }
@@ -139,7 +139,8 @@ impl Scene {
         self.units
     }
 
-    /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
+    /// Returns gravity in m/s². Weights act in its direction. For blocks with a given weight, only the direction has an
+    /// effect.
     pub fn gravity(&self) -> Vector {
         self.gravity
     }
@@ -159,17 +160,17 @@ impl Scene {
         self.lattice
     }
 
-    /// Whether every body is a set of lattice cells, so that contacts are decided in whole numbers.
+    /// True if every body is a set of lattice cells. Contacts are then computed in whole numbers.
     pub fn exact(&self) -> bool {
         self.exact
     }
 
-    /// The lengths below which differences count as rounding; all 0 on a lattice.
+    /// Returns the lengths below which differences count as rounding. All are 0 on a lattice.
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
-    /// Where the tolerance comes from, and which corners healing moved before the analysis.
+    /// Returns the source of the tolerance, and the corners that healing moved before the analysis.
     pub fn healed(&self) -> &Healed {
         &self.healed
     }
@@ -220,12 +221,12 @@ impl Scene {
         !self.contacts.is_empty()
     }
 
-    /// Whether a corner that touches an edge or another corner carries force.
+    /// True if a corner that touches an edge or another corner carries force.
     pub fn corner_contacts(&self) -> bool {
         self.corner_contacts
     }
 
-    /// The frames, one for each step; at least one.
+    /// Returns the frames: one for each step, or one frame for a scene without steps.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
@@ -251,8 +252,8 @@ impl Scene {
         }
     }
 
-    /// Friction coefficient between two bodies: the one given for the pair of their materials, otherwise the smaller of
-    /// the two bodies' own coefficients.
+    /// Returns the friction coefficient between two bodies: the coefficient given for the pair of their materials,
+    /// otherwise the smaller of the two bodies' own coefficients.
     pub fn friction_between(&self, a: BodyId, b: BodyId) -> f64 {
         let (a, b) = (self.body(a), self.body(b));
         if let (Some(m), Some(n)) = (a.material, b.material) {

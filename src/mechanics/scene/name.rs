@@ -28,7 +28,8 @@ pub(super) struct Names<'f> {
 }
 
 impl<'f> Names<'f> {
-    /// A table of names in the order of the list. If a name occurs twice, it has its first number.
+    /// Makes a table of names in the order of the list. A name that occurs twice has the number of its first
+    /// occurrence.
     pub(super) fn new(sort: &'static str, list: Vec<&'f str>, incomplete: bool) -> Names<'f> {
         let mut numbers = BTreeMap::new();
         for (i, name) in list.iter().enumerate() {

@@ -105,7 +105,8 @@ impl Lines {
     }
 }
 
-/// The notes on a scene that was read without problems. Near misses are added later, when contacts are found.
+/// Returns the notes on a scene that was read without problems. Notes on edges that nearly touch are added later, when
+/// contacts are found.
 pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
     let mut notes = Notes {
         list: Vec::new(),
@@ -318,9 +319,9 @@ impl Notes<'_> {
     }
 }
 
-/// If the angle is probably in radians by mistake, returns it in degrees: a multiple of 15°. The angle must be at most
-/// a full turn and agree with that multiple to three decimals. Angles in whole hundredths are not suspect, because
-/// degrees are often written so.
+/// Returns an angle in degrees if it was probably written in radians; otherwise `None`. The result is a multiple of
+/// 15°. The angle must be at most a full turn and agree with that multiple to three decimals. Angles with at most two
+/// decimals are not suspect, because degrees are often written with two decimals.
 fn in_degrees(angle: f64) -> Option<f64> {
     let step = std::f64::consts::PI / 12.0;
     let count = (angle / step).round();

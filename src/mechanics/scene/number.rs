@@ -1,4 +1,4 @@
-//! Checks the numbers of a scene: finite, within ±10¹², either 0 or not tiny, and not negative if that makes no sense.
+//! Checks the numbers of a scene: finite, within ±10¹², and either 0 or not tiny. Some numbers must also be at least 0.
 
 use super::finding::Findings;
 use super::path::Trail;
@@ -14,7 +14,7 @@ pub(super) const SMALLEST: f64 = 1e-30;
 /// Smallest extent of a body or a cell, in metres: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
-/// True if all numbers are finite and within ±10¹². Reports the first one that is not.
+/// True if all numbers are finite and within ±10¹². Reports the first number that is not.
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {

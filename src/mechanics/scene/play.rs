@@ -40,7 +40,7 @@ impl StepContext<'_> {
     }
 }
 
-/// The only frame of a scene without steps: all blocks are placed, and each robot holds its block.
+/// Returns the only frame of a scene without steps: all blocks are placed, and each robot holds its block.
 pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),

@@ -168,7 +168,7 @@ impl<'f> Resolution<'f> {
         })
     }
 
-    /// The names of blocks and robots, for robots, loads and steps that refer to them.
+    /// Returns the names of blocks and robots, to which robots, loads and steps refer.
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
         let hidden = |list: &str, ids: &[String]| findings.doubt.hides_names(list, ids.len());
         BodyNames {
@@ -276,7 +276,7 @@ fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     (Vector::new(gravity[0], gravity[1]), kernel)
 }
 
-/// The names of materials, and the names of shapes including the built-in ones.
+/// Returns the names of the materials, and the names of all shapes including the built-in shapes.
 fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names<'f>) {
     let (materials, shapes) = (&file.materials.0, &file.shapes.0);
     let materials = Names::new(
@@ -293,7 +293,7 @@ fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names
     (materials, shapes)
 }
 
-/// The codes of the notes that the file silences. Reports unknown codes.
+/// Returns the codes of the notes that the file silences. Reports unknown codes.
 fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
     let top = Trail::Top;
     let list = top.key("silence");

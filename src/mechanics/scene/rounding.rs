@@ -27,7 +27,7 @@ pub(super) struct Rounding {
     pub(super) error: f64,
 }
 
-/// The rounding of the coordinates in a file. `None` if the digits do not show any rounding.
+/// Estimates the rounding of the coordinates in a file. `None` if the digits do not show any rounding.
 pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     let mut digits = Digits::default();
     let mut reach = 0.0_f64;
@@ -77,8 +77,8 @@ struct Digits {
 }
 
 /// Returns the number of significant digits in the shortest notation of a number, and the number of digits after the
-/// decimal point. The latter is negative for zeros before the point. `None` if that takes more than 12 decimals or 15
-/// digits.
+/// decimal point. The second number is negative for a multiple of ten: −2 for 300. `None` if the notation needs more
+/// than 12 decimals or 15 digits.
 ///
 /// No two decimals of at most 15 digits round to the same double. The first decimal that is found is therefore the
 /// shortest.
@@ -122,8 +122,8 @@ impl Table {
         self.0[digits.min(MOST - 1)] += 1;
     }
 
-    /// The largest number of digits that occurs. `None` if fewer than the fraction `share` of `count` numbers have it,
-    /// or if it is above [`FULL`].
+    /// Returns the largest number of digits that occurs. `None` if fewer than the fraction `share` of `count` numbers
+    /// have that many digits, or if it is above [`FULL`].
     fn last(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;

@@ -73,8 +73,8 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// The range of bytes of the value or key with this path, only the part on its first line. If the text does not
-    /// contain the whole path, it is the range of the deepest value that it contains.
+    /// Returns the range of bytes of the value or key with this path, but only the part on its first line. If the text
+    /// does not contain the whole path, returns the range of the deepest value that it contains.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
@@ -106,8 +106,8 @@ impl<'t> Source<'t> {
         Some(self.first_line(node.range.clone()))
     }
 
-    /// The part of a range on its first line. If a block of twenty lines were marked, the message would be hard to
-    /// find.
+    /// Returns the part of a range on its first line. If a block of twenty lines were marked, the message would be hard
+    /// to find.
     fn first_line(&self, range: Range<usize>) -> Range<usize> {
         let text = self.text.get(range.clone()).unwrap_or("");
         let line = text.split('\n').next().unwrap_or("").trim_end();

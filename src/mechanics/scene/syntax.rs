@@ -27,7 +27,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     )
 }
 
-/// The range of bytes of the character that begins at a byte.
+/// Returns the range of bytes of the character that begins at a byte.
 fn one(text: &str, byte: usize) -> Range<usize> {
     let length = text[byte..].chars().next().map_or(0, char::len_utf8);
     byte..byte + length

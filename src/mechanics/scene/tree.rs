@@ -176,7 +176,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The error `why` at the current byte. At the end of the text, the error is that the text ends early.
+    /// Makes the error `why` at the current byte. At the end of the text, the error says that the text ends too early.
     fn fault(&self, why: Why) -> SyntaxError {
         let why = match self.peek() {
             None => Why::End(self.open.last().copied()),
@@ -266,8 +266,8 @@ impl<'t> Parser<'t> {
         self.at += 1;
     }
 
-    /// Called after a value in a list or object. True if a comma and another entry follow, false at the closing
-    /// bracket.
+    /// Reads the separator after a value in a list or object. True if a comma and another entry follow, false at the
+    /// closing bracket.
     fn another(&mut self, close: char) -> Result<bool, SyntaxError> {
         self.blanks();
         let comma = self.at;

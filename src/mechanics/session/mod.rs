@@ -81,7 +81,7 @@ impl Session {
         Session::with(file, Options::default())
     }
 
-    /// Starts a session with options. Margins and wedging are not computed. A deadline applies to all steps together.
+    /// Starts a session with options. Margins and wedging are not computed. A deadline limits all steps together.
     ///
     /// # Errors
     /// As [`Session::new`].
@@ -239,24 +239,25 @@ impl Session {
         self.verdict
     }
 
-    /// How the current verdict was obtained.
+    /// Returns how the current verdict was obtained.
     pub fn source(&self) -> Source {
         self.source
     }
 
-    /// The placed blocks as a scene with one frame, for figures and further analysis. On a lattice, it also contains
-    /// removed blocks, which are in no frame.
+    /// Returns the placed blocks as a scene with one frame, for figures and further analysis. On a lattice, the scene
+    /// also contains removed blocks, but no frame contains them.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The complete analysis of the placed blocks.
+    /// Analyses the placed blocks completely.
     pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// The margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which they
-    /// stand. They are those of [`Session::analysis`] with [`Options::margins`].
+    /// Computes the margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which
+    /// they stand. The values equal those of [`Session::analysis`] with [`Options::margins`]. `None` if there is no
+    /// frame.
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;
@@ -305,7 +306,7 @@ impl Session {
         self.verdict
     }
 
-    /// True if a new block leaves all other contacts unchanged: on a lattice without corner contacts.
+    /// True if a new block cannot change the other contacts. This is the case on a lattice without corner contacts.
     fn is_incremental(&self) -> bool {
         self.scene.exact && !self.scene.corner_contacts
     }

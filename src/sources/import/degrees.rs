@@ -12,7 +12,7 @@ const MAX_EXTENT: f64 = 1.0;
 /// Collections are not nested deeper.
 const MAX_DEPTH: usize = 50;
 
-/// Returns the reason why the coordinates count as degrees, with the remedy; `None` if they count as lengths.
+/// Returns the reason why the coordinates count as degrees, with the remedy. `None` if they count as lengths.
 pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let remedy = "drystone needs lengths: draw the structure in its own plane, or project it first, for example with \
         ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, say so with --unit m";

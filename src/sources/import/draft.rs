@@ -73,7 +73,7 @@ pub(super) struct Values {
 }
 
 impl Role {
-    /// Returns the role that the beginning of a name gives to an element, in upper or lower case; `None` if it gives
+    /// Returns the role of an element from the beginning of its name, in upper or lower case. `None` if the name gives
     /// no role.
     pub(super) fn from_name(name: &str) -> Option<Role> {
         let begins = |with: &str| {

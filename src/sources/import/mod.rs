@@ -344,8 +344,8 @@ fn option_problems(options: &Options) -> Vec<Remark> {
     problems
 }
 
-/// Returns the reason why the outlines are not a structure: there is no block, or too many outlines overlap. `None`
-/// if they are one.
+/// Returns the reason why the outlines are not a structure: there is no block, or too many outlines overlap. `None` if
+/// they are a structure.
 fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         return Some(Remark {

@@ -55,7 +55,8 @@ impl Taken {
         }
     }
 
-    /// Returns `stem` with the first number, at least `from`, for which the name is neither taken nor in the drawing.
+    /// Returns `stem` with the first number, from `from` on, that makes a free name. A name is free if it is neither
+    /// taken nor in `wanted`.
     fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
         let last = self.last.entry(stem.to_owned()).or_default();
         let mut number = from.max(*last);

@@ -53,7 +53,7 @@ impl<'o> Naming<'o> {
         }
     }
 
-    /// Returns the role that a name gives to an element; `None` if it gives no role.
+    /// Returns the role of an element with this name. `None` if the name gives no role.
     pub(super) fn role(&self, name: &str) -> Option<Role> {
         let name = name.trim();
         keep(&self.seen, name);

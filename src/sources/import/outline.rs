@@ -35,8 +35,8 @@ pub(super) struct Robot {
     pub(super) at: Point,
 }
 
-/// Returns the size of the drawing: the diagonal of the bounding box of all blocks, in metres. Removes parts with
-/// coordinates that are too large or not numbers.
+/// Removes parts with coordinates that are too large or not numbers. Returns the size of the drawing: the diagonal of
+/// the bounding box of all blocks, in metres.
 pub(super) fn size(draft: &mut Draft) -> f64 {
     let hull = |part: &Part| match &part.form {
         Form::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
@@ -70,7 +70,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
 
 impl Outlines {
     /// Flattens the parts of a draft and splits them into regions. `flatten` is the largest distance of a chord from
-    /// its curve, and `close` the largest gap of an outline that is closed, in metres.
+    /// its curve. `close` is the largest gap between the ends of an outline that counts as closed. Both are in metres.
     pub(super) fn new(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
         let mut outlines = Outlines {
             bodies: Vec::new(),
@@ -129,8 +129,8 @@ impl Outlines {
         }
     }
 
-    /// Returns the thickness of the thinnest body in metres. The thickness is 2 A / P, as of a long strip with this
-    /// area and perimeter.
+    /// Returns the thickness of the thinnest body in metres. The thickness of a body is 2 A / P for its area A and
+    /// perimeter P, which is exact for a long strip.
     pub(super) fn thinnest(&self) -> f64 {
         let thickness = |body: &Body| {
             let polygon = polygon(&body.rings).ok()?;

@@ -9,7 +9,7 @@ use super::draft::FillRule;
 use crate::geometry::snap::{Corner, Rings, area};
 use crate::geometry::{Bounds, Point};
 
-/// Returns the regions that rings enclose by a fill rule: the outline and the holes of each.
+/// Splits rings into the regions that they enclose by a fill rule. Each region has an outline and holes.
 pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
     let filled = |winding: i64| match rule {
         FillRule::NonZero => winding != 0,
@@ -57,7 +57,7 @@ fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     outer.intersects(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
 }
 
-/// True if most corners of a ring are inside another ring; single corners may lie on an edge of the other ring. The
+/// True if most corners of a ring are inside another ring. Single corners may lie on an edge of the other ring. The
 /// test counts crossings of a horizontal ray (even-odd).
 fn lies_in(ring: &[Corner], other: &[Corner]) -> bool {
     let inside = |p: Point| {

@@ -12,8 +12,8 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Returns metres per unit of the drawing, and a sentence with the reason. `stated` is the unit that the drawing
-    /// states, in metres, with the reason. `silent` is the reason if it states none.
+    /// Returns the metres per unit of the drawing, and a sentence with the reason. `stated` is the unit that the
+    /// drawing states, in metres, with the reason. `silent` is the reason if the drawing states no unit.
     ///
     /// # Errors
     /// If only a ratio is given, and the drawing states no unit.

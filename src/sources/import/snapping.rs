@@ -59,7 +59,7 @@ impl Outlines {
         }
     }
 
-    /// Returns the depth of an overlap that a scene of these blocks tolerates, in metres.
+    /// Returns the depth, in metres, up to which a scene of these blocks tolerates overlaps.
     fn tolerance(&self) -> f64 {
         let boxes = self.boxes(Role::Block);
         let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();

@@ -67,7 +67,7 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     draft
 }
 
-/// Splits a line into name and geometry. The `SRID=…;` of a database is not a name.
+/// Splits a line into name and geometry. The prefix `SRID=…;` of a database is not a name.
 fn named(line: &str) -> (&str, &str) {
     let geometry = line.find('(').unwrap_or(line.len());
     match line[..geometry].rfind([';', '\t']) {

@@ -163,7 +163,7 @@ pub struct Doorway {
 }
 
 impl Default for Doorway {
-    /// Returns a doorway 1 m wide and 2 m high, with jambs of 4 blocks. Every step stands.
+    /// Returns a doorway 1 m wide and 2 m high. Each jamb has 4 blocks. Every step stands.
     fn default() -> Doorway {
         Doorway {
             courses: 4,

@@ -28,7 +28,7 @@ const BUFFER_BYTES: usize = 1 << 16;
 pub(super) struct Settings(pub Vec<(&'static str, String)>);
 
 impl Settings {
-    /// Writes the header of a resume file.
+    /// Returns the header of a resume file as text.
     fn header(&self) -> String {
         let mut header = String::new();
         for (name, value) in &self.0 {
@@ -38,8 +38,8 @@ impl Settings {
         header
     }
 
-    /// Describes the differences from an earlier run, given by its header. Each has a name, the earlier value and the
-    /// present value.
+    /// Compares the settings with those of an earlier run, given by its header. Describes each difference by its name,
+    /// the earlier value and the present value.
     fn differences(&self, earlier: &str) -> Vec<String> {
         let value_then = |name: &str| {
             let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));
@@ -56,7 +56,7 @@ impl Settings {
     }
 }
 
-/// Reads the header of a resume file; `None` if it has none.
+/// Reads the header of a resume file. `None` if the file does not begin with a header.
 fn read_header(entries: &mut impl BufRead) -> Option<String> {
     let mut header = String::new();
     loop {
@@ -112,7 +112,7 @@ impl ResumeFile {
         }
     }
 
-    /// Adds the entry of an answer in memory; [`ResumeFile::flush`] writes it.
+    /// Adds the entry of an answer. The entry stays in memory until [`ResumeFile::flush`] writes it.
     pub fn push(&mut self, scene: u64, line: &[u8]) {
         // Writing to a `String` cannot fail.
         let _ = writeln!(self.waiting, "{}", entry(scene, line));
@@ -127,7 +127,7 @@ impl ResumeFile {
     }
 }
 
-/// Makes the entry of an output line, without a line feed.
+/// Makes the entry of an output line. `line` has no line feed.
 fn entry(scene: u64, line: &[u8]) -> String {
     format!("{scene:016x} {:016x}", text::hash(line))
 }
@@ -157,8 +157,8 @@ pub(super) struct Checked {
     resume_bytes: u64,
 }
 
-/// Reads one scene from the input for each complete line of the output, and checks that they belong together. It
-/// changes no file.
+/// Reads one scene from the input for each complete line of the output, and checks that the line answers this scene.
+/// Changes no file.
 ///
 /// # Errors
 /// The first difference, with the remedy.

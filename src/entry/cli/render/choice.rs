@@ -1,4 +1,4 @@
-//! The choices of `drystone render`, and the corresponding options of a figure.
+//! The values of the options of `drystone render`, and the corresponding options of a figure.
 
 use std::sync::LazyLock;
 

@@ -21,8 +21,8 @@ pub(super) struct Rendered {
     pub(super) summary: String,
 }
 
-/// Returns the results, and the paths to which they are written, without the scenes on which the program itself
-/// failed. These errors are added to `faults`.
+/// Returns the results and their paths without the scenes on which the program itself failed. The errors of these
+/// scenes are added to `faults`.
 pub(super) fn without_faults(
     rendered: Vec<Result<Rendered, CliError>>,
     paths: Vec<PathBuf>,

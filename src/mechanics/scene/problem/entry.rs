@@ -19,7 +19,7 @@ pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) ->
     )
 }
 
-/// The remedy for a value of a wrong type. Where possible, it shows the text to write in the file.
+/// Returns the remedy for a value of a wrong type. Where possible, the remedy shows the text to write in the file.
 fn help(expected: &str, found: &str) -> String {
     let (is_number, is_text) = (
         found.starts_with("the number "),

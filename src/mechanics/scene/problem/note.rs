@@ -2,7 +2,8 @@
 
 use super::{Code, Wording, digits, pair, say, shortened};
 
-/// Makes the message of a note. The code of the problem is never shown, because notes have their own codes.
+/// Makes the message of a note. The message needs a problem code, but the code is never shown, because notes have their
+/// own codes.
 fn note(message: String, hint: impl Into<String>) -> Wording {
     say(Code::OutOfRange, message, hint)
 }

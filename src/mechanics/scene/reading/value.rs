@@ -29,7 +29,8 @@ pub(super) struct Object<'n, 't> {
 }
 
 impl<'n, 't> Object<'n, 't> {
-    /// The value of a key; `None` if there is no such key. If the key occurs twice, it is the first value.
+    /// Returns the value of a key; `None` if the object has no such key. If the key occurs twice, returns the first
+    /// value.
     fn get(self, key: &str) -> Option<&'n Node<'t>> {
         let found = self.entries.iter().find(|e| e.name == key);
         found.map(|e| &e.value)

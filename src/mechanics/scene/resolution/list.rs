@@ -14,8 +14,8 @@ use crate::scene::path::Trail;
 use crate::scene::{problem, shape};
 
 impl Resolution<'_> {
-    /// The outlines of the file's shapes, then those of the built-in shapes. `None` stands for an outline that is not
-    /// valid.
+    /// Returns the outlines of the file's shapes, then those of the built-in shapes. An outline that is not valid is
+    /// `None`.
     pub(super) fn shape_outlines(&self, findings: &mut Findings) -> Vec<Option<Outline>> {
         let top = Trail::Top;
         let list = top.key("shapes");
@@ -56,7 +56,7 @@ impl Resolution<'_> {
         outlines
     }
 
-    /// The friction coefficients between pairs of materials, given by their numbers.
+    /// Returns the friction coefficients between pairs of materials. A pair has the numbers of its two materials.
     pub(super) fn friction_pairs(&self, findings: &mut Findings) -> Vec<([usize; 2], f64)> {
         let top = Trail::Top;
         let list = top.key("friction_pairs");
@@ -100,7 +100,7 @@ impl Resolution<'_> {
     }
 }
 
-/// The density, friction coefficient and colour that each material gives.
+/// Returns the density, friction coefficient and colour of each material.
 pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<MaterialValues> {
     let top = Trail::Top;
     let list = top.key("materials");

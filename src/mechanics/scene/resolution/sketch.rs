@@ -94,7 +94,7 @@ impl Resolution<'_> {
         }
     }
 
-    /// The rings of a body as written, in their position. Rings that cannot be drawn are left out.
+    /// Returns the rings of a body as written, moved to the body's position. Rings that cannot be drawn are left out.
     fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;

@@ -72,7 +72,7 @@ impl LoadVector {
         }
     }
 
-    /// The size of the load in newtons: the force, or the moment divided by `length` (metres) if that is larger.
+    /// Returns the size of the load in newtons: the larger of the force and the moment divided by `length` (metres).
     pub fn size(&self, length: f64) -> f64 {
         self.force.norm().max(self.moment.abs() / length)
     }
@@ -96,7 +96,7 @@ pub struct AssemblyBody {
 }
 
 impl AssemblyBody {
-    /// The largest distance of a corner from the centroid, metres.
+    /// Returns the largest distance of a corner from the centroid, in metres.
     pub fn radius(&self) -> f64 {
         let reach = self.corners.iter().map(|p| (p - self.centroid).norm());
         reach.fold(0.0, f64::max)
@@ -157,7 +157,7 @@ pub struct AssemblyGrip {
 }
 
 impl Assembly {
-    /// Creates the assembly of a frame: its placed bodies, without loads, contacts and grips. The effects add these.
+    /// Creates the assembly of a frame with its placed bodies only. The effects then add loads, contacts and grips.
     pub fn without_effects(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
         let mut placed = frame.placed.clone();
         placed.sort();
@@ -204,7 +204,8 @@ impl Assembly {
         self
     }
 
-    /// The largest load of all bodies in newtons: the largest force, moment over L, or weight with the current gravity.
+    /// Returns the largest load of all bodies in newtons. The load of a body is its largest force, moment divided by L,
+    /// or weight with the current gravity.
     pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
         self.bodies
@@ -214,8 +215,8 @@ impl Assembly {
     }
 }
 
-/// The load vector about `centroid` that is equivalent to a force at the point `at` and a torque. Metres, newtons and
-/// N·m.
+/// Returns the load vector about `centroid` that is equivalent to a force at the point `at` and a torque. The units are
+/// metres, newtons and N·m.
 pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> LoadVector {
     LoadVector {
         force,

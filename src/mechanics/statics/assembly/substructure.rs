@@ -1,4 +1,4 @@
-//! [`Substructure`]: some bodies of an assembly, with all others fixed.
+//! [`Substructure`]: some bodies of an assembly. All other bodies are fixed.
 
 use super::{Assembly, AssemblyGrip};
 

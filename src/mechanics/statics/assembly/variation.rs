@@ -1,5 +1,5 @@
-//! Changed assemblies: the same bodies in the same positions, with one quantity changed. Margins are computed from
-//! them.
+//! Changes one quantity of an assembly; the bodies stay in their positions. Margins are computed from these changed
+//! assemblies.
 
 use super::Assembly;
 use crate::geometry::Vector;

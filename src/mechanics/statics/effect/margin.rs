@@ -1,4 +1,4 @@
-//! Margins: how far loads, friction, tilt and geometry may change before the verdict changes.
+//! Margins: by how much loads, friction, tilt and geometry may change before the verdict changes.
 //!
 //! They add no unknown to the frame's program; each margin solves separate programs. Sources: the load factor of limit
 //! analysis, Livesley 1978; the geometric safety factor, Heyman 1966.
@@ -8,8 +8,8 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Margins;
 
-/// The report on margins. `judged` is the number of changed frames that were decided to find the margins; `None` if
-/// margins were not requested.
+/// Makes the report on margins. `judged` is the number of changed frames whose verdicts were computed for the margins;
+/// `None` if margins were not requested.
 pub fn report(judged: Option<usize>) -> EffectReport {
     match judged {
         None => EffectReport::skipped(NAME, "not asked for", 0),

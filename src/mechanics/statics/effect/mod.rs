@@ -171,12 +171,12 @@ enum Applicability {
 }
 
 impl Applicability {
-    /// An effect that is skipped and would have had no unknowns.
+    /// Makes the result for an effect that is skipped and would add no unknowns.
     fn skipped(reason: &str) -> Applicability {
         Applicability::skipped_saving(reason, 0)
     }
 
-    /// An effect that is skipped, and the number of unknowns that this saves.
+    /// Makes the result for an effect that is skipped. `saved_unknowns` is the number of unknowns that it would add.
     fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
         Applicability::Skipped {
             reason: reason.to_owned(),
@@ -187,7 +187,7 @@ impl Applicability {
 
 /// An effect that contributes to the assembly of a frame.
 trait Effect {
-    /// The name in results.
+    /// Returns the name of the effect in results.
     fn name(&self) -> EffectName;
 
     /// Decides whether the frame needs the effect, and why.
@@ -210,7 +210,7 @@ const EFFECTS: [&dyn Effect; 8] = [
     &corner_contact::CornerContacts,
 ];
 
-/// Builds a frame's assembly from the effects that apply, and reports on each effect.
+/// Builds the assembly of a frame from the effects that apply. Also returns a report on each effect.
 ///
 /// The reports of simulated effects give 0 unknowns at first. The unknowns are counted later, from the programs.
 pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {

@@ -19,7 +19,7 @@ pub enum Sought {
     NotAsked,
 }
 
-/// The report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns of
+/// Makes the report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns of
 /// sticking, whether they were used or saved.
 pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
     match sought {

@@ -44,17 +44,17 @@ impl CommonStretch {
         stretch
     }
 
-    /// Its length in metres; negative if the edges have no common stretch.
+    /// Returns the length of the stretch in metres; negative if the edges have no common stretch.
     pub(super) fn length(&self) -> f64 {
         self.end - self.start
     }
 
-    /// The coordinate of a point along the stretch, metres.
+    /// Returns the coordinate of a point along the stretch, in metres.
     fn place(&self, p: Point) -> f64 {
         self.along.dot(&(p - self.a.from))
     }
 
-    /// The direction from the first edge to the second.
+    /// Returns the unit vector that points from the first edge to the second.
     fn outward(&self) -> Vector {
         Vector::new(self.along.y, -self.along.x)
     }
@@ -76,12 +76,13 @@ impl CommonStretch {
         self.height(self.b, s) - self.height(self.a, s)
     }
 
-    /// The larger amount of the gaps or overlaps at its two ends, metres.
+    /// Returns the larger absolute value of the gaps at the two ends of the stretch, in metres. Overlaps are negative
+    /// gaps.
     pub(super) fn distance(&self) -> f64 {
         self.gap(self.start).abs().max(self.gap(self.end).abs())
     }
 
-    /// The smaller gap at its two ends, metres; negative if the bodies overlap.
+    /// Returns the smaller of the gaps at the two ends of the stretch, in metres; negative if the bodies overlap.
     pub(super) fn depth(&self) -> f64 {
         self.gap(self.start).min(self.gap(self.end))
     }
@@ -100,8 +101,9 @@ impl CommonStretch {
     }
 }
 
-/// The length in metres that two edges must have in common to form an interface. `edge` is the length of the shorter
-/// edge in metres. It is smaller than the tolerance's own value if a given tolerance is large for the edge.
+/// Returns the least common length, in metres, of two edges that form an interface. `edge` is the length of the shorter
+/// edge in metres. For a given tolerance that is large compared with the edge, the result is less than
+/// [`Tolerance::min_contact_length`].
 pub(super) fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
     let min_length = tolerance.min_contact_length(edge);
     let is_given = scene.healed.source == ToleranceSource::Given;

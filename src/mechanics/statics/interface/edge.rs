@@ -54,7 +54,7 @@ struct Side {
 }
 
 impl Side {
-    /// The bounding box of the edge in x, y and direction.
+    /// Returns the bounding box of the edge in x, y and direction.
     ///
     /// The range of directions contains each edge that may face this one within the smaller of both angle tolerances.
     /// Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With it, it
@@ -73,7 +73,8 @@ impl Side {
         }
     }
 
-    /// The query boxes that find edges facing this one: edges of the opposite direction within the search distance.
+    /// Returns the query boxes for edges that face this edge: edges of the opposite direction within the search
+    /// distance. Directions are periodic, so two boxes are needed near 0 and [`FULL_TURN`].
     ///
     /// Directions are periodic. Near 0 and [`FULL_TURN`] two boxes are needed.
     fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
@@ -95,8 +96,8 @@ impl Side {
     }
 }
 
-/// A number that grows with the angle of a vector, computed without trigonometry: from 0 to 4 anticlockwise from the x
-/// axis, 1 per quadrant.
+/// Returns a number from 0 to 4 that grows with the angle of a vector, anticlockwise from the x axis. It grows by 1 in
+/// each quadrant, and is computed without trigonometry.
 fn direction(v: Vector) -> f64 {
     let part = v.y.abs() / (v.x.abs() + v.y.abs());
     match (v.x >= 0.0, v.y >= 0.0) {
@@ -143,7 +144,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
     collect(scene, pairs, &index, smallest)
 }
 
-/// All edges of a scene, and the size of its smallest block, metres.
+/// Returns all edges of a scene, and the size of its smallest block in metres.
 fn sides(scene: &Scene) -> (Vec<Side>, f64) {
     let count = |body: BodyId| {
         (scene.body(body).polygon.rings().iter())
@@ -250,7 +251,7 @@ impl Collection {
         }
     }
 
-    /// Adds the gaps between two bodies, except those that belong to a rounded outline of bodies that touch.
+    /// Adds the gaps between two bodies. If the bodies touch, the gaps beside a rounded outline are left out.
     fn add_gaps(
         &mut self,
         scene: &Scene,
@@ -273,7 +274,7 @@ impl Collection {
     }
 }
 
-/// The largest length, in metres, of an edge that may be part of a rounded outline of either body.
+/// Returns the greatest length, in metres, that an edge of a rounded outline of either body may have.
 fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     let of_body = |body: &BodyId| match body {
         BodyId::Block(_) => LONG_SIDE_PER_SIZE * size(&scene.body(*body).polygon),
@@ -282,8 +283,8 @@ fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     bodies.iter().map(of_body).fold(f64::INFINITY, f64::min)
 }
 
-/// The points at which two bodies touch: the ends of their interfaces. If they have no interface, it is the only corner
-/// of the first body that touches the second.
+/// Returns the points at which two bodies touch: the ends of their interfaces. Without an interface, returns the only
+/// corner of the first body that touches the second, if there is such a corner.
 fn touching_points(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -298,8 +299,8 @@ fn touching_points(
         .collect()
 }
 
-/// The only point at which corners of the first body touch the second. `None` if no corner touches, or if corners touch
-/// at different points.
+/// Returns the only point at which corners of the first body touch the second. `None` if no corner touches, or if
+/// corners touch at different points.
 fn only_touching_corner(
     scene: &Scene,
     bodies: [BodyId; 2],

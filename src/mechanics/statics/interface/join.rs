@@ -36,7 +36,7 @@ pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) ->
     joined
 }
 
-/// The two outermost ends of two stretches, in the order along the first stretch.
+/// Returns the two outermost ends of two stretches, in the order along the first stretch.
 ///
 /// All four ends are compared: if the stretches are shorter than the distance within which ends count as equal, it is
 /// not known which ends meet.
@@ -112,8 +112,8 @@ impl StretchGrid {
         self.stretches.get_mut(next)?.take()
     }
 
-    /// The index of the first stretch on the line of `one` whose end of the given kind lies at `p`. `None` if there is
-    /// none.
+    /// Returns the index of the first stretch on the line of `one` whose end of the given kind lies at `p`. `None` if
+    /// there is no such stretch.
     fn neighbour(&mut self, end: StretchEnd, p: Point, one: &Interface) -> Option<usize> {
         let (x, y) = self.cell(p);
         let (table, which) = match end {

@@ -35,7 +35,7 @@ impl LatticeEdges {
         }
     }
 
-    /// The interfaces in which the body `id`, which consists of `cells`, is the first of the two bodies. For the last
+    /// Returns the interfaces in which the body `id`, made of `cells`, is the first of the two bodies. For the last
     /// block of a scene, these are all its interfaces.
     pub(crate) fn interfaces_of(
         &self,
@@ -48,8 +48,8 @@ impl LatticeEdges {
         self.interfaces(scene, lattice, own.map(|step| (step, id)))
     }
 
-    /// The interfaces along the given edges. Each edge is given with the body to which it belongs, which must be the
-    /// first body of the interface.
+    /// Returns the interfaces along the given edges. Each edge comes with its body, which must be the first body of the
+    /// interface.
     fn interfaces(
         &self,
         scene: &Scene,

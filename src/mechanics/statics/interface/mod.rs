@@ -62,7 +62,7 @@ impl Interface {
         nalgebra::center(&self.ends[0], &self.ends[1])
     }
 
-    /// The two points at which forces act: the ends, each moved inward by `kernel`/2 of the length
+    /// Returns the two points at which forces act. They are the ends, each moved inward by `kernel`/2 of the length
     /// ([Vallat23](crate::doc::references) §2.0.10).
     ///
     /// ```
@@ -108,7 +108,7 @@ pub(crate) struct PinnedGap {
 }
 
 impl PinnedGap {
-    /// True if the interface lies in the gap. It then does not exist while the stone is present.
+    /// True if the interface lies in the gap. The interface then does not exist while the stone is present.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -200,7 +200,7 @@ impl Interfaces {
         all
     }
 
-    /// The interfaces of a frame. Both bodies must be present, and no stone that is present may keep the interface
+    /// Returns the interfaces of a frame: both bodies are present, and no stone that is present keeps the interface
     /// open.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];

@@ -1,4 +1,5 @@
-//! [`Notices`]: sentences about edges that are nearly interfaces, each written once for the whole scene.
+//! [`Notices`]: collects edges that are nearly interfaces. Writes at most one sentence of each kind for the whole
+//! scene.
 
 use crate::geometry::Tolerance;
 use crate::scene::{BodyId, Scene};

@@ -24,7 +24,7 @@ pub(super) struct OpenStretch {
 }
 
 impl OpenStretch {
-    /// Creates a stretch from its two ends, each with its gap in metres, and from its middle `at`.
+    /// Creates a stretch from its two ends, each with its gap in metres, and from its middle point `at`.
     pub(super) fn new(ends: [(Point, f64); 2], at: Point) -> OpenStretch {
         let [a, b] = ends;
         let (narrow, wide) = if a.1 <= b.1 { (a, b) } else { (b, a) };
@@ -41,7 +41,7 @@ impl OpenStretch {
     }
 }
 
-/// Drops the open stretches of two bodies that belong to the shape of an outline.
+/// Drops the open stretches of two bodies that only follow from the shape of an outline.
 ///
 /// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both
 /// sides, because its outline turns there: no tolerance closes that without bending the outline. These steps follow the

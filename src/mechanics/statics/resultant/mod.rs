@@ -19,7 +19,8 @@ pub struct Resultant {
     pub force: Vector,
 }
 
-/// The resultant of the normal forces N1 and N2 at the application points and of the friction force, in newtons.
+/// Returns the resultant of the normal forces N1 and N2 at the application points and of the friction force, in
+/// newtons.
 ///
 /// Friction acts along the line of the interface and has the same moment at each of its points. The resultant at
 /// Σ N_k p_k / Σ N_k therefore has the moment of all forces together.
@@ -58,7 +59,7 @@ pub fn from_corner_forces(
     }
 }
 
-/// The used fraction of the available friction, |T| / (μ (N1 + N2)). It is 0 if no friction is available.
+/// Returns the used fraction of the available friction, |T| / (μ (N1 + N2)); 0 if no friction is available.
 pub fn friction_used(interface: &Interface, normal: [f64; 2], friction: f64) -> f64 {
     let available = interface.friction * (normal[0] + normal[1]);
     if available > 0.0 {

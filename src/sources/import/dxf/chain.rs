@@ -26,7 +26,7 @@ pub(super) struct Chains {
     pub(super) branch: Option<Point>,
 }
 
-/// Joins curves whose ends are within `tolerance` of each other, in the units of the curves.
+/// Joins curves whose ends are at most `tolerance` apart, in the units of the curves.
 pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     let mut chains = Chains::default();
     let (points, places) = numbered(&curves, tolerance);
@@ -67,8 +67,8 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     chains
 }
 
-/// Performs step 3: returns the loop that begins with the curve `first`, as indices of curves and whether each is
-/// reversed. `None` if the walk does not return.
+/// Performs step 3: returns the loop that begins with the curve `first`. Each entry is the index of a curve, and
+/// whether the curve is reversed. `None` if the walk does not return to its start.
 fn walk(
     first: usize,
     points: &[[usize; 2]],
@@ -92,7 +92,7 @@ fn walk(
     (ends[at].len() == 2).then_some(walk)
 }
 
-/// Performs step 1: returns the numbers of the points at start and end of each curve, and the points.
+/// Performs step 1: returns the numbers of the start and end point of each curve, and the list of points.
 fn numbered(curves: &[OpenCurve], tolerance: f64) -> (Vec<[usize; 2]>, Vec<Point>) {
     let mut places: Vec<Point> = Vec::new();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();

@@ -83,8 +83,8 @@ pub(super) enum Extrusion {
     Other,
 }
 
-/// Returns the direction of the normal, which has the codes 210, 220 and 230. Its x and y components may be at most a
-/// millionth.
+/// Returns the direction of the normal, which has the codes 210, 220 and 230. The direction is `Other` if an x or y
+/// component exceeds a millionth.
 pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
         .map(|(code, default)| entity.number(code).unwrap_or(default));
@@ -206,8 +206,8 @@ fn ellipse(entity: &Record<'_>) -> Subpath {
     part_of_ellipse(centre, major, minor, from, to)
 }
 
-/// Returns the curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`, in radians. It is the whole ellipse
-/// if both angles are equal up to full turns.
+/// Returns the curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`, in radians. The curve is the whole
+/// ellipse if the two angles are equal or differ by full turns.
 pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to: f64) -> Subpath {
     let sweep = match (to - from).rem_euclid(TAU) {
         // Equal angles mean a full turn. The tolerance allows for angles with six decimals.

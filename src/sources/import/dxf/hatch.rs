@@ -92,7 +92,7 @@ impl<'t> Groups<'_, 't> {
         })
     }
 
-    /// Reads a boundary in the form of edges. Code 93 is their number, and code 72 the type of each.
+    /// Reads a boundary in the form of edges. Code 93 is the number of edges, and code 72 the type of each edge.
     fn edges(&mut self) -> Result<Option<Subpath>, &'static str> {
         let edges = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut curve: Option<Subpath> = None;
@@ -143,8 +143,8 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Adds an edge to a curve. The edge is reversed if it ends where the curve ends. The error is a message if they do
-/// not meet.
+/// Adds an edge to a curve. An edge that ends where the curve ends is reversed. The error is a message that the edge
+/// and the curve do not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

@@ -50,8 +50,8 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
     Ok(walk.finish())
 }
 
-/// Returns the unit that the header variable `$INSUNITS` states, in metres, and the reason for the note. `None` if it
-/// states no unit of length that is known.
+/// Returns the unit that the header variable `$INSUNITS` states, in metres, and the reason for the note. `None` if the
+/// variable states no known unit of length.
 fn unit(code: i64) -> Option<(f64, String)> {
     let (metres, name) = match code {
         1 => (0.0254, "inches"),

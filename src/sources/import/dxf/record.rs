@@ -100,7 +100,7 @@ pub(super) fn number(text: &str) -> f64 {
     text.parse().unwrap_or(f64::NAN)
 }
 
-/// Parses a whole number; 0 if the text is not one.
+/// Parses a whole number; 0 if the text is not a whole number.
 pub(super) fn integer(text: &str) -> i64 {
     text.parse().unwrap_or(0)
 }

@@ -110,7 +110,7 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    /// Returns the place of an entity; `None` if the entity is left out.
+    /// Returns the place of an entity. `None` if the entity must be left out.
     fn place(&mut self, entity: &Record<'_>, around: &Place) -> Option<Place> {
         if entity.integer(67) == 1 {
             self.leave("entities in paper space");

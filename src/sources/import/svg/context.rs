@@ -32,7 +32,7 @@ pub(super) struct UseElement {
 }
 
 impl Context {
-    /// Makes the context of a page, from which nothing is inherited yet.
+    /// Makes the context of a page. It contains no inherited properties yet.
     pub(super) fn of_page(map: Affine, style: Style, viewport: Viewport) -> Context {
         Context {
             map,

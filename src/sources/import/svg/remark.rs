@@ -22,7 +22,8 @@ pub(super) enum RemarkKind {
 }
 
 impl RemarkKind {
-    /// Returns the plural for a summary; `None` for elements that are hidden or whose name makes them ignored.
+    /// Returns the plural for a summary. `None` for elements that are hidden or that are ignored because of their
+    /// names.
     pub(super) fn plural(self) -> Option<&'static str> {
         Some(match self {
             RemarkKind::Skipped => return None,

@@ -44,7 +44,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.draft.parts.push(part);
     }
 
-    /// Returns the colour of a shape. `None` without a fill, or if a material cannot have it, which is reported.
+    /// Returns the fill colour of a shape. `None` if the shape has no fill. A fill that cannot be a material is
+    /// reported, and the result is also `None`.
     fn fill(&mut self, node: Node<'a, 'd>, around: &Context) -> Option<[u8; 3]> {
         let (kind, why, help) = match around.style.fill {
             Fill::Colour(fill) => return Some(fill),

@@ -67,7 +67,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// Describes the size from which the scale follows.
+/// Describes the size from which the scale was computed.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")

@@ -266,7 +266,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    /// Adds a remark with the number of unlisted remarks of each kind.
+    /// Adds a remark or a note for each kind of remarks that are not all listed. It states the number of the others.
     pub(super) fn count_unlisted(&mut self) {
         for (kind, times) in &self.remarked {
             let Some(more) = times.checked_sub(MAX_LISTED).filter(|more| *more > 0) else {
