@@ -86,7 +86,7 @@ struct Line {
     force: Vector,
 }
 
-/// Returns the forces of bodies and robots on each block, by its index.
+/// Returns the forces that bodies and robots exert on each block, indexed by block.
 fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, found);
@@ -124,8 +124,8 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     lines
 }
 
-/// Returns the weight and the loads of each block, by its index. A torque without a force shifts the line of action of
-/// the weight.
+/// Returns the weight and the loads of each block, indexed by block. A torque without a force shifts the line of action
+/// of the weight.
 fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     let mut torques = vec![0.0; scene.blocks.len()];
     for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
@@ -157,8 +157,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     lines
 }
 
-/// Returns a point on the line of action of a force at `at` and a torque together. It is `at`, shifted across the force
-/// by torque divided by force.
+/// Returns a point on the line of action of the sum of a force and a torque. The point is `at`, shifted perpendicular
+/// to the force by torque / force.
 fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
     let squared = force.norm_squared();
     if torque == 0.0 || squared <= 0.0 {
@@ -184,8 +184,8 @@ impl BlockForces<'_> {
         self.polygon().bounds().diagonal()
     }
 
-    /// Returns the funicular polygon of the block; `None` if there is none inside it, or the block is not between one
-    /// or two bodies.
+    /// Returns the funicular polygon of the block. Returns `None` if no such polygon lies inside the block. Also
+    /// returns `None` unless one or two bodies or robots press on the block.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),
@@ -207,7 +207,7 @@ impl BlockForces<'_> {
             .find_map(|loads| self.funicular(first, &loads, last))
     }
 
-    /// True if the forces on the block are in equilibrium. In a structure that falls this need not be true.
+    /// True if the forces on the block are in equilibrium. In a structure that falls, they may not be.
     fn balances(&self) -> bool {
         let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
         for line in self.pressing.iter().chain(self.loads) {
@@ -218,7 +218,8 @@ impl BlockForces<'_> {
         sum.norm() <= BALANCE_TOL * all && moment.abs() <= BALANCE_TOL * all * self.size()
     }
 
-    /// Returns the resultant of the weight and all loads; `None` for fewer than two of them, or if it is zero.
+    /// Returns the resultant of the weight and all loads. Returns `None` if there is only one of these forces, or if
+    /// their sum is zero.
     fn total_load(&self) -> Option<Line> {
         let centroid = self.block.centroid;
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
@@ -231,9 +232,9 @@ impl BlockForces<'_> {
         (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
     }
 
-    /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load for `None`. It
-    /// passes the lines of action of these loads in this order. Returns `None` if it does not close or leaves the
-    /// block.
+    /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load if `last` is
+    /// `None`. The polygon meets the lines of action of these loads in this order. Returns `None` if the polygon does
+    /// not close or leaves the block.
     fn funicular(
         &self,
         first: &Line,
@@ -285,7 +286,7 @@ impl BlockForces<'_> {
         (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
-    /// Creates a segment on a true line of action; `None` if it has no length.
+    /// Creates a segment on a true line of action; `None` if the segment would have length 0.
     fn segment(
         &self,
         origin: ForceOrigin,
@@ -303,7 +304,7 @@ impl BlockForces<'_> {
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
-    /// True if nine points on the straight line between two points all lie in the block, or nearly.
+    /// True if nine points on the segment between two points all lie in or near the block.
     fn within(&self, from: Point, to: Point) -> bool {
         let near = NEARLY_INSIDE * self.polygon().area() / self.size();
         (0..=8).all(|i| {
@@ -316,8 +317,8 @@ impl BlockForces<'_> {
         })
     }
 
-    /// Returns the schematic path: a straight line between two forces, otherwise one from every joint and load to a
-    /// common point.
+    /// Returns the schematic path. Between two forces, the path is a straight line. Otherwise it has a straight line
+    /// from every joint and load to a common point.
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
@@ -344,8 +345,8 @@ impl BlockForces<'_> {
             .collect()
     }
 
-    /// Returns the common point of a schematic path. It is the mean of the points of the forces, weighted with their
-    /// magnitudes, if there are more than two and it lies in the block. Otherwise it is the centroid.
+    /// Returns the common point of a schematic path. The point is the mean of the points of the forces, weighted with
+    /// their magnitudes. If this mean lies outside the block or there are only two forces, the point is the centroid.
     fn meeting(&self, given: &[&Line]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;
@@ -361,8 +362,8 @@ impl BlockForces<'_> {
     }
 }
 
-/// True if no segment of the path points backwards from its beginning to its end. A line that turns back would cover
-/// itself. Segments of loads are side branches and do not count.
+/// True if no segment of the path points backwards, relative to the line from the beginning to the end of the path. A
+/// path that turns back would cover itself. Segments of loads are side branches and do not count.
 fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     let main = || {
         path.iter()
@@ -375,8 +376,9 @@ fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     main().all(|s| (s.to - s.from).dot(&chord) >= -tolerance * chord.norm())
 }
 
-/// Returns the intersection of the line of a force through `at` with the line of action of a load. If both are the same
-/// line within `near` metres, it is the point on it next to the load. Returns `None` for other parallel lines.
+/// Returns the intersection of two lines of action: of a force through `at`, and of a load. If both are the same line
+/// within `near` metres, returns the point of this line nearest to the load's point. Returns `None` for other parallel
+/// lines.
 fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
@@ -395,7 +397,7 @@ fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Poin
         .then_some(corner)
 }
 
-/// Returns all permutations of a few loads, the given order first.
+/// Returns all permutations of a few loads. The first permutation is the given order.
 fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
     let Some((first, rest)) = loads.split_first() else {
         return vec![Vec::new()];

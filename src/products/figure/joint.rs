@@ -1,5 +1,5 @@
-//! [`Joint`]: the motion of a mechanism at an interface. It is a hinge if only one end keeps contact, and a slip if the
-//! interface slides.
+//! [`Joint`]: the relative motion of two bodies at an interface. The joint is a hinge if only one end stays in contact,
+//! and a slip if the interface slides.
 //!
 //! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
 //! with exactly this speed slips with friction. A contact that opens faster is free.
@@ -29,7 +29,7 @@ pub(crate) struct Joint {
     pub lift: f64,
 }
 
-/// Returns the joints of a frame: all interfaces whose bodies move relative to each other.
+/// Returns the joints of a frame. A joint is an interface whose bodies move relative to each other.
 pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let found = &analysis.frames[frame];
     let motions = by_block(analysis, found);
@@ -67,8 +67,8 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     found.contacts.iter().enumerate().filter_map(one).collect()
 }
 
-/// Returns the joint at a contact; `None` if the two bodies move together. `relative` are the relative velocities at
-/// the application points. Speeds up to `noise` count as zero. Its contact index is not set.
+/// Returns the joint at a contact; `None` if the two bodies move together. `relative` has the relative velocities at
+/// the application points. Speeds up to `noise` count as zero. The caller sets the contact index of the result.
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
@@ -117,7 +117,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     })
 }
 
-/// Returns the motion of each block by its index; `None` for a block at rest.
+/// Returns the motion of each block, indexed by block; `None` for a block at rest.
 fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
     for motion in &found.mechanism {

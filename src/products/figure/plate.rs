@@ -19,7 +19,7 @@ pub(crate) struct Panel {
     pub caption: &'static str,
 }
 
-/// Draws these panels in their order, in rows of `columns`. The structures of a row are on one level.
+/// Draws these panels in their order, in rows of `columns` panels. All structures in a row are at the same height.
 pub(crate) fn plate(
     analyses: &[Analysis],
     panels: &[Panel],

@@ -1,4 +1,4 @@
-//! [`lines`]: breaks the title of a figure into lines that fit its page.
+//! [`lines`]: breaks the title of a figure into lines that fit into its page.
 
 use crate::drawing::{Face, Theme, text};
 

@@ -1,4 +1,4 @@
-//! [`unit`]: computes the unit edge, by which arrows and labels are scaled, from the sizes of the blocks.
+//! [`unit`]: computes the unit edge from the sizes of the blocks. Arrows and labels are scaled with it.
 
 use super::view;
 use crate::scene::{Block, BlockId, Scene};
@@ -6,10 +6,10 @@ use crate::scene::{Block, BlockId, Scene};
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// Returns the unit edge in metres. On a lattice it is the side of a cell, unless the blocks are far larger. Otherwise
-/// it is a typical size: 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If
-/// √(mean area) is far larger, it is used in place of √area. With `zoom` it is the size of the smallest block in the
-/// surroundings of that block.
+/// Returns the unit edge in metres. On a lattice, the unit edge is the side of a cell, unless the blocks are far
+/// larger. Otherwise it is 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If
+/// √(mean area) is far larger than √area, it replaces √area. With `zoom`, the smallest block in the surroundings of
+/// that block replaces the median block.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::around(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));

@@ -1,5 +1,5 @@
-//! Draws the mark of a verdict. Its text comes from [`wording`](crate::wording). The mark and the text show the verdict
-//! without colours too.
+//! Draws the mark of a verdict. Its text comes from [`wording`](crate::wording). The verdict is also clear without
+//! colours.
 
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
@@ -31,7 +31,7 @@ pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
     }
 }
 
-/// Draws the mark of a verdict in its own colour. `r` is its radius in pixels.
+/// Draws the mark of a verdict in the colour of this verdict. `r` is its radius in pixels.
 pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
     mark_in(colour(verdict, theme), verdict, centre, r, theme)
 }

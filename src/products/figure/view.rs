@@ -15,9 +15,9 @@ const ZOOM_REACH: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
 
-/// Returns a box in metres for each frame. It contains the blocks, planned blocks, arrows (`marks`) and robots of the
-/// frame, and the box `reach` of other marks. It also contains the ground near the blocks of any frame. `disc` is the
-/// radius of a robot's disc in unit edges; `unit` is the unit edge in metres.
+/// Returns a box in metres for each frame. The box contains the blocks, planned blocks, arrows (`marks`) and robots of
+/// the frame, and the box `reach` of other marks. It also contains the ground near the blocks of any frame. `disc` is
+/// the radius of a robot's disc in unit edges; `unit` is the unit edge in metres.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
@@ -64,8 +64,8 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
         .filter(|id| id.0 < scene.blocks.len())
 }
 
-/// Returns a box around the ground that figures of a scene show, metres; `None` if no ground is near. `unit` is the
-/// unit edge in metres.
+/// Returns a box around the ground that figures of a scene show, metres; `None` if there is no ground near the blocks.
+/// `unit` is the unit edge in metres.
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
@@ -89,7 +89,7 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
-/// Returns the surroundings of a block: its box, enlarged on all sides by half of its longer side.
+/// Returns a box around a block, metres: the bounding box, enlarged on all sides by half of its longer side.
 pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
     bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))

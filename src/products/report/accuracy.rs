@@ -113,7 +113,7 @@ fn small(value: Option<f64>) -> String {
     })
 }
 
-/// Returns a CSV table with a line for each frame, method and tolerance.
+/// Returns a CSV table with one line for each combination of frame, method and tolerance.
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
         "drystone,frame,blocks,truth,method,tolerance,seconds,iterations,verdict,mark,total_error,largest_error,\
@@ -156,7 +156,7 @@ fn mark(mark: Mark) -> &'static str {
     }
 }
 
-/// Returns the summary as a Markdown table, a row for each method and tolerance.
+/// Returns the summary as a Markdown table with one row for each combination of method and tolerance.
 pub fn markdown(study: &Study) -> String {
     let mut text = String::from(
         "| method | tolerance | time | iterations | error of total: median | worst | of largest force: worst | wrong | undecided |\n\
@@ -183,7 +183,7 @@ pub fn markdown(study: &Study) -> String {
     text
 }
 
-/// Returns an HTML page: the chart, the summary, and a collapsible table of runs for each frame.
+/// Returns an HTML page with the chart, the summary, and a collapsible table of runs for each frame.
 ///
 /// # Errors
 /// If the chart cannot be drawn.

@@ -88,8 +88,8 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// Returns the text of a chapter with every drystone block replaced by its figure. Adds blocks that cannot be drawn
-/// to `problems`.
+/// Returns the text of a chapter in which figures replace all drystone blocks. Adds blocks that cannot be drawn to
+/// `problems`.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -129,8 +129,8 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     drawn
 }
 
-/// Returns the characters to put before every line of a block that begins at byte `start`: spaces and `>`. Without
-/// them, the block would leave its list or quotation.
+/// Returns the characters before every line of a block that begins at byte `start`: spaces and `>`. Without these
+/// characters, the block would leave its list or quotation.
 fn margin(content: &str, start: usize) -> String {
     let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
     let kept = |c: char| if c == '>' { c } else { ' ' };

@@ -1,4 +1,4 @@
-//! [`Head`]: the part of a report above its scenes. The other functions are shared by all writers.
+//! [`Head`]: the part of a report above its scenes. This file also has functions that all writers share.
 
 use super::entry::Row;
 use crate::analysis::Verdict;
@@ -42,7 +42,7 @@ pub struct Refused {
 }
 
 impl Refused {
-    /// Returns a line for each problem: place, message and remedy.
+    /// Returns one line for each problem: its position, its message and its remedy.
     pub fn lines(&self) -> Vec<String> {
         let described = self.problems.iter().map(|problem| {
             let place = match (problem.line, problem.path.as_str()) {
@@ -79,7 +79,7 @@ impl From<OutlineError> for ReportError {
     }
 }
 
-/// Turns a title into a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters.
+/// Converts a title to a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters.
 pub(super) fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {

@@ -1,4 +1,4 @@
-//! Writes a report as Markdown. Its figures are SVG files in a folder next to it.
+//! Writes a report as Markdown. The figures are SVG files in a folder next to the report.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use crate::wording::verdict::plain;
 /// The number of characters of a bar.
 const BAR: usize = 24;
 
-/// Returns the name of the folder for the figures of a report, next to the report.
+/// Returns the name of the folder with the figures of a report. The folder is next to the report.
 fn folder(stem: &str) -> String {
     format!("{}-figures", slug(stem))
 }
@@ -45,8 +45,8 @@ fn push(out: &mut String, line: &str) {
     let _ = writeln!(out, "{line}");
 }
 
-/// Writes the part for a scene, and the files of its figures. `number` counts from 1; `stem` begins the name of their
-/// folder.
+/// Writes the text for a scene, and the files of its figures. `number` counts from 1. The name of the folder begins
+/// with `stem`.
 pub(super) fn section(
     entry: &Entry,
     number: usize,
@@ -78,7 +78,7 @@ pub(super) fn section(
     Ok((writer.out, writer.files))
 }
 
-/// Writes text as inline code, between more backticks than it contains.
+/// Writes text as inline code. The code has more backticks around it than the text contains.
 fn code(words: &str) -> String {
     let words = text::line(words);
     let mut fence = "`".to_owned();
@@ -183,7 +183,8 @@ impl Writer {
     }
 }
 
-/// Draws a margin as a row of characters: full where the structure stands, a disc or a cross at the present value.
+/// Draws a margin as a row of characters. The characters are full where the structure stands. A disc (inside) or a
+/// cross (outside) is at the present value.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);

@@ -61,7 +61,7 @@ pub struct Report {
 }
 
 impl Piece {
-    /// Writes the part of a report for one scene. `number` counts from 1; `stem` begins the names of figure files.
+    /// Writes the part of a report for one scene. `number` counts from 1. The names of figure files begin with `stem`.
     ///
     /// # Errors
     /// If the text of a figure cannot be laid out.
@@ -179,8 +179,8 @@ impl Report {
         }
     }
 
-    /// Writes the files of the report, the main file first. `stem` is its name without the extension; the pages of
-    /// [`Form::Split`] have fixed names.
+    /// Writes the files of the report; the main file comes first. `stem` is the name of the main file without its
+    /// extension; the pages of [`Form::Split`] have fixed names.
     ///
     /// # Errors
     /// If a PDF cannot be written.

@@ -1,4 +1,4 @@
-//! [`Excluded`]: why a frame stands at no value of a parameter.
+//! [`Excluded`]: the reasons why a frame does not stand at any value of a parameter.
 
 use serde::Serialize;
 
@@ -46,7 +46,7 @@ struct Reason<'a> {
 }
 
 impl<'a> Excluded<'a> {
-    /// `None` where no interval is empty.
+    /// Collects the reasons from all margins. Returns `None` if no interval is empty.
     pub(super) fn new(scene: &'a Scene, found: &Intervals) -> Option<Excluded<'a>> {
         let of = |interval: &Option<Interval>| reasons(scene, interval.as_ref()?);
         let robots = found.robots.iter().filter_map(|robot| {

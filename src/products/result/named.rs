@@ -1,4 +1,4 @@
-//! [`Named`]: a JSON object with keys that are known only when the program runs.
+//! [`Named`]: a JSON object whose keys are known only at run time.
 
 use serde::{Serialize, Serializer};
 

@@ -24,8 +24,8 @@ pub fn quoted(words: &str) -> String {
     text::json(&string)
 }
 
-/// Writes a report as one JSON object that ends with a line feed: the counts, and the JSON `objects` of the scenes
-/// under the key `list`, one per line.
+/// Writes a report as one JSON object that ends with a line feed. The object has the counts, and a list with the key
+/// `list`. The list has the JSON `objects` of the scenes, one per line.
 ///
 /// ```
 /// use drystone::result::{Counts, report_json};

@@ -83,7 +83,7 @@ macro_rules! assert_figure {
     };
 }
 
-/// The function behind [`assert_scene!`](crate::assert_scene). The path is relative to `crate_folder`.
+/// Implements [`assert_scene!`](crate::assert_scene). The path is relative to `crate_folder`.
 ///
 /// # Panics
 /// If a reference does not match or the scene is not valid.
@@ -93,7 +93,7 @@ pub fn scene(crate_folder: &Path, path: &Path) {
     scenes_at(&[place], &place_words(path));
 }
 
-/// The function behind [`assert_scenes!`](crate::assert_scenes). The path is relative to `crate_folder`.
+/// Implements [`assert_scenes!`](crate::assert_scenes). The path is relative to `crate_folder`.
 ///
 /// # Panics
 /// If a reference does not match or has no scene, if a scene is not valid, or if there is no scene.
@@ -103,7 +103,7 @@ pub fn scenes(crate_folder: &Path, path: &Path) {
     scenes_at(&[place], &place_words(path));
 }
 
-/// The function behind [`assert_figure!`](crate::assert_figure). `name` is the base name of the references.
+/// Implements [`assert_figure!`](crate::assert_figure). `name` is the base name of the references.
 ///
 /// # Panics
 /// If a reference does not match, or if the name leads out of the folder of references.
@@ -167,8 +167,8 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// Joins the folder of the crate and a path relative to it. The folder in which the crate was compiled may not exist
-/// on the machine that runs the test. Cargo and nextest then give the present folder in `CARGO_MANIFEST_DIR`.
+/// Joins the folder of the crate and a path relative to it. The folder in which the crate was compiled may not exist on
+/// the machine that runs the test. In this case, Cargo and nextest give the present folder in `CARGO_MANIFEST_DIR`.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     match now {

@@ -113,7 +113,7 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// Returns the bytes of a reference, or its state and the reason why it cannot be read.
+/// Returns the bytes of a reference. If they cannot be read, returns the state of the reference and the reason.
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
@@ -139,8 +139,8 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     })
 }
 
-/// Compares a text with its reference. `changes` gets the text of the reference, and returns the changes in words, or
-/// why it cannot be read. `None` if there is no change.
+/// Compares a text with its reference. `changes` gets the text of the reference. It returns the changes in words, or
+/// the reason why the reference cannot be read. Returns `None` if there is no change.
 fn text_finding(
     part: &Part,
     fresh: String,

@@ -15,8 +15,8 @@ pub(super) enum Filter<'f> {
 }
 
 impl<'f> Filter<'f> {
-    /// Makes the filter for the text of `only`. It selects one scene if the text equals one of the `names`; else it
-    /// is a pattern or a part of names.
+    /// Makes the filter for the text of `only`. If the text equals one of the `names`, the filter selects one scene.
+    /// Otherwise the text is a pattern or a part of names.
     pub(super) fn new(
         only: Option<&'f str>,
         mut names: impl Iterator<Item = String>,
@@ -29,7 +29,7 @@ impl<'f> Filter<'f> {
         }
     }
 
-    /// True if it selects this name.
+    /// True if the filter selects this name.
     pub(super) fn selects(&self, name: &str) -> bool {
         match self {
             Filter::All => true,

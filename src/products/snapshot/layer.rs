@@ -25,7 +25,7 @@ impl Layer {
         }
     }
 
-    /// Returns the layer with this name.
+    /// Returns the layer with this name; `None` if there is no such layer.
     pub fn named(name: &str) -> Option<Layer> {
         Layer::ALL.into_iter().find(|layer| layer.name() == name)
     }

@@ -60,7 +60,8 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     parts
 }
 
-/// Returns the widths of the settings, or only `None`, the natural width of the drawing, if there are none.
+/// Returns the widths of the settings. If there are none, returns only `None`, which is the natural width of the
+/// drawing.
 fn widths(settings: &Settings) -> Vec<Option<u32>> {
     match settings.widths.as_slice() {
         [] => vec![None],

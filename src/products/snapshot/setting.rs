@@ -115,7 +115,7 @@ impl Settings {
     }
 }
 
-/// Returns line and column of a byte offset, counted from 1: `2:1`.
+/// Returns the line and column of a byte offset, counted from 1: `2:1`.
 fn place_in(text: &str, at: usize) -> String {
     let before = text.get(..at).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -222,8 +222,8 @@ impl Reading<'_> {
         texts
     }
 
-    /// Reads a list of known names: `known` returns the value of a name. Reports an empty list, unknown names and
-    /// duplicates.
+    /// Reads a list of known names. `known` returns the value of a name, and `None` for an unknown name. Reports an
+    /// empty list, unknown names and duplicates.
     fn named<T: PartialEq + Clone>(
         &mut self,
         key: &str,
@@ -306,8 +306,8 @@ impl Reading<'_> {
     }
 }
 
-/// Finds the settings file for a folder: in the folder itself or in the nearest folder above it. The search stops at
-/// a folder with `.git`.
+/// Finds the settings file for a folder, in the folder itself or in the nearest folder above it. The search stops at a
+/// folder with `.git`. Returns `None` if there is no such file.
 pub fn nearest(folder: &Path) -> Option<PathBuf> {
     let start = std::path::absolute(folder).ok()?;
     for above in start.ancestors() {

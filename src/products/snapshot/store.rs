@@ -12,13 +12,14 @@ use std::path::{Path, PathBuf};
 
 use crate::output::file::{Existing, WriteError, write_whole};
 
-/// True in continuous integration, where nobody could review a new reference: if the environment variable `CI` is set
-/// to anything but `false`, `no` or 0.
+/// True in continuous integration, where nobody can review a new reference. This is so if the environment variable `CI`
+/// is set to a value other than `false`, `no`, 0 or the empty text.
 pub fn in_ci() -> bool {
     is_set("CI")
 }
 
-/// True if references should be written: if `UPDATE_SNAPSHOTS` is set to anything but `false`, `no` or 0.
+/// True if the user requests that references are written. This is so if the environment variable `UPDATE_SNAPSHOTS` is
+/// set to a value other than `false`, `no`, 0 or the empty text.
 pub fn update_requested() -> bool {
     is_set("UPDATE_SNAPSHOTS")
 }
@@ -107,7 +108,7 @@ pub(super) fn remove(path: &Path) {
     let _ = fs::remove_file(path);
 }
 
-/// Returns the bytes of a reference; `None` if it does not exist.
+/// Returns the bytes of a reference; `None` if the file does not exist.
 ///
 /// # Errors
 /// The error of the operating system, if the file exists but cannot be read.

@@ -19,7 +19,7 @@ impl Double {
         low: 0.0,
     };
 
-    /// Returns the nearest f64.
+    /// Returns the nearest `f64` to this number.
     pub fn near(self) -> f64 {
         self.high
     }

@@ -1,5 +1,5 @@
-//! Computes the optimum with the least Σ force² in extended precision. It is the reference for the largest single
-//! force.
+//! Computes the optimum with the least Σ force² in extended precision. This optimum is the reference for the largest
+//! single force.
 //!
 //! Among all optima of a program, the one with the least sum of squares is unique. The unknowns are N1, N2, T of each
 //! contact and three components of each grip.
@@ -29,8 +29,8 @@ struct Axis {
     square: Double,
 }
 
-/// Returns the norm of the largest resultant of the unique forces, in scaled numbers. `None` if they cannot be
-/// certified, or if a robot is at its limit.
+/// Returns the norm of the largest resultant of the unique forces, in scaled numbers. Returns `None` if the forces
+/// cannot be certified, or if a robot is at its limit.
 pub(super) fn largest_of_unique(
     program: &Program,
     columns: &[Column],
@@ -98,8 +98,8 @@ fn dot(a: &[Double; 3], b: &[Double; 3]) -> Double {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Orthogonalises the used columns of each contact or grip by Gram-Schmidt. Columns of the same place must follow
-/// each other.
+/// Orthogonalises the used columns of each contact or grip by Gram-Schmidt. Columns of the same contact or grip must be
+/// consecutive.
 fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Axis> {
     let mut axes: Vec<Axis> = Vec::new();
     for column in used {
@@ -131,8 +131,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
     axes
 }
 
-/// Solves for the forces along the axes, and returns the largest resultant if the certificate holds. `total` is the
-/// certified optimum.
+/// Solves for the forces along the axes. Returns the largest resultant; `None` if the certificate does not hold.
+/// `total` is the certified optimum.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes

@@ -1,4 +1,4 @@
-//! [`Method`]: the solution methods of the study. Building a method's program counts as part of its time.
+//! [`Method`]: the solution methods of the study. The time of a method includes the construction of its program.
 
 use super::Task;
 use super::outcome::Outcome;
@@ -43,7 +43,7 @@ impl Method {
         Method::Level(Accuracy::Proved),
     ];
 
-    /// Returns the name in tables.
+    /// Returns the name of the method for tables.
     pub fn name(self) -> &'static str {
         match self {
             Method::Source(2) => "source, β = 10²",
@@ -58,7 +58,7 @@ impl Method {
         }
     }
 
-    /// Solves a frame at this tolerance of the solver.
+    /// Solves a frame. `tolerance` is the tolerance of the solver.
     pub(super) fn solve(self, task: &Task, tolerance: f64) -> Outcome {
         if let Method::Level(accuracy) = self {
             return level(task, accuracy, tolerance);
@@ -79,8 +79,8 @@ impl Method {
     }
 }
 
-/// Returns the sticking, in scaled numbers, above which the frame counts as falling. It is the tolerance of the
-/// proofs, but at least ten times the tolerance of the solver.
+/// Returns the amount of adhesion, in scaled numbers, above which the frame counts as falling. This amount is the
+/// tolerance of the proofs, but at least ten times the tolerance of the solver.
 fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
@@ -92,7 +92,7 @@ fn effort(iterations: usize) -> Effort {
     }
 }
 
-/// Returns the largest unbalanced component of the loads.
+/// Returns the largest component of the loads that the forces do not balance.
 fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
@@ -155,7 +155,8 @@ fn adhesion_cost(column: &Column) -> f64 {
     f64::from(u8::from(column.force.is_adhesion()))
 }
 
-/// Solves for forces without a penalty: first without adhesion, then for the least adhesion and the least force.
+/// Solves for the forces without a penalty. The first program has no adhesion. If it has no solution, further programs
+/// find the least adhesion, and then the least force.
 fn force(program: &Program, tolerance: f64) -> Outcome {
     let loads = &program.loads;
     let admissible = columns(program);
@@ -228,7 +229,8 @@ fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
     }
 }
 
-/// Solves the dual program only: without adhesion and, if that has no solution, for the least adhesion.
+/// Solves only the dual program. The first program has no adhesion. If it has no solution, a second program finds the
+/// least adhesion.
 fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();

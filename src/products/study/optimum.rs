@@ -175,7 +175,7 @@ impl Guess<'_> {
         }
     }
 
-    /// Returns the loads less the forces of the columns at their limit, which act like loads.
+    /// Returns the loads minus the forces of the columns at their limit. These forces act like loads.
     fn loads_with(&self, limited: &[usize]) -> Vec<Double> {
         let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
         for j in limited {
@@ -248,13 +248,13 @@ impl Guess<'_> {
         })
     }
 
-    /// Returns the reduced cost of a column: its cost less the power of its unit force along the velocities.
+    /// Returns the reduced cost of a column: its cost minus the power of its unit force along the velocities.
     fn reduced_cost(&self, j: usize, y: &[Double]) -> Double {
         Double::from(self.costs[j]) - product(&self.sparse[j], y)
     }
 
-    /// True if a column without cost may have a negative amount, because the opposite column is on the face too. Then
-    /// only their difference matters. This holds for grips without limits.
+    /// True if a column without cost may have a negative amount. This holds if the opposite column is also on the face,
+    /// because only their difference matters. Grips without limits have such columns.
     fn may_be_negative(&self, j: usize, face: &[usize]) -> bool {
         let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
         let partner = |k: &usize| {
@@ -277,7 +277,7 @@ pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
         .collect()
 }
 
-/// Returns the scalar product of a sparse column and a vector.
+/// Returns the dot product of a sparse column and a vector.
 pub(super) fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
     entries
         .iter()

@@ -78,7 +78,8 @@ impl Outcome {
         }
     }
 
-    /// Combines two independent parts of a frame. If their verdicts differ, the totals are those of the worse part.
+    /// Combines the outcomes of two independent parts of a frame. If their verdicts differ, the totals are those of the
+    /// worse part.
     pub(super) fn and(self, other: Outcome) -> Outcome {
         let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
             a.zip(b).map(|(a, b)| join(a, b))

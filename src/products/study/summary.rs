@@ -1,4 +1,4 @@
-//! [`Summary`]: summarises a study by method and tolerance over all frames.
+//! [`Summary`]: summarises a study over all frames, by method and tolerance.
 
 use super::{Mark, Method, Run, Study};
 use crate::analysis::Accuracy;
@@ -36,7 +36,7 @@ fn median(mut list: Vec<f64>) -> Option<f64> {
     list.get(list.len() / 2).copied()
 }
 
-/// Summarises a study: one entry for each method and tolerance, in their order.
+/// Summarises a study. Returns one entry for each method and tolerance, in their order.
 ///
 /// The time of a frame is divided by the time of `standard` on the same frame, at the tolerance nearest to the
 /// default. Large frames therefore do not dominate small ones.

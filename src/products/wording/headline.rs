@@ -17,8 +17,8 @@ pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> St
     }
 }
 
-/// Writes an upper end: `2.40`, or `at least 2.40` if the end is not confirmed. `None` if there is no end. `write`
-/// formats the number.
+/// Writes an upper end: `2.40`, or `at least 2.40` if the end is not confirmed. Returns `None` if there is no end.
+/// `write` formats the number.
 fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
     let end = end?;
     let value = write(confirmed(end)?);
@@ -61,7 +61,8 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
     }
 }
 
-/// Describes the nearest end of a margin other than the load factor, for a structure that stands.
+/// Describes the margin of a structure that stands, for all parameters except the load factor. Tilt and horizontal load
+/// have the nearest end.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     let nearest = || {
         let ends = [

@@ -1,4 +1,4 @@
-//! Describes proofs.
+//! Describes proofs in words and numbers.
 
 use super::number::{digits, rough};
 use crate::analysis::Proof;
@@ -72,7 +72,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     }
 }
 
-/// Explains a proof to a reader who has never seen one.
+/// Explains a proof to a reader who does not know such proofs.
 pub fn sentence(proof: Proof) -> String {
     match proof {
         Proof::Forces {

@@ -125,8 +125,8 @@ impl Linkage {
             .flat_map(|member| member.blocks.iter().copied())
     }
 
-    /// Returns the displacement of each block after a point of speed 1 has moved `amplitude` metres. Joints are closed
-    /// if that is possible.
+    /// Returns the displacement of each block after a point of speed 1 has moved by `amplitude` metres. All joints stay
+    /// closed if that is possible.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
         let start: Vec<Pose> = self
             .members
@@ -145,8 +145,8 @@ impl Linkage {
         displaced
     }
 
-    /// Returns poses near `start` at which all joints are closed. Returns `None` if there are no joints, if there are
-    /// too many bodies, or if Newton's method finds no such poses nearby.
+    /// Returns poses near `start` for which all joints are closed. Returns `None` if there are no joints or too many
+    /// bodies, or if Newton's method finds no such poses near `start`.
     fn closed(&self, start: &[Pose]) -> Option<Vec<Pose>> {
         if self.links.is_empty() || self.members.len() > MAX_BODIES {
             return None;
@@ -178,8 +178,8 @@ impl Linkage {
         None
     }
 
-    /// Returns the gaps of all conditions in metres, and their derivatives: three columns for each body, for x, y and
-    /// angle times [`Linkage::length`].
+    /// Returns the derivatives of all conditions, and their gaps in metres. The derivatives have three columns for each
+    /// body: x, y, and angle × [`Linkage::length`].
     fn equations(&self, poses: &[Pose]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.links.iter().map(|link| match link.condition {
             Condition::Hinge(_) => 2,
@@ -198,7 +198,7 @@ impl Linkage {
         (system.rows, system.gaps)
     }
 
-    /// Writes the equations of a link into `system`, beginning at `row`. Returns their number.
+    /// Writes the equations of a link into `system`, from the row `row` on. Returns the number of equations.
     fn add(&self, link: &Link, poses: &[Pose], row: usize, system: &mut System) -> usize {
         let [first, second] = link.bodies;
         match link.condition {
@@ -238,8 +238,8 @@ impl Linkage {
         }
     }
 
-    /// Returns the vector from the centre of a body to one of its points after its displacement; zero for a body at
-    /// rest. `point` is the position before the displacement.
+    /// Returns the vector from the centre of a body to one of its points, after the displacement of the body. `point`
+    /// is the position before the displacement. The vector is zero for a body at rest.
     fn arm(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Vector {
         body.map_or(Vector::zeros(), |body| {
             let (centre, pose) = (self.members[body].centre, poses[body]);
@@ -263,8 +263,8 @@ struct System {
 }
 
 impl System {
-    /// Adds the derivatives of the position of a point along a direction to a row. `arm` is the vector from the centre
-    /// of its body to the point.
+    /// Adds derivatives to a row: those of the position of a point along a direction. `arm` is the vector from the
+    /// centre of the body to the point.
     fn add(&mut self, row: usize, body: Option<usize>, along: Vector, arm: Vector) {
         let Some(body) = body else {
             return;
@@ -284,8 +284,8 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
     }
 }
 
-/// Returns the conditions of a joint. The flag is true if the line of [`Condition::OnLine`] belongs to the first body.
-/// A joint that opens while it slides has no conditions.
+/// Returns the conditions of a joint, each with a flag. The flag is true if the line of [`Condition::OnLine`] belongs
+/// to the first body. A joint that opens while it slides has no conditions.
 fn conditions(
     scene: &Scene,
     bodies: [BodyId; 2],

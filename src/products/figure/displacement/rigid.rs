@@ -58,13 +58,13 @@ impl Displacement {
         self.centre + self.turned(point - self.centre) + self.translation
     }
 
-    /// Returns the original position of the point of the block that is displaced to `point`.
+    /// Returns the original position of a point of the block. `point` is its displaced position.
     pub fn back(&self, point: Point) -> Point {
         let d = point - self.centre - self.translation;
         self.centre + d * self.cos - quarter_turn(d) * self.sin
     }
 
-    /// Returns a direction turned with the block.
+    /// Returns the direction after the rotation of the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin
     }

@@ -1,4 +1,4 @@
-//! [`path`]: finds the path of force along true lines of action through a block between two joints.
+//! [`path`]: finds the path of the force through a block from one joint to another, along true lines of action.
 //!
 //! The path starts along the force at the first joint. At the line of action of a load or of the weight it turns into
 //! the line of their resultant. It ends at the second joint, along the line of the force there.
@@ -33,8 +33,8 @@ pub(super) struct TruePath {
     pub joins: Vec<(usize, Point)>,
 }
 
-/// Returns the path from the first joint to the second. The order of the loads is not known, so all orders are tried.
-/// Returns `None` if no path lies in or near the block and leads forward, or if there are more than [`MAX_ORDERED`]
+/// Returns the path from the first joint to the second. The function tries all orders of the loads. Returns `None` if
+/// no path that leads forward lies in or near the block. Also returns `None` if there are more than [`MAX_ORDERED`]
 /// loads.
 pub(super) fn path(
     polygon: &Polygon,
@@ -72,7 +72,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Continues a path from its last corner along `force` to the second joint. Returns `None` if that is not possible.
+    /// Continues a path from its last corner along `force` to the second joint. Returns `None` if no such path exists.
     fn onward(&self, path: TruePath, force: Vector) -> Option<TruePath> {
         let amount = force.norm();
         let at = *path.corners.last()?;
@@ -120,7 +120,7 @@ impl Search<'_> {
     }
 }
 
-/// Returns the intersection of two lines; `None` if they are parallel and different. If they are the same line, it is
+/// Returns the intersection of two lines; `None` if they are parallel and different. If both are the same line, returns
 /// `b`.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);

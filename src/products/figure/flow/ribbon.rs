@@ -1,4 +1,4 @@
-//! [`ribbon`]: computes the outline of a band from its axis and its width at each point.
+//! [`ribbon`]: computes the outline of a band from its axis and its widths.
 
 use crate::drawing::{Camera, Outline};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -6,8 +6,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 /// At a corner a band is at most this many times as wide as on either side.
 const LONGEST_MITRE: f64 = 1.6;
 
-/// Returns the outline on the page of a band along `axis`, with its full width at each point, in metres. At a point
-/// that occurs twice the width changes in a step.
+/// Returns the outline of a band along `axis` on the page. `widths` has the full width at each point of the axis, in
+/// metres. At a point that occurs twice, the width changes in a step.
 pub(super) fn ribbon(axis: &[Point], widths: &[f64], camera: &Camera) -> Outline {
     let points = 0..axis.len().min(widths.len());
     if axis.iter().all(|p| same(*p, axis[0])) {
@@ -24,8 +24,8 @@ fn same(a: Point, b: Point) -> bool {
     (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
 }
 
-/// Returns the vector across the band at point `i`, to the left. It is a unit vector, but longer at a corner, so that
-/// the band keeps its width on both sides.
+/// Returns the vector across the band at point `i`, to the left. Its length is 1; at a corner it is longer, so that the
+/// band keeps its width.
 fn aside(axis: &[Point], i: usize) -> Vector {
     let apart = |p: &&Point| !same(**p, axis[i]);
     let across = |along: Vector| quarter_turn(along / along.norm());

@@ -1,5 +1,5 @@
-//! [`strands`]: computes the paths of the forces through the blocks of a frame, as strands with exact widths at their
-//! ends.
+//! [`strands`]: computes the paths of the forces through the blocks of a frame. Each strand has the exact widths of the
+//! forces at its ends.
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
 //! action meet in or near the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
@@ -73,7 +73,7 @@ pub(crate) struct Strand {
 }
 
 /// Returns the strands of a frame, block by block in placing order. `metres_per_newton` is the scale of the widths. The
-/// axes are offset accordingly, so that the strands of a force lie next to each other.
+/// axes are offset by the widths, so that the strands of a force lie next to each other.
 pub(crate) fn strands(
     scene: &Scene,
     frame: &Frame,
@@ -97,7 +97,7 @@ pub(crate) fn strands(
     all
 }
 
-/// Returns all forces on each block, by its index.
+/// Returns all forces on each block, indexed by block.
 fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting>> {
     let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
@@ -155,8 +155,8 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
     }
 }
 
-/// Returns the strands of a block between two bodies or robots along true lines of action. Returns `None` if other
-/// forces than these, the weight and loads act, or if there is no such path.
+/// Returns the strands of a block between two bodies or robots, along true lines of action. Returns `None` if there is
+/// no such path. Also returns `None` if other forces act on the block, except its weight and loads.
 fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Strand>> {
     let presses = |f: &&Acting| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
     let given = |f: &&Acting| matches!(f.origin, Origin::Load | Origin::Weight);
@@ -233,7 +233,7 @@ impl Sharing {
         acting.force.dot(&quarter_turn(self.down)) > 0.0
     }
 
-    /// Returns a strand for each pair of a force that enters and a force that leaves.
+    /// Returns one strand for each pair of an entering force and a leaving force.
     fn strands(&self, forces: &[Acting]) -> Vec<Strand> {
         let (ins, outs): (Vec<&Acting>, Vec<&Acting>) = forces.iter().partition(|f| self.enters(f));
         let sum = |side: &[&Acting]| side.iter().map(|f| f.force.norm()).sum::<f64>();
@@ -255,8 +255,9 @@ impl Sharing {
         strands
     }
 
-    /// Returns the end of the strand between the force at `at` and `partner`, and its direction there. The strands of
-    /// all `partners` lie next to each other, in their order across the force. `sum` is the sum of their magnitudes.
+    /// Returns the end of the strand between two forces, and its direction there. One force acts at `at`, the other is
+    /// `partner`. The strands of all `partners` lie next to each other, in their order across the force. `sum` is the
+    /// sum of the magnitudes of all `partners`.
     fn end(
         &self,
         at: Point,
@@ -311,8 +312,8 @@ impl Sharing {
     }
 }
 
-/// Returns a curve between two points that leaves the first and reaches the second in these directions. A direction
-/// that points backwards is ignored.
+/// Returns a curve between two points with the given directions at its ends. A direction that points backwards is
+/// ignored.
 fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
     let chord = b - a;
     let handle = |along: Vector| STRAIGHT * chord.dot(&along).max(0.0);

@@ -32,8 +32,8 @@ pub(super) struct Arrow {
 
 impl Arrow {
     /// Returns possible centres for the name of the arrow: on both sides of its shaft and beyond its tip, or around a
-    /// torque arrow. `wide` and `high` are the size of the name in pixels. `from` is the beginning of the arrow on the
-    /// page.
+    /// torque arrow. `wide` and `high` are the width and height of the name in pixels. `from` is the beginning of the
+    /// arrow on the page.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);

@@ -27,8 +27,8 @@ impl Piece {
         }
     }
 
-    /// Draws the piece with the left end of its baseline at `at`. Also returns its width. The font size and the width
-    /// are in pixels.
+    /// Draws the piece. `at` is the left end of its baseline. Also returns the width of the piece. The font size and
+    /// the width are in pixels.
     pub(super) fn draw(&self, at: PagePoint, size: f64, theme: &Theme) -> (Vec<Item>, f64) {
         let items = match self {
             Piece::Symbol(symbol) => {
@@ -57,12 +57,12 @@ impl Piece {
     }
 }
 
-/// Returns the width of a row in pixels at a font size in pixels.
+/// Returns the width of a row, pixels. `size` is the font size in pixels.
 pub(super) fn width(row: &[Piece], size: f64) -> f64 {
     row.iter().map(|p| p.width(size)).sum()
 }
 
-/// Breaks values into rows of at most `room` pixels, at a font size in pixels.
+/// Breaks values into rows of at most `room` pixels. `size` is the font size in pixels.
 pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece>> {
     let mut rows: Vec<Vec<Piece>> = Vec::new();
     for value in values {

@@ -1,4 +1,4 @@
-//! [`Solids`]: blocks and ground. A name inside one of them seems to be its name.
+//! [`Solids`]: blocks and ground. A reader takes a name inside such a body for the name of this body.
 
 use super::middle;
 use crate::drawing::PageRect;
@@ -34,7 +34,7 @@ impl Solids {
         }
     }
 
-    /// True if a label lies in the ground or in a block other than its own.
+    /// True if a label lies in the ground or in a block that it does not name.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
         let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {

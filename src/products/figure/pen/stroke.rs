@@ -27,8 +27,8 @@ impl Pen<'_> {
         self.camera.length(turn.arc.abs()) >= LEAST_SEEN || turn.kind == TurnKind::Load
     }
 
-    /// Returns the loads and missing forces that are too small for an arrow, each once. A dot shows the point where
-    /// they act.
+    /// Returns the loads and missing forces whose arrows are too small, without duplicates. A dot shows the point where
+    /// each of them acts.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
         let marks = &self.context.marks[self.number];
         marks
@@ -96,7 +96,7 @@ impl Pen<'_> {
     }
 
     /// Draws the heads of all arrows again, above all shafts. Arrows on one line overlap, and a shaft must not hide the
-    /// head of another arrow. Loads and missing forces are left out.
+    /// head of another arrow. Loads and missing forces are not drawn again.
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
@@ -132,8 +132,8 @@ impl Pen<'_> {
         Path::filled(outline, turn.colour).cased(self.context.options.theme.casing, self.casing)
     }
 
-    /// Returns the angle through which the arrow of a torque turns, radians. `radius` is in metres. The arrow of a load
-    /// has a least angle, so that its direction is visible; its magnitude is written next to it.
+    /// Returns the signed angle of a torque's arrow, radians. `radius` is in metres. The arrow of a load has a least
+    /// angle, so that its direction is visible; its magnitude is written next to it.
     fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
         let sweep = turn.arc / radius;
         if turn.kind != TurnKind::Load || turn.torque == 0.0 {
@@ -142,8 +142,8 @@ impl Pen<'_> {
         sweep.abs().max(LEAST_SWEEP).copysign(turn.torque)
     }
 
-    /// Returns the direction in radians from the centre of a torque's arrow to its middle at which it is farthest from
-    /// straight arrows. If several are equally good, it is upwards.
+    /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
+    /// is farthest from straight arrows. If several directions are equally good, the result is upwards.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let ends = [-0.5 * sweep, 0.5 * sweep];
@@ -171,7 +171,8 @@ impl Pen<'_> {
         best.1
     }
 
-    /// Draws the arrows of missing forces and torques, or of all others, each with a title that states its magnitude.
+    /// Draws the arrows of missing forces and torques, or with `missing` = false all other arrows. The title of each
+    /// arrow states its magnitude.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
@@ -219,8 +220,8 @@ impl Pen<'_> {
         group
     }
 
-    /// Like [`Pen::arrows`], for frames with very many blocks: draws one path for all arrows of a colour, without
-    /// missing forces.
+    /// Like [`Pen::arrows`] without missing forces, for frames with very many blocks. Draws one path for all arrows of
+    /// a colour.
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();

@@ -1,4 +1,4 @@
-//! [`Chain`]: blocks one after the other, each between two joints, and the forces in these joints.
+//! [`Chain`]: a sequence of blocks, each between two joints, and the forces in these joints.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::geometry::{Vector, quarter_turn};
@@ -24,7 +24,8 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    /// The largest component across gravity of the forces, N.
+    /// Returns the largest component of the forces perpendicular to gravity, N. `across` is the unit vector
+    /// perpendicular to gravity.
     pub fn thrust(&self, across: Vector) -> f64 {
         let amounts = self.forces.iter().map(|f| f.dot(&across).abs());
         amounts.fold(0.0, f64::max)
@@ -35,7 +36,7 @@ impl Chain {
     }
 }
 
-/// Returns the chains of a frame with a thrust, the one with the greatest thrust first.
+/// Returns the chains of a frame that have a thrust. The chain with the greatest thrust comes first.
 pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Chain> {
     let bearings = bearings(scene, found);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
@@ -71,7 +72,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
     chains
 }
 
-/// Walks from block to block, from the first joint of a block to where the chain ends; `None` if it runs in a ring.
+/// Follows a chain from the joint `first` of the block `start` to its other end. Returns `None` if the chain is closed.
 fn walked(
     start: BlockId,
     first: usize,
@@ -100,13 +101,13 @@ fn walked(
     }
 }
 
-/// The body on the other side of a contact.
+/// Returns the body on the other side of a contact.
 fn other(contact: &Contact, body: BodyId) -> BodyId {
     let [a, b] = contact.interface.bodies;
     if a == body { b } else { a }
 }
 
-/// The force of a contact on one of its bodies, N.
+/// Returns the force of a contact on one of its bodies, N.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
     let force = contact.resultant.force;
     if contact.resultant.on == body {

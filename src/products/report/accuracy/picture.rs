@@ -1,5 +1,5 @@
-//! [`picture`]: draws an accuracy study as one picture. Each row is a method, with its time, error and number of
-//! wrong verdicts for every tolerance.
+//! [`picture`]: draws an accuracy study as one picture. Each row is a method, with its time, its error and its number
+//! of wrong verdicts for every tolerance.
 
 use crate::analysis::Accuracy;
 use crate::drawing::{
@@ -173,13 +173,13 @@ impl Page<'_> {
         place(error.clamp(LEAST, 1.0), (LEAST, 1.0), ERRORS)
     }
 
-    /// The position of a tolerance in a block of columns.
+    /// Returns the x coordinate of a tolerance in a group of columns, pixels. `column` is the index of the tolerance.
     fn column(&self, column: usize, (from, to): (f64, f64)) -> f64 {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         from + (to - from) * column as f64 / last
     }
 
-    /// The number of a tolerance.
+    /// Returns the index of the tolerance of a summary line.
     fn place(&self, line: &Summary) -> usize {
         let found = self.tolerances.iter().position(|t| *t == line.tolerance);
         found.unwrap_or(0)
@@ -239,7 +239,7 @@ impl Page<'_> {
         items
     }
 
-    /// How many verdicts are wrong and how many undecided.
+    /// Draws the number of wrong verdicts and the number of undecided verdicts.
     fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
         let counts = [
             (line.wrong, WRONG, self.theme.falls),
@@ -256,8 +256,8 @@ impl Page<'_> {
         })
     }
 
-    /// Returns the colour of a dot: the tighter the tolerance, the darker. `place` counts the tolerances from the
-    /// loosest, from 0.
+    /// Returns the colour of a dot, which is darker for a tighter tolerance. `place` is the index of the tolerance,
+    /// from 0 for the loosest.
     fn shade(&self, place: usize, wrong: bool) -> Colour {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         let full = if wrong {
@@ -269,14 +269,14 @@ impl Page<'_> {
     }
 }
 
-/// Returns the pixel position of a value on a logarithmic axis that shows `least` to `most` at `from` to `to`. Values
-/// outside are moved to the nearer end.
+/// Returns the pixel position of a value on a logarithmic axis. The axis shows `least` at the position `from` and
+/// `most` at `to`. Values outside are moved to the nearer end.
 fn place(value: f64, (least, most): (f64, f64), (from, to): (f64, f64)) -> f64 {
     let share = libm::log10(value.max(least) / least) / libm::log10(most / least).max(1e-9);
     from + (to - from) * share.clamp(0.0, 1.0)
 }
 
-/// Writes ten to this power: `10⁻⁹`, `1`.
+/// Formats a power of ten: `10⁻⁹`, `1`.
 fn power_of_ten(power: i32) -> String {
     if power == 0 {
         return "1".into();

@@ -85,7 +85,7 @@ impl MarginBar {
         }
     }
 
-    /// Returns the position of a value on the scale, 0 … 1; values outside are moved to the nearer end.
+    /// Returns the position of a value on the scale, from 0 to 1. Values outside the scale are moved to the nearer end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         let (low, high) = self.scale;
         let share = if high > low {
@@ -105,8 +105,8 @@ impl MarginBar {
         self.position == Position::Inside
     }
 
-    /// Returns the margin as a sentence that names its parameter. The sentence of the load factor names the loads
-    /// already.
+    /// Returns the margin as a sentence that names its parameter. The sentence of the load factor already names the
+    /// loads.
     pub fn short(&self) -> String {
         if self.is_load_factor {
             return self.words.clone();
@@ -115,8 +115,8 @@ impl MarginBar {
     }
 }
 
-/// Returns the ends of the scale, a little beyond all values that are drawn. It begins at 0, or is symmetric about 0
-/// if the parameter can be negative. The scale of a kernel ends at 1.
+/// Returns both ends of the scale, a little beyond all values that are drawn. The scale begins at 0, or is symmetric
+/// about 0 if the parameter can be negative. The scale of a kernel ends at 1.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);

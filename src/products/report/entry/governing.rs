@@ -7,8 +7,8 @@ use crate::text::line;
 use crate::wording::headline::headline;
 use crate::wording::margin::{Parameter, StatedMargin, stated};
 
-/// Returns the number of the governing step, from 0. It is the first step that falls, else the first undecided step,
-/// else the step with the least margin.
+/// Returns the index of the governing step, from 0. This is the first step that falls. If no step falls, it is the
+/// first undecided step. If all steps stand, it is the step with the least margin.
 pub(super) fn governing(analysis: &Analysis) -> usize {
     let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
     let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));

@@ -49,7 +49,7 @@ impl<S: Into<String>> From<S> for TableCell {
 }
 
 impl TableCell {
-    /// Makes a cell with a small picture and no text.
+    /// Makes a cell with a small picture and without text.
     pub fn picture(picture: Thumbnail) -> TableCell {
         TableCell {
             picture: Some(picture),
@@ -57,7 +57,7 @@ impl TableCell {
         }
     }
 
-    /// Makes a cell with a margin as a bar.
+    /// Makes a cell with a bar that shows a margin.
     pub fn bar(bar: MarginBar) -> TableCell {
         TableCell {
             words: bar.words.clone(),
@@ -76,7 +76,7 @@ impl TableCell {
 }
 
 impl Grid {
-    /// Makes a table without rows. A `#` at the beginning of a head marks a column of numbers; it is not shown.
+    /// Makes a table without rows. A `#` at the beginning of a head marks a column of numbers; the `#` is not shown.
     pub fn new<H: AsRef<str>>(caption: impl Into<String>, heads: &[H]) -> Grid {
         let head = |head: &H| match head.as_ref().strip_prefix('#') {
             Some(rest) => (rest.to_owned(), true),
@@ -90,7 +90,7 @@ impl Grid {
         }
     }
 
-    /// Adds a row. `mark` is the id of a mark in the figure, or empty.
+    /// Adds a row. `mark` is the id of a mark in the figure, or empty for a row without a mark.
     pub fn add<C: Into<TableCell>>(
         &mut self,
         mark: impl Into<String>,

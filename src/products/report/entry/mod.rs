@@ -123,8 +123,8 @@ impl Entry {
         }
     }
 
-    /// Replaces the figures by those of `other`. It is an entry of the same scene in which all names can be written
-    /// with the fonts of drystone.
+    /// Replaces the figures by the figures of `other`. `other` is an entry of the same scene in which the fonts of
+    /// drystone can show all names.
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
@@ -169,7 +169,7 @@ impl Entry {
     }
 }
 
-/// Returns a hash that identifies the text of a scene file: 16 hexadecimal digits of FNV-1a.
+/// Returns a hash that identifies the text of a scene file: FNV-1a as 16 hexadecimal digits.
 fn hash(file: &str) -> String {
     format!("{:016x}", text::hash(file.as_bytes()))
 }
@@ -180,7 +180,8 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     object.trim_end().to_owned()
 }
 
-/// Returns commands that repeat the figures, the full report and the numbers of a scene: the purpose and the command.
+/// Returns pairs of a purpose and a command. The commands repeat the figures, the full report and the numbers of a
+/// scene.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
     let theme = options
         .theme_name
@@ -207,8 +208,8 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
     commands
 }
 
-/// Makes the table of all scenes, with links to them. `pages` are the page numbers of the scenes, for a report with
-/// numbered pages.
+/// Makes the table of all scenes, with links to the scenes. `pages` has the page numbers of the scenes, for a report
+/// with numbered pages.
 pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -> Grid {
     let fails = if compares {
         "what changed"

@@ -1,5 +1,5 @@
-//! [`SheetPart`]: a part of a page of a report, without markup. The writers for HTML, Markdown and PDF read parts
-//! only, so their contents agree.
+//! [`SheetPart`]: a part of a report page, without markup. The writers for HTML, Markdown and PDF all read these parts,
+//! so their contents agree.
 
 use std::borrow::Cow;
 
@@ -81,7 +81,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Returns the SVG with the XML namespace, which a separate file needs.
+    /// Returns the SVG with its XML namespace, which a separate file needs.
     pub(crate) fn document(&self) -> Cow<'_, str> {
         if self.svg.contains("xmlns=") {
             return Cow::Borrowed(&self.svg);

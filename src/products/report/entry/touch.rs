@@ -29,8 +29,8 @@ pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     }
 }
 
-/// Returns the drawing with an invisible target for each part, above everything else. A drawing without a scene is
-/// unchanged.
+/// Returns the drawing with an invisible target for each part, above all other items. A drawing without a scene is
+/// returned unchanged.
 pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
@@ -54,7 +54,7 @@ pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group
     }
 }
 
-/// Adds marks to the first group that shows a scene. Returns false if there is none.
+/// Adds marks to the first group that shows a scene. Returns false if no group shows a scene.
 fn add_to_scene(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     if let Some(camera) = group.camera {
         group.items.push(marks(&camera).into());

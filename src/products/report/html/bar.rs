@@ -11,8 +11,8 @@ const BAR: (f64, f64) = (220.0, 20.0);
 const INSET: f64 = 7.0;
 
 /// Draws a bar from the lower to the upper end of the interval, on a scale. The shapes are clear without colours. An
-/// end is a stroke, dashed if it is not confirmed, or an arrow if the interval has no end. The present value is a
-/// disc inside, a cross outside, or a ring if its position is unknown.
+/// end is a stroke, which is dashed if the end is not confirmed. If the interval has no end, an arrow replaces the
+/// stroke. The present value is a disc inside the interval, a cross outside, and a ring if its position is unknown.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR;
     let at = |value: f64| {

@@ -1,4 +1,4 @@
-//! Writes a report as HTML. The file needs no other file and no network, and it can be read without scripts.
+//! Writes a report as HTML. The page needs no other file, no network and no scripts.
 //!
 //! `maud` escapes all text. Text from files was reduced to one safe line before. Only figures, charts, the style
 //! sheet, the script and finished parts of the page are inserted without escaping. Scripts add sorting, filtering,
@@ -25,7 +25,7 @@ const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 /// If there are at most this many scenes, all are open from the beginning.
 const OPEN: usize = 12;
 
-/// Writes one page with all scenes. `bodies` are the parts of the scenes from [`section`].
+/// Writes one page with all scenes. `bodies` has the HTML of each scene from [`section`].
 pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     let main = html! {
         (refused(head))
@@ -37,7 +37,7 @@ pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     page(head, head.title, &head.summary, &main)
 }
 
-/// Writes an index and a page for each scene. `bodies` are the parts of the scenes from [`section`].
+/// Writes an index page, and a page for each scene. `bodies` has the HTML of each scene from [`section`].
 pub(super) fn split(head: &Head<'_>, bodies: &[&str]) -> Vec<OutputFile> {
     let name = |row: &&Row| format!("{:04}-{}.html", row.number, slug(&row.title));
     let names: Vec<String> = head.rows.iter().map(name).collect();
@@ -139,7 +139,7 @@ fn verdicts(row: &Row) -> Markup {
     }
 }
 
-/// Writes a path that the browser may break after each folder.
+/// Writes a path. The browser may break the line after each folder.
 fn path(name: &str) -> Markup {
     html! {
         bdi { @for part in name.split_inclusive('/') { (part) wbr; } }

@@ -68,7 +68,7 @@ impl Flow {
         flow
     }
 
-    /// Returns the current page. Adds it if it does not exist.
+    /// Returns the current page. Creates the page if it does not exist.
     pub fn page(&mut self) -> &mut Page {
         while self.pages.len() <= self.current {
             self.pages.push(Page {
@@ -112,7 +112,7 @@ impl Flow {
         self.open.push(item.into());
     }
 
-    /// Puts the items that were added since the last call on the page, as one group with this role.
+    /// Adds the items since the last call to the page, as one group with this role.
     pub fn close(&mut self, role: Role) {
         let items = std::mem::take(&mut self.open);
         if items.is_empty() {
@@ -246,7 +246,7 @@ impl Flow {
         self.y = end + 0.4 * TEXT_SIZE;
     }
 
-    /// Adds a caption below a picture, and returns the position of its lower end.
+    /// Adds a caption below a picture. Returns the y coordinate of its lower end, pixels.
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
         for row in wrap(&words, Face::Sans, SMALL, wide) {
@@ -257,7 +257,7 @@ impl Flow {
         self.y
     }
 
-    /// Adds charts, two in a row, or one in a row if any of them is wide.
+    /// Adds charts in rows of two. If any chart is wide, each row has one chart.
     pub fn charts(&mut self, charts: &[Chart]) {
         let across = if charts.iter().any(|c| c.wide) { 1 } else { 2 };
         let wide = (self.room - GAP * (across - 1) as f64) / across as f64;
@@ -306,7 +306,7 @@ impl Flow {
     }
 }
 
-/// Returns the scale, at most 1, at which a figure fits into a width and [`MAX_FIGURE_HEIGHT`].
+/// Returns the scale, at most 1, with which a figure is at most `wide` pixels wide and [`MAX_FIGURE_HEIGHT`] high.
 fn fitted(drawing: &Drawing, wide: f64) -> f64 {
     (wide / drawing.width)
         .min(MAX_FIGURE_HEIGHT / drawing.height)

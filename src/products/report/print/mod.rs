@@ -33,7 +33,7 @@ pub(super) struct Page {
     foot: String,
 }
 
-/// Makes the pages before the scenes. `numbers` are the pages on which the scenes begin, counted from 1.
+/// Makes the pages before the scenes. `numbers` has the page on which each scene begins, counted from 1.
 pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     let mut flow = Flow::new(String::new());
     flow.heading(head.title, 24.0, 1);
@@ -84,7 +84,7 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     flow.pages
 }
 
-/// The line at the foot of every page: the program, the scene and the names of its files, without folders.
+/// Returns the line at the foot of every page: the program, the scene and the names of its files, without folders.
 fn foot(entry: &Entry) -> String {
     let names = entry.row.name.split(" → ");
     let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));
@@ -115,7 +115,7 @@ fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     }
 }
 
-/// Numbers the pages and writes them as PDF. `starts` are the pages on which the scenes begin, counted from 0.
+/// Numbers the pages and writes them as PDF. `starts` has the page on which each scene begins, counted from 0.
 pub(super) fn written(
     pages: &mut [Page],
     title: &str,
@@ -153,7 +153,7 @@ pub(super) fn written(
     Ok(pdf::write_sheets(&sheets, &heading, &bookmarks)?)
 }
 
-/// Returns the text of a page with the line at its foot. `number` counts from 0.
+/// Returns the drawing of a page with the line at its foot. `number` counts from 0.
 fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Drawing {
     let theme = Theme::thesis();
     let y = PAGE.1 - MARGIN + 12.0;

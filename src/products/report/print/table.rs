@@ -1,4 +1,4 @@
-//! Adds tables. They can break between rows; the next page then repeats the heads.
+//! Adds tables to pages. A table can break between rows; the next page then repeats the heads.
 
 use super::bar;
 use super::flow::{BOTTOM, Flow, GAP, LINE, MARGIN, SMALL, TEXT_SIZE};
@@ -51,7 +51,7 @@ impl Flow {
         self.y += 0.5 * TEXT_SIZE;
     }
 
-    /// The height that a table needs to begin on a page.
+    /// Returns the height in pixels that must be free on a page so that a table can begin there.
     pub fn least(&self, grid: &Grid) -> f64 {
         match grid.lines.is_empty() {
             true => 0.0,
@@ -148,7 +148,8 @@ impl Flow {
 }
 
 impl Layout {
-    /// A short table stays on one page. A long one keeps at least two rows with its head.
+    /// Returns the height in pixels that must be free so that the table can begin. For a short table, this is its whole
+    /// height. For a long table, it is the height of the head and two rows.
     fn least(&self, grid: &Grid) -> f64 {
         let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
         let rows = match whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
@@ -187,8 +188,8 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// The widths of the columns of a table: the width of their text and a share of what is left over if there is space.
-/// Otherwise heads break at their spaces, and then the widest columns are narrowed.
+/// Returns the widths of the columns, pixels. If there is space, a column has the width of its text and a share of the
+/// free space. Otherwise heads break at their spaces, and if that is not enough, the widest columns become narrower.
 fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();

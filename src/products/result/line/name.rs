@@ -47,7 +47,7 @@ fn leaf(word: &'static str) -> Name {
     }
 }
 
-/// Returns the path of a typed name; `None` if it is not a field.
+/// Returns the path of the field with this name; `None` if there is no such field.
 pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     if typed == "all" {
         return Some(vec!["all"]);

@@ -31,7 +31,7 @@ struct Event {
     change: String,
 }
 
-/// Describes the differences between two drawings, given as SVG text; empty if they agree.
+/// Describes the differences between two drawings, given as SVG text. Empty if there are no differences.
 ///
 /// # Errors
 /// [`SvgParseError`] if one of the texts is not SVG; `expected` is read first.
@@ -55,7 +55,7 @@ pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, SvgParseError
     Ok(described(events))
 }
 
-/// Describes the changes. The same change of many elements is reported once.
+/// Describes the changes. If many elements have the same change, it is reported once.
 fn described(events: Vec<Event>) -> Vec<String> {
     let mut described: Vec<String> = Vec::new();
     let mut done: Vec<&str> = Vec::new();
@@ -137,7 +137,7 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
     }
 }
 
-/// True if two attribute values are equal up to rounding.
+/// True if two attribute values are equal, except for rounding.
 fn same_value(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -155,7 +155,7 @@ fn same_value(a: &str, b: &str) -> bool {
             })
 }
 
-/// True if two texts are equal up to the last digit of rounded numbers. A number counts as rounded if it has a
+/// True if two texts are equal, except for the last digit of rounded numbers. A number counts as rounded if it has a
 /// decimal point, or if ° or % follows. The facts layer compares the same numbers more precisely.
 fn same_words(a: &str, b: &str) -> bool {
     if a == b {
@@ -174,7 +174,7 @@ fn same_words(a: &str, b: &str) -> bool {
         })
 }
 
-/// Returns the value of one unit in the last digit of a number.
+/// Returns the value of a unit in the last digit of a number: 0.01 for `1.23`.
 fn unit(number: &str) -> f64 {
     let decimals = number.split_once('.').map_or(0, |(_, d)| d.len());
     format!("1e-{decimals}").parse().unwrap_or(1.0)

@@ -64,8 +64,8 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
     between(&old[a..], &new[b..], stage + 1, pairs);
 }
 
-/// Pairs elements by kind if both lists have equally many of the kind. Otherwise each is paired with `None`: it has
-/// appeared or vanished.
+/// Pairs the elements of a kind in order, if both lists have the same number of them. Otherwise each of these elements
+/// is paired with `None`, because it has appeared or vanished.
 fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
@@ -85,8 +85,8 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
     }
 }
 
-/// Finds a longest common subsequence of two lists of keys, as pairs of indices. Common beginnings and ends are
-/// paired first.
+/// Finds a longest common subsequence of two lists of keys. Returns it as pairs of indices. Common beginnings and ends
+/// are paired first.
 fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
@@ -110,7 +110,7 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
 }
 
 /// Finds the longest common subsequence by dynamic programming. The table contains its length for all pairs of
-/// suffixes.
+/// suffixes. Returns pairs of indices.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];
@@ -138,7 +138,7 @@ fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Finds a common subsequence greedily: pairs each key with its next occurrence among the next 64 keys.
+/// Finds a common subsequence with a greedy method: pairs each key with its next occurrence among the next 64 keys.
 fn greedy(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut next = 0;

@@ -21,7 +21,7 @@ pub(super) enum Movement {
 }
 
 impl Movement {
-    /// Describes the change; empty if there is none.
+    /// Describes the movement in words; empty if there is no change.
     pub(super) fn words(self) -> String {
         let short = |value: f64| {
             let text = format!("{:.2}", value.abs());
@@ -52,7 +52,8 @@ impl Movement {
     }
 }
 
-/// Finds the change of an element's shape. The simplest explanation is tried first: none, translation, rotation, reshape.
+/// Finds the change of an element's shape. The simplest explanation is tried first: no change, translation, rotation,
+/// other shape.
 pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     if old.shape == new.shape || old.tag == "svg" {
         return Movement::None;
@@ -102,7 +103,7 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
 }
 
 /// Rounds a translation along one axis. Positions in the SVG are rounded to 0.01. Translations are rounded more
-/// coarsely, so that elements that moved together report the same distance.
+/// coarsely, so that all elements that moved together report the same distance.
 fn rounded(by: f64) -> f64 {
     match by.abs() {
         far if far < 0.2 => (by * 100.0).round() / 100.0,
@@ -110,8 +111,9 @@ fn rounded(by: f64) -> f64 {
     }
 }
 
-/// Returns the angle, in radians, of the rotation that maps the points `a` about `from` best onto the points `b`
-/// about `to`. It solves the least-squares (Procrustes) problem in the plane: atan2(Σ p × q, Σ p · q).
+/// Returns the angle, in radians, of the rotation that fits the points `a` best to the points `b`. The points `a` are
+/// relative to `from`, the points `b` relative to `to`. The least-squares (Procrustes) solution in the plane is atan2(Σ
+/// p × q, Σ p · q).
 fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -133,7 +135,7 @@ fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     [sum[0] / count, sum[1] / count]
 }
 
-/// Returns the points of an element, and the letters of its path commands. `None` if a number cannot be read.
+/// Returns the points of an element, and the letters of its path commands. Returns `None` if a number cannot be read.
 fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
     let mut points = Vec::new();
     let mut letters = String::new();

@@ -69,12 +69,12 @@ impl Element {
         format!("{} × {}", side("width"), side("height"))
     }
 
-    /// Returns the title up to the first colon. The rest of the title contains numbers.
+    /// Returns the title up to the first colon that a space follows. The rest of the title contains numbers.
     pub(super) fn label(&self) -> &str {
         self.title.split(": ").next().unwrap_or_default()
     }
 
-    /// Names the element in messages. `within` describes the element around it.
+    /// Returns a name of the element for messages. `within` describes the element around it.
     pub(super) fn called(&self, within: &str) -> String {
         let what = if self.class.is_empty() {
             &self.tag
@@ -92,7 +92,7 @@ impl Element {
         }
     }
 
-    /// Describes the place of its children in messages.
+    /// Describes the position of the element's children for messages.
     pub(super) fn place(&self, within: &str) -> String {
         if self.tag == "svg" || !self.title.is_empty() {
             self.called(within)

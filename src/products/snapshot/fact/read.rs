@@ -90,8 +90,8 @@ fn fact(line: &str) -> Option<Fact> {
     })
 }
 
-/// Returns the name up to the closing quotation mark, without escapes, and the text after the mark. `None` if there
-/// is no such mark.
+/// Returns the name before the closing quotation mark, without escapes, and the text after this mark. Returns `None` if
+/// there is no closing quotation mark.
 fn unquoted(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut escaped = false;
@@ -108,7 +108,7 @@ fn unquoted(text: &str) -> Option<(String, &str)> {
     None
 }
 
-/// Reads a name, numbers and a unit; or a word.
+/// Reads a value: a name, numbers and a unit, or only a word.
 fn value(text: &str) -> Value {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let is_number = |part: &&str| part.parse::<f64>().is_ok() || *part == "none";

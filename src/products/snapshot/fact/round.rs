@@ -13,8 +13,8 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Chooses the decimal place at which `largest` has `digits` digits. If `largest` is 0 or not finite, it counts
-    /// as 1.
+    /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is 0 or not finite, 1
+    /// is used in its place.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
@@ -38,7 +38,7 @@ impl Rounding {
         }
     }
 
-    /// Writes the rounded number, never as −0. Numbers that are not finite become `none`.
+    /// Writes the rounded number, but never −0. Numbers that are not finite become `none`.
     pub(super) fn write(self, value: f64) -> String {
         if !value.is_finite() {
             return "none".into();
@@ -65,7 +65,7 @@ impl Rounding {
     }
 }
 
-/// Returns the value of one unit in the last digit of a written number.
+/// Returns the value of a unit in the last digit of a written number: 0.01 for `1.23`.
 pub(super) fn last_digit(written: &str) -> f64 {
     let (mantissa, exponent) = written.split_once('e').unwrap_or((written, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());

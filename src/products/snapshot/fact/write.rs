@@ -146,9 +146,9 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
     }
 }
 
-/// Sorts the forces at two points by position, so that the facts do not depend on the order of the points in the
-/// result. The sort direction has an irrational slope (0.38…, from the golden ratio), so that two points hardly ever
-/// tie.
+/// Returns the forces at two points, sorted by the positions of the points. The facts therefore do not depend on the
+/// order of the points in the result. The sort direction has an irrational slope (0.38…, from the golden ratio), so
+/// that two different points hardly ever have the same position along it.
 fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;
@@ -159,8 +159,8 @@ fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Returns the names of two bodies, sorted, the ground last. The facts thus do not depend on the order of the bodies
-/// in the result.
+/// Returns the sorted names of two bodies, with the ground last. The facts therefore do not depend on the order of the
+/// bodies in the result.
 fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
     let mut names: Vec<(bool, String)> = bodies
         .iter()
@@ -227,7 +227,7 @@ fn pair(v: Vector) -> [f64; 2] {
     [v.x, v.y]
 }
 
-/// Reduces a name to one line of at most 200 characters.
+/// Shortens a name to one line of at most 200 characters.
 fn name(foreign: &str) -> String {
     text::heading(foreign, 200)
 }

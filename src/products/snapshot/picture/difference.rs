@@ -43,8 +43,8 @@ struct PixelPair<'p> {
 }
 
 impl PixelPair<'_> {
-    /// Returns the mark of the pixel and the largest difference of a channel; `None` if the tolerance allows the
-    /// difference.
+    /// Returns the mark of the pixel, and the largest difference of a channel. Returns `None` if the tolerance allows
+    /// this difference.
     fn compare(&self, tolerance: PixelTolerance) -> Option<(Mark, u8)> {
         let (expected, found) = (self.expected, self.found);
         let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
@@ -174,7 +174,7 @@ impl Difference {
         });
     }
 
-    /// Sets the marks of all pixels. The area covers both pictures.
+    /// Stores the marks of all pixels. The marked area covers both pictures.
     fn set_marks(&mut self, marked: &[(u32, u32, Mark)]) {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (all_across, all_down) = (ew.max(fw), eh.max(fh));
@@ -194,7 +194,7 @@ impl Difference {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
     }
 
-    /// Describes the difference; empty if there is none.
+    /// Describes the difference; empty if the pictures count as equal.
     pub fn words(&self) -> String {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let mut words = Vec::new();
@@ -214,8 +214,8 @@ impl Difference {
         words.join("; ")
     }
 
-    /// Draws an image of the difference. The expected picture is pale grey, and pixels that differ are red, with
-    /// their bounding box. Antialiasing is yellow, and pixels outside one of the pictures are blue.
+    /// Draws an image of the difference. The expected picture is pale grey. Pixels that differ are red, and a rectangle
+    /// encloses them. Antialiasing is yellow, and pixels outside one of the pictures are blue.
     pub fn image(&self, expected: &Picture) -> Picture {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (wide, high) = (ew.max(fw), eh.max(fh));
@@ -240,8 +240,8 @@ impl Difference {
     }
 }
 
-/// Returns the largest visible difference of a channel. Colours are multiplied by alpha first; alpha counts as a
-/// channel.
+/// Returns the largest visible difference of a channel. Before the comparison, colours are multiplied by alpha. Alpha
+/// counts as a channel.
 fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     if a[3] == 255 && b[3] == 255 {
         return max_channel_difference(a, b);
@@ -253,7 +253,7 @@ fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     max_channel_difference(premultiplied(a), premultiplied(b))
 }
 
-/// Converts a colour to a pale grey of 32 levels by its brightness. Few colours make a small PNG.
+/// Converts a colour to one of 32 levels of pale grey, by its brightness. A picture with few colours is a small PNG.
 fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let grey = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
     let ink = (255 - grey) * u32::from(a) / 255;
@@ -261,7 +261,7 @@ fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     [pale as u8, pale as u8, pale as u8, 255]
 }
 
-/// Draws a rectangle around a box, at a distance of 3 pixels.
+/// Draws a rectangle at a distance of 3 pixels around a box.
 fn frame(picture: &mut Picture, [x, y, w, h]: [u32; 4]) {
     const OFF: u32 = 3;
     const LINE: [u8; 4] = [0xf0, 0x70, 0x80, 255];

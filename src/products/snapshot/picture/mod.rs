@@ -179,8 +179,7 @@ impl Picture {
     }
 
     /// Encodes the picture as a small PNG. An opaque picture gets a palette of at most 256 colours. Frequent colours
-    /// are exact. Other colours are rounded as little as the palette allows, and the file stores the rounding of
-    /// each.
+    /// are exact. Other colours are rounded as little as possible, and the file stores the rounding of each colour.
     ///
     /// # Errors
     /// The message of the PNG encoder.
@@ -201,8 +200,8 @@ impl Picture {
         &self.rgba
     }
 
-    /// True if the picture seems to have lost the roundings of its palette: it has 200 to 256 colours, but neither a
-    /// rounding nor a subject.
+    /// True if the record of rounded colours has probably been lost: the picture has 200 to 256 colours, but neither a
+    /// record of roundings nor a subject.
     pub(super) fn has_lost_rounding_note(&self) -> bool {
         let mut colours: Vec<[u8; 4]> = self
             .rgba
@@ -214,13 +213,13 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// Returns by how much, at most, a channel of this colour was rounded.
+    /// Returns the largest amount by which a channel of this colour may have been rounded.
     fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }
 }
 
-/// Returns the error for bytes that do not begin like a PNG; `None` if they do.
+/// Returns the error for bytes that do not begin like a PNG; `None` for bytes that do.
 fn foreign(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {
@@ -249,8 +248,8 @@ fn foreign(bytes: &[u8]) -> Option<PictureError> {
     }))
 }
 
-/// Converts samples of any colour type to 8-bit red, green, blue and alpha. The decoder has expanded palettes and samples of
-/// fewer than 8 bits already.
+/// Converts samples of any colour type to 8-bit red, green, blue and alpha. The decoder has already expanded palettes,
+/// and samples with fewer than 8 bits.
 fn to_rgba(data: &[u8], colour: ColorType, depth: BitDepth) -> Vec<[u8; 4]> {
     let eight: Vec<u8>;
     let samples = if depth == BitDepth::Sixteen {

@@ -1,4 +1,4 @@
-//! [`Palette`]: chooses at most 256 colours for a picture, and records the rounding of each.
+//! [`Palette`]: chooses at most 256 colours for a picture, and records the rounding of each colour.
 //!
 //! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The algorithm
 //! is a variant of median cut (Heckbert 1982) that minimises the largest error:
@@ -32,8 +32,8 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Makes the palette for these pixels. `None` for pictures with transparent pixels and more than 256 colours:
-    /// they are stored without a palette.
+    /// Makes the palette for these pixels. Returns `None` for a picture with transparent pixels and more than 256
+    /// colours, which is stored without a palette.
     pub(super) fn new(pixels: &[[u8; 4]]) -> Option<Palette> {
         let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
         for run in pixels.chunk_by(|a, b| a == b) {
@@ -84,7 +84,7 @@ impl Palette {
         palette
     }
 
-    /// Writes the roundings as text to store; `None` if there are none.
+    /// Writes the roundings as text for the file; `None` if no colour was rounded.
     fn note(&self) -> Option<String> {
         let any = self.rounding.iter().any(|r| *r > 0);
         any.then(|| self.rounding.iter().map(|r| format!("{r:02x}")).collect())
@@ -112,7 +112,7 @@ pub(super) fn max_channel_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     channels.max().unwrap_or(0)
 }
 
-/// Returns the lowest and highest value of the channel with the widest range, and the index of that channel.
+/// Finds the channel with the widest range. Returns its lowest value, its highest value and its index.
 fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     let range = |channel: usize| {
         let values = members.iter().map(|m| m[channel]);
@@ -172,7 +172,7 @@ fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     nearest.copied().unwrap_or(centre)
 }
 
-/// Encodes a PNG with a palette, or with true colours if there is none.
+/// Encodes a PNG with a palette, or with true colours if `palette` is `None`.
 pub(super) fn encode(
     picture: &Picture,
     palette: Option<&Palette>,

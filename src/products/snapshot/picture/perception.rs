@@ -9,7 +9,7 @@ use super::Picture;
 /// The largest distance, between black and white.
 const MAX_DISTANCE: f64 = 35_215.0;
 
-/// Blends a colour with a white background; channels 0 to 255.
+/// Blends a colour with a white background. Channels range from 0 to 255.
 fn on_white([r, g, b, a]: [u8; 4]) -> [f64; 3] {
     let share = f64::from(a) / 255.0;
     [r, g, b].map(|c| 255.0 + (f64::from(c) - 255.0) * share)
@@ -36,7 +36,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// Returns the neighbours of a pixel, and whether it lies at the border of the picture.
+/// Returns the neighbours of a pixel, and true if the pixel lies at the border of the picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
     let (right, bottom) = (
@@ -48,7 +48,7 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
     (all.filter(move |place| *place != (x, y)), edge)
 }
 
-/// True if a pixel of `picture` is part of an antialiased edge that `other` has too.
+/// True if a pixel of `picture` is part of an antialiased edge that `other` also has.
 pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
     // Find the darkest and the brightest neighbour. A pixel with more than two equal neighbours is in an area, not at
     // an edge.
@@ -77,7 +77,8 @@ pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32)
     darkest.0 < 0.0 && brightest.0 > 0.0 && (is_flat(darkest.1) || is_flat(brightest.1))
 }
 
-/// True if more than two neighbours of a pixel have its colour. The border of the picture counts as one neighbour.
+/// True if more than two neighbours of a pixel have the same colour as the pixel. The border of the picture counts as
+/// one neighbour.
 fn is_flat(picture: &Picture, x: u32, y: u32) -> bool {
     let (around, edge) = neighbours(picture, x, y);
     let own = picture.pixel(x, y);
