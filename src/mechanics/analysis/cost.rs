@@ -1,4 +1,4 @@
-//! [`SolveReport`]: the method, the number of programs and the time that solved a frame.
+//! [`SolveReport`]: the method that solved a frame, the number of programs, and the time.
 
 use super::Method;
 

@@ -1,4 +1,4 @@
-//! How a verdict is reached: every route, in the order in which it is tried.
+//! Decides a component: all routes to a verdict, in the order in which they are tried.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a
@@ -161,7 +161,7 @@ impl<'a> Component<'a> {
                 ..self.stands(self.prove_forces(&Amounts::none(program)))
             }
         } else {
-            // Forces that the balance equations determine uniquely, as in a stack.
+            // The balance equations alone determine the forces, as in a stack.
             let carried = self.prove_forces(&determinate(program)?);
             if !self.believes(&carried.proof) {
                 return None;

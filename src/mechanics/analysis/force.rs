@@ -88,7 +88,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Returns the word in JSON results.
+    /// Returns the word for this kind of failure in JSON results.
     pub fn word(&self) -> &'static str {
         match self {
             Failure::Tension { .. } => "tension",

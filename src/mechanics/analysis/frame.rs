@@ -47,7 +47,7 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     }
 }
 
-/// Adds the results that are known at the end: the number of unknowns, and the effects that were simulated.
+/// Adds the results that are known only at the end: the number of unknowns, and the effects that were simulated.
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,

@@ -58,7 +58,8 @@ impl From<&Penetration> for Place {
     }
 }
 
-/// Analyses the scene again with all small gaps and overlaps closed. Frames whose verdict then differs become undecided.
+/// Analyses the scene again with all small gaps and overlaps closed. Frames whose verdict differs in this second
+/// analysis become undecided.
 pub(super) fn recheck(
     scene: &Scene,
     found: &Interfaces,
@@ -81,7 +82,7 @@ pub(super) fn recheck(
         return;
     }
     let places = ambiguous_places(scene, found);
-    // One length closes all places of all frames.
+    // All places of all frames are closed by the same length.
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };
@@ -302,7 +303,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
             "close it, or give \"contact_tolerance\": {:.1e} to count it as a contact",
             1.06 * gap.distance
         );
-        // Name a block, not the ground; of two blocks the later one.
+        // The note names a block, not the ground. If both bodies are blocks, it names the later block.
         let body = gap.bodies[0].max(gap.bodies[1]);
         notes.push(scene.note(code, body, &message, &hint));
     }
@@ -339,7 +340,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
     )
 }
 
-/// Describes the first places of a list, and counts the others.
+/// Returns a description of the first places of a list, and the number of the others.
 fn listed(scene: &Scene, places: &[Place]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };

@@ -10,7 +10,7 @@ use crate::interface::Interface;
 use crate::resultant::{friction_used, from_corner_forces};
 use crate::scene::Hold;
 
-/// Returns the frame before the first component is added: with every contact and grip, at zero force.
+/// Returns a frame with every contact and grip at zero force, to which the results of the components are then added.
 pub(super) fn gathered(
     situation: &FrameContext,
     assembly: &Assembly,
@@ -59,7 +59,7 @@ pub(super) fn gathered(
     }
 }
 
-/// Returns a contact with zero force.
+/// Returns the contact of an interface with zero force.
 fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
     Contact {
         interface: interface.clone(),

@@ -54,9 +54,9 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the nearer limit of stability of a frame (numbered from 0), and the elementary mechanism there. `None`
-    /// if margins were not computed or the frame does not fall in this direction. Loads without largest factor have the
-    /// least.
+    /// Returns the limit of stability of a frame (numbered from 0) that is nearer to 0, and the elementary mechanism
+    /// there. `None` if margins were not computed, or if the frame does not fall in this direction. If the load factor
+    /// has no upper limit, its lower limit is returned.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -123,7 +123,7 @@ impl Analysis {
             let fall = Fall::new(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
-        // All parts together: the fastest point has speed 1.
+        // The speeds of all parts are scaled together such that the fastest point has speed 1.
         let fastest = all
             .iter()
             .map(|m| m.fastest(&self.scene))
@@ -139,7 +139,8 @@ impl Analysis {
     }
 }
 
-/// Splits motions into parts of moving blocks that contacts connect. Blocks at rest connect nothing.
+/// Splits motions into parts: sets of moving blocks that are connected by contacts. Blocks at rest do not connect
+/// parts.
 fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
     let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
@@ -216,7 +217,7 @@ impl<'a> Fall<'a> {
             .collect();
         // Go from the proof's motion to an extreme ray of the cone. Every step closes one contact.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
-        // If a motion along the slipping joints exists, it replaces the rising one.
+        // If there is a motion along the slipping joints, it replaces the motion that opens them.
         let sliding = self.along_joints(&y);
         let motions = self.motions_of(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)

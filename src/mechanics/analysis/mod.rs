@@ -73,7 +73,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Returns the word in JSON results.
+    /// Returns the word for this verdict in JSON results.
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Stable => "stable",
@@ -159,8 +159,8 @@ pub struct FrameAnalysis {
 }
 
 impl Analysis {
-    /// Analyses every frame of a scene. The analysis keeps the scene: a scene is moved, an `Arc` is shared, and a reference
-    /// is cloned.
+    /// Analyses every frame of a scene. The analysis keeps the scene. A `Scene` is moved into it, an `Arc` is shared,
+    /// and the scene behind a reference is cloned.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict};

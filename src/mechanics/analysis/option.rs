@@ -48,7 +48,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// Returns the threshold that a proof must reach.
+    /// Returns the threshold that a proof must reach for this accuracy.
     pub fn demand(self) -> ProofThreshold {
         match self {
             Accuracy::Standard => ProofThreshold::STANDARD,
@@ -86,8 +86,8 @@ impl Options {
         deadline: None,
     };
 
-    /// Returns the margins to compute: the requested ones, and the one whose derivatives are requested. `None` without
-    /// either.
+    /// Returns the margins to compute: those that are requested, and the margin whose derivatives are requested. `None`
+    /// if there are none.
     pub(super) fn wanted_margins(self) -> Option<MarginKinds> {
         let requested = self.margins.then_some(self.margin_kinds);
         match (requested, self.sensitivity) {
@@ -97,7 +97,7 @@ impl Options {
         }
     }
 
-    /// Whether the deadline has passed.
+    /// True if the deadline has passed.
     pub(super) fn is_late(self) -> bool {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
@@ -106,7 +106,7 @@ impl Options {
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
-            // The violation of a motion comes from the solver. Only a more exact solution makes it smaller.
+            // An error of a motion comes from the solver. Only a more exact solution makes it smaller.
             Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,
                 ..Conditioning::Full.into()

@@ -22,7 +22,7 @@ pub fn pair(
     titles: [String; 2],
 ) -> Result<(Scene, Vec<FrameAnalysis>), String> {
     let (first, second) = (&*before.0.scene, &*after.0.scene);
-    // One scene has one ground and one direction of gravity.
+    // A scene has only one ground and one direction of gravity.
     check_ground_and_gravity(first, second)?;
     let mut scene = first.clone();
     if first.title != second.title {
@@ -32,7 +32,7 @@ pub fn pair(
         blocks: add_blocks(&mut scene, first, second),
         robots: add_robots(&mut scene, second),
     };
-    // Loads on blocks that both scenes share are the same; those on new blocks are added.
+    // Blocks that both scenes share have the same loads. The loads on new blocks are added.
     let new = |load: &&Load| moved.block(load.block).0 >= first.blocks.len();
     let more = second.loads.iter().filter(new).map(|load| Load {
         block: moved.block(load.block),
@@ -123,7 +123,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
             words.push(format!("{what} {b} in place of {a}"));
         }
     };
-    // Numbers of the whole scene.
+    // Quantities of the whole scene.
     compare("kernel", first.kernel, second.kernel);
     // The friction coefficients of all bodies, each once.
     let rubs = |scene: &Scene| {

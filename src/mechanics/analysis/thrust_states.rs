@@ -1,4 +1,4 @@
-//! [`Analysis::thrust_states`]: how far the forces of a frame that stands may vary.
+//! [`Analysis::thrust_states`]: the range of the possible forces of a frame that stands.
 //!
 //! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest
 //! value: two linear programs on the constraints of the verdict. The most central forces stay within the largest
@@ -84,7 +84,7 @@ impl Analysis {
         }
     }
 
-    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` without a proof.
+    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` if it has no proof.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &*self.scene;
         let frame = &scene.frames[number];
@@ -159,14 +159,14 @@ fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
         .collect()
 }
 
-/// Returns the middle between the outermost places.
+/// Returns the mean of the least and the largest of these coordinates, metres.
 fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let least = places.clone().fold(f64::INFINITY, f64::min);
     0.5 * (least + places.fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// Returns the forces of a component with the least (`sign` 1) or greatest (−1) inward thrust at its supports; `None`
-/// without a proof.
+/// if they have no proof.
 fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forces> {
     let across = quarter_turn(scene.down());
     let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);

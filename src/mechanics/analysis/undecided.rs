@@ -75,11 +75,11 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
-    /// Returns the reasons in words, with the numbers of both proofs; empty for a frame that is decided.
+    /// Returns the reasons in words, with the numbers of both proofs; empty if the frame is not undecided.
     pub fn doubt(&self) -> String {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {
-            // Add what was found before the deadline.
+            // Add the reasons that were found before the deadline.
             [UndecidedReason::Late, _, ..] => {
                 format!("{}: {}", reasons[0], reasons[1..].join("; "))
             }

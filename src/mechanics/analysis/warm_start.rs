@@ -53,8 +53,8 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// Whether verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed
-/// with and without them.
+/// True if verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed with
+/// and without them.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
     let none =
         found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
@@ -116,7 +116,7 @@ impl WarmStart {
 
     /// Returns the verdict on an assembly, if the warm start proves one.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
-        // Without an active set to start from, fewer bodies are allowed.
+        // If there is no active set from an earlier frame, fewer bodies are allowed.
         let most = match self.columns.is_empty() {
             true => MAX_NEW_BODIES,
             false => MAX_BODIES,
@@ -125,12 +125,13 @@ impl WarmStart {
             *self = WarmStart::default();
             return None;
         }
-        // Pose the balance in numbers without units, in the scale of the earlier frames.
+        // Write the equilibrium equations in numbers without units, in the scale of the earlier frames.
         let scale = self.scale(assembly);
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        // Find the forces with the least residual. It is 0 if the frame stands; otherwise its negative is a motion.
+        // Find the forces with the least residual. It is 0 if the frame stands. Otherwise, its negative is a motion by
+        // which the frame falls.
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
@@ -191,7 +192,7 @@ fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
                 let grip = &assembly.grips[grip];
                 Origin::Grip(grip.robot, assembly.bodies[grip.body].block, bits(grip.at))
             }
-            // Admissible forces have one of these two kinds.
+            // All admissible forces belong to one of these two kinds.
             _ => continue,
         };
         if begins.last().is_none_or(|(_, last)| *last != origin) {

@@ -67,7 +67,7 @@ pub struct FaceCase {
 }
 
 impl Wedged {
-    /// Converts the result of the solver for one component.
+    /// Converts the self-stress of one component from program units to metres and newtons.
     pub(super) fn new(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
         let motion = |pure: &[f64]| {
             let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
@@ -93,7 +93,7 @@ impl Wedged {
     }
 }
 
-/// Converts a case of the solver to the contact numbers of the frame.
+/// Converts a case that the solver excluded, so that its contacts have the indices of the frame.
 fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();

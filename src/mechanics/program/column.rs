@@ -59,7 +59,8 @@ pub enum Force {
 }
 
 impl Force {
-    /// True if the force is sticking: a contact or robot cannot exert it. Such a force only shows what is missing.
+    /// True if the force is sticking: a contact or robot cannot exert it. Such a force only shows which force is
+    /// missing.
     pub fn is_adhesion(&self) -> bool {
         matches!(
             self,
@@ -69,7 +70,7 @@ impl Force {
         )
     }
 
-    /// The effect that the force belongs to.
+    /// Returns the effect that the force belongs to.
     fn effect(&self, program: &Program) -> EffectName {
         match *self {
             Force::Ray {
@@ -103,7 +104,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The nonzero entries as (row, value) pairs.
+    /// Returns the nonzero entries as (row, value) pairs.
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.filled().iter().copied()
     }
@@ -120,8 +121,8 @@ impl Column {
             && self.limit == other.limit
     }
 
-    /// The inner product with virtual velocities `y` of the bodies: the velocity of the point of application along the
-    /// force. If the force acts between two bodies, it is their relative velocity.
+    /// Returns the inner product with virtual velocities `y` of the bodies: the velocity of the point of application in
+    /// the direction of the force. For a force between two bodies, it is their relative velocity.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (row, value) in self.filled() {
@@ -130,7 +131,7 @@ impl Column {
         sum
     }
 
-    /// The inner product of two columns.
+    /// Returns the inner product of two columns.
     pub fn dot_column(&self, other: &Column) -> f64 {
         if !self.shares_block(other) {
             return 0.0;
@@ -146,7 +147,7 @@ impl Column {
         sum
     }
 
-    /// Whether both columns have entries in the rows of a common body. The entries of each body are consecutive.
+    /// True if both columns have entries in the rows of a common body. The entries of each body are consecutive.
     fn shares_block(&self, other: &Column) -> bool {
         let blocks = |column: &Column| {
             let last = column.count.saturating_sub(1);
@@ -163,7 +164,7 @@ impl Column {
         }
     }
 
-    /// The difference of two columns that act on the same bodies.
+    /// Returns the difference of two columns that act on the same bodies.
     pub(super) fn minus(&self, other: &Column) -> Column {
         let mut difference = Column { count: 0, ..*self };
         let mut put = |row: usize, value: f64| match (0..difference.count)
@@ -221,13 +222,13 @@ impl UnknownCounts {
         counts
     }
 
-    /// The number of unknowns of an effect; 0 if the effect has no columns.
+    /// Returns the number of unknowns of an effect; 0 if the effect has no columns.
     pub fn get(&self, effect: EffectName) -> usize {
         let entry = self.counts.iter().find(|entry| entry.0 == effect);
         entry.map_or(0, |entry| entry.1)
     }
 
-    /// The sum of two counts, effect by effect.
+    /// Returns the sum of two counts, effect by effect.
     pub fn plus(mut self, other: &UnknownCounts) -> UnknownCounts {
         for (effect, count) in &other.counts {
             self.add(*effect, *count);
@@ -243,7 +244,7 @@ impl UnknownCounts {
     }
 }
 
-/// The columns of all admissible forces of a program: contacts first, then grips.
+/// Returns the columns of all admissible forces of a program: contacts first, then grips.
 pub fn columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(6 * program.contacts.len() + 4 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -293,7 +294,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// The columns of all sticking forces of a program, without limits.
+/// Returns the columns of all sticking forces of a program, without limits.
 ///
 /// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. Sticking friction is one force
 /// per interface, because the friction forces at both ends act along the same line.

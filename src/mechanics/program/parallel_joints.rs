@@ -17,9 +17,9 @@ impl Program {
     /// Returns the program with all nearly parallel or perpendicular joints made exactly so. `None` if this changes
     /// nothing.
     ///
-    /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only with
-    /// velocities of 10⁶, and the solver ends without a status. It solves the program if the faces are exactly
-    /// parallel.
+    /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only if the
+    /// block moves with a velocity of 10⁶, and the solver ends without a status. It solves the program if the faces are
+    /// exactly parallel.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let turns = turns(&normals);
@@ -62,7 +62,7 @@ fn turns(directions: &[Vector]) -> Vec<f64> {
     turns
 }
 
-/// A direction rotated anticlockwise by an angle in radians.
+/// Returns a direction rotated anticlockwise by an angle in radians.
 fn turned(direction: Vector, angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
     Vector::new(
@@ -71,7 +71,7 @@ fn turned(direction: Vector, angle: f64) -> Vector {
     )
 }
 
-/// The angle from the nearest axis to a direction, in radians, from −π/4 to π/4.
+/// Returns the angle from the nearest axis to a direction, in radians, from −π/4 to π/4.
 fn beyond_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)

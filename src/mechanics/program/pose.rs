@@ -35,7 +35,8 @@ impl QuadraticProgram {
     }
 }
 
-/// The kinematic dual of "minimise the cost of forces that balance `loads`": max loadsᵀy  s.t.  columnᵀy ≤ cost.
+/// Returns the kinematic dual of "minimise the cost of forces that balance `loads`": max loadsᵀy  s.t.  columnᵀy ≤
+/// cost.
 ///
 /// There are three unknowns y per body and one row per column. A column with a limit gets one more unknown w ≥ 0, with
 /// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component without limit, whose costs are
@@ -118,8 +119,8 @@ fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     }
 }
 
-/// The dual of the load factor problem  max λ  s.t.  Σ amount·column = loads + λ·toward:
-/// max loadsᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
+/// Returns the dual of the load factor problem  max λ  s.t.  Σ amount·column = loads + λ·toward: max loadsᵀy  s.t.
+/// columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The multiplier of the last row is the largest λ ≥ 0. The returned rows are those of [`kinematic_dual`].
 pub fn load_factor_dual(
@@ -135,7 +136,8 @@ pub fn load_factor_dual(
     (problem, row_of)
 }
 
-/// The dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
+/// Returns the dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤
+/// towardᵀy ≤ 1.
 ///
 /// λ is the multiplier of the second-last row minus the multiplier of the last row.
 pub fn nearest_factor_dual(
@@ -155,7 +157,7 @@ pub fn nearest_factor_dual(
     (problem, row_of)
 }
 
-/// The dual of  min Σ |residual of the balance|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+/// Returns the dual of  min Σ |residual of the balance|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
 /// It always has an optimum. Its multipliers are the forces with the least residual. Its solution y gives the
 /// velocities −y for which the loads have the largest power.
@@ -170,8 +172,8 @@ pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgr
     (problem, row_of)
 }
 
-/// Finds the least change d of velocities: min ½ |d|² s.t. columnᵀd = value for the first `equalities` columns, and
-/// columnᵀd ≥ value for the others.
+/// Returns the problem of the least change d of velocities: min ½ |d|² s.t. columnᵀd = value for the first `equalities`
+/// columns, and columnᵀd ≥ value for the others.
 pub fn least_change(
     unknowns: usize,
     columns: &[(&Column, f64)],
@@ -197,7 +199,7 @@ pub fn least_change(
     problem
 }
 
-/// The problem of finding amounts, of either sign, that balance `loads` with the least Σ amount².
+/// Returns the problem of finding amounts, positive or negative, that balance `loads` with the least Σ amount².
 pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     QuadraticProgram {
@@ -221,7 +223,7 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// The problem of finding amounts ≥ 0 that balance `loads` with the least sum of squared forces.
+/// Returns the problem of finding amounts ≥ 0 that balance `loads` with the least sum of squared forces.
 ///
 /// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
 /// The result therefore does not depend on how the friction cone is divided into columns.
@@ -276,8 +278,8 @@ pub fn least_squares(
 /// A second cost for each column, and the largest allowed value of Σ cost·amount.
 pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
-/// The static (primal) form, in which the forces are the unknowns: min Σ cost·amount  s.t.  Σ amount·column = `loads`,
-/// 0 ≤ amount ≤ limit.
+/// Returns the static (primal) form, in which the forces are the unknowns: min Σ cost·amount  s.t.  Σ amount·column =
+/// `loads`, 0 ≤ amount ≤ limit.
 ///
 /// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max, for the second stage of a lexicographic
 /// optimisation. If the structure is close to its limit, this form takes fewer iterations than the kinematic dual.
@@ -299,7 +301,8 @@ pub fn force_primal(
     problem
 }
 
-/// The inner product of two unit forces in the coordinates (N1, N2, T) of one contact, or in the components of one grip.
+/// Returns the inner product of two unit forces in the coordinates (N1, N2, T) of one contact, or in the components of
+/// one grip.
 ///
 /// `None` if they belong to different contacts or grips, or to different kinds of columns.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {

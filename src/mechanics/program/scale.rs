@@ -25,7 +25,7 @@ impl Scale {
     /// The heaviest load of a frame in scaled units. A tenth of it and ten times its value also gave right verdicts.
     pub const HEAVIEST: f64 = 300.0;
 
-    /// Chooses the scale from a median interface length (m) and a heaviest load (N). Without loads, 1 N is used as the
+    /// Creates the scale for a median interface length (m) and a heaviest load (N). Without loads, 1 N is used as the
     /// load.
     pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
@@ -35,7 +35,7 @@ impl Scale {
         }
     }
 
-    /// Newton metres per unit of moment.
+    /// Returns the moment, N·m, that is one unit of the program.
     pub fn moment(&self) -> f64 {
         self.length * self.force
     }

@@ -3,11 +3,11 @@
 use super::pose::QuadraticProgram;
 use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
 
-/// The soft program of [Vallat23](crate::doc::references) §2.0.7–8.
+/// Returns the soft program of [Vallat23](crate::doc::references) §2.0.7–8.
 ///
 /// Every interface and every grip has six unknowns, and each of these has an opposite partner at cost β; all are ≥ 0.
 /// The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. This program is
-/// used only to measure the time and accuracy that a large β costs.
+/// used only to measure how much a large β reduces speed and accuracy.
 ///
 /// The order of the unknowns is N1, f1⁺, f1⁻, N2, f2⁺, f2⁻ for each interface, then Fx±, Fy±, M± for each grip, then
 /// all opposite partners in the same order.

@@ -1,4 +1,4 @@
-//! The imbalance τ of each body, relative to the forces on that body only.
+//! Computes the imbalance τ of each body, relative to the forces on that body only.
 //!
 //! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its amount and moved
 //! by at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), where M is its moment about the
@@ -104,7 +104,8 @@ impl BodyForces {
         [x, y, moment / self.radius]
     }
 
-    /// Adds the generators that do not belong to one force: the displacement of all forces, and the allowed rounding.
+    /// Adds the generators that do not belong to a single force: the displacement of all forces, and the allowed
+    /// rounding.
     fn add_common_generators(&mut self) {
         // Moving every force by τ R changes M/R by at most τ Σ |F|.
         self.generators.push([0.0, 0.0, self.total]);
@@ -125,8 +126,8 @@ impl BodyForces {
         self.generators.push([0.0, turned, 0.0]);
     }
 
-    /// Returns the smallest τ to which the body balances; values up to [`GOOD_ENOUGH`] are upper bounds. Requires
-    /// [`Self::add_common_generators`].
+    /// Returns the smallest τ to which the body balances; values up to [`GOOD_ENOUGH`] are upper bounds. Call
+    /// [`Self::add_common_generators`] first.
     fn imbalance(&self) -> f64 {
         let residual = self.residual();
         if residual == [0.0; 3] {
@@ -163,7 +164,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
             continue;
         }
         let [x, y, moment] = residual;
-        // For information: residual relative to the load.
+        // The residual relative to the load is only reported; it does not decide.
         if body.load > 0.0 {
             share = share.max(libm::hypot(x, y).max(moment.abs()) / body.load);
         }
@@ -192,8 +193,8 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
         .collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
-        // Two normal forces at their points, and the friction force. It acts along the interface, so any point of the
-        // interface is a valid point of application.
+        // Two normal forces at their points, and the friction force. The friction force acts along the interface, so
+        // any point of the interface is a valid point of application.
         let pushes = [
             (contact.points[0], contact.normal * first),
             (contact.points[1], contact.normal * second),

@@ -23,11 +23,11 @@ impl Forces {
 /// Returns a lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
 /// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
-/// if the motion proves nothing. Torques are divided by the assembly's length L.
+/// if the motion gives no better one. Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A limit above this counts as no limit.
     let binding = NON_BINDING * moving_load(assembly, motions);
-    // `worst` is δ. Components of grips without a binding limit can increase it; for the others, the
+    // `worst` is δ. Components of grips without a binding limit can increase it. For components with such a limit, the
     // excess over δ is subtracted from the power.
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();

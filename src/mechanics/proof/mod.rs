@@ -96,8 +96,8 @@ impl Proof {
 
     /// Returns the force sum below which the motion rules out equilibrium: Σ(N + |T|), relative to the moving loads.
     ///
-    /// It equals power / violation, and includes the forces of robots without limits. It is infinite if nothing is
-    /// violated: then no forces balance, however large. It is 0 for a proof by forces.
+    /// It equals power / violation, and includes the forces of robots without limits. It is infinite if the motion
+    /// violates nothing: then no forces balance the loads, however large they are. It is 0 for a proof by forces.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
@@ -209,7 +209,7 @@ impl Motion {
     }
 
     /// Returns, for each component of a point's velocity, the sum of the absolute values of its terms. The rounding
-    /// error is a fraction of this sum.
+    /// error is at most a small fraction of this sum.
     ///
     /// The components are summed separately, so that the rounding of a horizontal motion does not count as a vertical
     /// one.
@@ -354,7 +354,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         .zip(motions)
         .map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
-    // Without motion or loads there is nothing to prove: a power of 0 meets no threshold.
+    // Without motion or loads, the motion proves no fall: a power of 0 meets no threshold.
     if fastest == 0.0 || load == 0.0 {
         return Proof::Mechanism {
             power: 0.0,

@@ -74,7 +74,7 @@ impl Amounts {
         pairs.chain(grip.flatten()).for_each(|v| *v *= by);
     }
 
-    /// Adds `amount` of a force.
+    /// Adds `amount` to the amount of one force.
     pub fn add(&mut self, force: Force, amount: f64) {
         match force {
             Force::Ray {

@@ -1,4 +1,4 @@
-//! Route 0: forces or a motion found elsewhere, and the verdict that they prove.
+//! Route 0: decides by forces or by a motion that were computed elsewhere.
 
 use super::Component;
 use crate::analysis::{Options, Verdict};

@@ -116,12 +116,13 @@ impl Component<'_> {
                     ..decision
                 };
             }
-            // Large components keep the motion that decided. Correcting another motion takes a third of the total
-            // time.
+            // Large components keep the motion that proved the verdict. Correcting another motion takes a third of the
+            // total time.
             let shown = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
             let motion = least_adhesion.motion.filter(|_| !shown);
             let own = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
-            // If forces have a cost, the motion of the program violates contacts slightly. Keep the motion that decided.
+            // If forces have a cost, the motion of the program violates contacts slightly. Keep the motion that proved
+            // the verdict.
             if let (Some((mechanism, proof)), false) = (own, least_adhesion.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }

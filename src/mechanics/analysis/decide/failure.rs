@@ -28,7 +28,7 @@ impl Component<'_> {
         let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
-        // Ignore bodies without a load: they have no scale of their own.
+        // Ignore bodies without a load: a force cannot be compared with their load.
         let least = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
             let loaded = both

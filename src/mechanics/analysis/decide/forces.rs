@@ -28,9 +28,9 @@ pub(super) struct ProvedForces {
 impl Component<'_> {
     /// Converts forces to newtons, makes them exactly admissible, and proves them.
     ///
-    /// Noise is set to 0 and friction is limited to μN. The rest of the solver's error is then only an imbalance,
-    /// which the proof measures. A force that is noise among heavy blocks may be what holds a light block. If the
-    /// proof fails, fewer forces are therefore set to 0.
+    /// Noise is set to 0 and friction is limited to μN. The rest of the solver's error is then only an imbalance, which
+    /// the proof measures. A force that is noise among heavy blocks may hold a light block. If the proof fails, fewer
+    /// forces are therefore set to 0.
     pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
         // If no attempt has a proof, return the forces that balance the most bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
@@ -60,7 +60,7 @@ impl Component<'_> {
     }
 
     /// Returns a lower bound of the sum of balancing forces in newtons, and whether the sum of `amounts` reaches it.
-    /// The bound follows from the motion `witness`, in program units; without one there is no bound.
+    /// The bound follows from the motion `witness`, in program units; without `witness`, the bound is `None`.
     pub fn bound_force_sum(
         &self,
         witness: Option<&[f64]>,

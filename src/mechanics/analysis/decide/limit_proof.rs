@@ -1,4 +1,4 @@
-//! Proofs of the results of one program at the limit of stability.
+//! Proves the results of a linear program at the limit of stability.
 
 use super::Component;
 use super::verdict_only::VERDICT_ONLY;
@@ -22,8 +22,8 @@ pub(in crate::mechanics::analysis) fn proved_forces(
         .then_some((found.forces, found.proof))
 }
 
-/// Returns the motion nearest to the velocities `y` of a program that no contact opposes, one entry for each body, with
-/// the proof that the component falls by it. `None` if the proof is too weak.
+/// Returns the motion that is nearest to the velocities `y` of a program and that no contact opposes, one entry for
+/// each body. Also returns the proof that the component falls by this motion. `None` if the proof is too weak.
 pub(in crate::mechanics::analysis) fn proved_motion(
     assembly: &Assembly,
     program: &Program,

@@ -46,9 +46,9 @@ impl Component<'_> {
         self.convinces(&motion, &proof).then_some((motion, proof))
     }
 
-    /// Whether a motion and its proof are strong enough. The proof must be valid, and it must exclude all forces that the
-    /// loads of the whole component can cause. Otherwise the thrust of heavy bodies could balance a violation in the motion
-    /// of a light body.
+    /// True if a motion and its proof are strong enough. The proof must be valid, and it must exclude all forces that
+    /// the loads of the whole component can cause. Otherwise the thrust of heavy bodies could balance a violation in
+    /// the motion of a light body.
     pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
         // A force of at most `MIN_EXCLUDED_LOADS` times all loads must not be able to stop the motion.
         let bodies = self.assembly.bodies.iter();
@@ -57,7 +57,8 @@ impl Component<'_> {
         self.believes(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// Whether a proved motion has more power than the accepted imbalance could absorb. Then no forces can contradict it.
+    /// True if a proved motion has more power than the accepted imbalance could absorb. Then no forces can contradict
+    /// it.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let ways: f64 = motion
             .iter()

@@ -54,7 +54,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// Creates a decision by a strategy: with the effort so far, without forces and without a proof.
+    /// Creates a decision of a strategy with the effort so far, but without forces and without a proof.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
             no_status: self.no_status,
@@ -145,8 +145,8 @@ impl Component<'_> {
         }
     }
 
-    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it. Otherwise
-    /// keeps the motion as a weak one and returns `None`.
+    /// Decides by the motion of an attempt, or by an earlier weak motion, if no forces can contradict it. Otherwise
+    /// keeps the motion as the weak motion and returns `None`.
     fn decide_by_motion(
         &self,
         program: &Program,
@@ -156,12 +156,13 @@ impl Component<'_> {
     ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
-        // A motion decides at once only if it does more work than an imbalance that the proof of forces tolerates.
+        // A motion proves the verdict at once only if it does more work than an imbalance that the proof of forces
+        // tolerates.
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
         let (mechanism, proof) = proved.or(progress.weak.take())?;
-        // A weak motion waits for a program that shows that no forces balance.
+        // A weak motion decides only after a program shows that no forces balance the loads.
         if !is_strong && !strategy.excludes_balance(attempt) {
             progress.weak = Some((mechanism, proof));
             return None;
@@ -178,7 +179,8 @@ impl Component<'_> {
         })
     }
 
-    /// After the last strategy: unstable by a weak motion, since no forces were found; otherwise undecided.
+    /// Returns the decision after the last strategy: unstable if there is a weak motion, because no strategy found
+    /// forces; otherwise undecided.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
         let decision = match &progress.last {
             Some((strategy, _)) => progress.decision(program, *strategy),
@@ -199,7 +201,7 @@ impl Component<'_> {
         let amounts = forces.cloned().unwrap_or_else(|| Amounts::none(program));
         let proof = self.prove_forces(&amounts).proof;
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
-        // Neither is proved: the reason shows how far both are from a proof.
+        // Neither forces nor a motion are proved. The reason says how far both are from a proof.
         let unproved_motion = motion.map(|y| self.mechanism(&self.moved(y).1));
         Decision {
             verdict: Verdict::Undecided,
@@ -215,7 +217,7 @@ impl Component<'_> {
 }
 
 impl Decision {
-    /// Creates a decision: stable, without forces and without a proof.
+    /// Creates a decision with the verdict stable, but without forces and without a proof.
     pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,

@@ -27,7 +27,7 @@ struct Acting {
 }
 
 impl ProofCache {
-    /// Adds forces on an assembly.
+    /// Adds forces on an assembly to the cache.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
         if self.forces.len() == MAX_KEPT {
             self.forces.remove(0);
@@ -39,7 +39,7 @@ impl ProofCache {
         });
     }
 
-    /// Adds a motion, one entry for each body.
+    /// Adds a motion to the cache, one entry for each body.
     pub fn add_motion(&mut self, motion: Vec<Motion>) {
         if self.motions.len() == MAX_KEPT {
             self.motions.remove(0);
@@ -47,9 +47,9 @@ impl ProofCache {
         self.motions.push(motion);
     }
 
-    /// Whether some cached forces balance a component.
+    /// True if some cached forces balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
-        // The latest come first: a search moves in small steps.
+        // The latest forces are tried first, because a search changes the component in small steps.
         let mut latest = self.forces.iter().rev();
         latest.any(|acting| {
             let forces = acting.moved_to(component.assembly);
@@ -73,7 +73,7 @@ impl ProofCache {
 
 impl Acting {
     /// Returns forces with the same resultants at the application points of another component; `None` if a resultant
-    /// passes outside them.
+    /// passes outside these points.
     fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
@@ -86,8 +86,8 @@ impl Acting {
     }
 }
 
-/// Returns the normal forces at two new points of an interface that have the same resultant; `None` if one would be a
-/// tension.
+/// Returns the normal forces at two new points of an interface that have the same resultant; `None` if one of them
+/// would be tension.
 fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = pressed.normal;
     let sum = first + second;
@@ -104,7 +104,7 @@ fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<
         let size = (from[1] - from[0]).norm();
         return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
     }
-    // Same sum and same moment about the middle: sum and difference of the two forces.
+    // The sum of the two forces stays. Their difference follows from the moment about the middle, which stays too.
     let difference = 2.0 * moment.dot(&along) / square;
     let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
     // Treat rounding below 0 as 0.

@@ -1,5 +1,5 @@
-//! Route 3a: corrects forces that balance the structure as a whole, so that they balance each body. Otherwise it tries to
-//! prove that some bodies fall. If both fail, the frame stays open.
+//! Route 3a: corrects forces that balance the structure as a whole, so that they balance each body. Otherwise it tries
+//! to prove that some bodies fall. If both fail, this route does not decide.
 //!
 //! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
 //! and hide that it falls. Each round does the first of these steps that helps:
@@ -83,7 +83,7 @@ impl Component<'_> {
                 break;
             }
             let fails = failing(&carried);
-            // Step 1: small parts of the forces' own amounts.
+            // Step 1: change each force by a small part of its own amount.
             if let Some(better) = rebalance_relative(program, &amounts, effort)
                 && count(&failing(&self.prove_forces(&better))) < count(&fails)
             {
@@ -102,7 +102,7 @@ impl Component<'_> {
                     _ => all_at_once = false,
                 }
             }
-            // Steps 3 and 4: each connected set of unbalanced bodies by itself.
+            // Steps 3 and 4: correct or decide each connected set of unbalanced bodies separately.
             let sets = self.assembly.connected(&fails);
             let (falling, is_better) = self.rebalance_sets(sets, &mut amounts, effort);
             if !falling.is_empty() {

@@ -40,8 +40,8 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (decision.verdict, decision.mechanism)
 }
 
-/// Returns the verdict that the cache proves, and the mechanism if it is a fall; undecided if it proves none. No
-/// program is solved.
+/// Returns the verdict that the cached forces and motions prove, with the mechanism if it is unstable. The verdict is
+/// undecided if they prove none. No program is solved.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -90,7 +90,8 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
     pub motion: Option<(&'a [f64], &'a Assembly)>,
 }
 
-/// Adds the results of a program at the limit to the cache. Returns its forces in newtons; `None` if it has none.
+/// Adds the results of a program at the limit to the cache. Returns its forces in newtons; `None` if the program has no
+/// forces.
 pub(in crate::mechanics::analysis) fn remember_limit(
     ends: &Ends,
     cache: &mut ProofCache,

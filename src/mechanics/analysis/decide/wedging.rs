@@ -72,7 +72,7 @@ fn shown<'n>(
     words
 }
 
-/// Lists at most four names, and the number of the others.
+/// Returns a list of at most four names, and the number of the others.
 fn several(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.collect();
     match names.len() {

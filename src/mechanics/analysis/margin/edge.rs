@@ -1,4 +1,4 @@
-//! [`Threshold`]: searches the value of a parameter that separates standing from falling.
+//! [`Threshold`]: searches the value of a parameter that separates stable values from unstable values.
 //!
 //! Newton's method ([`super::newton`]) finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
 //! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
@@ -50,7 +50,7 @@ impl Threshold {
         }
     }
 
-    /// Returns the stable values that `end` limits: from 0 up to it, or from it upwards.
+    /// Returns the interval of stable values: from 0 to `end`, or from `end` upwards.
     fn interval(&self, end: End) -> Interval {
         match self.way {
             Way::Most => Interval::Between {
@@ -140,8 +140,8 @@ impl Threshold {
                 break;
             }
         }
-        // Within the tolerance of the proofs the verdict may be stable beyond the threshold. Use only the verdict
-        // unstable there.
+        // Within the tolerance of the proofs the verdict may be stable a little beyond the threshold. Only the verdict
+        // unstable is used there.
         for value in self.steps(root, Side::Beyond) {
             if !within(&value, bracket) {
                 continue;
@@ -202,7 +202,7 @@ impl Threshold {
                     mechanism,
                 }
             }
-            // Only the last millionth before the largest value is open: there the parameter ends.
+            // Only the last millionth below the largest value is undecided, so the interval ends at the largest value.
             None if is_last && self.stands_at_the_last(trial, setting) => End::natural(self.most),
             None => End::Unconfirmed {
                 stands: bracket.inside,
@@ -211,18 +211,19 @@ impl Threshold {
         }
     }
 
-    /// Whether a bracket lies at the end of a parameter whose largest admissible value is searched, and no proof was found there.
+    /// True if the search is for the largest admissible value, the bracket ends at `most`, and no mechanism was found
+    /// there.
     fn is_last(&self, bracket: &Bracket) -> bool {
         self.way == Way::Most && bracket.outside == self.most && bracket.mechanism.is_none()
     }
 
-    /// Whether the component stands a millionth below the largest value.
+    /// True if the component stands a millionth below the largest value.
     fn stands_at_the_last(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> bool {
         let last = self.most * (1.0 - Self::NEAR);
         trial.judge_at(&setting(last), Place::AtEdge).0 == Verdict::Stable
     }
 
-    /// Returns values at growing distances from `at`, on one side.
+    /// Returns values at growing distances from `at`, on the given side of it.
     pub(super) fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
         let size = if at > 0.0 { at } else { self.natural };
         let sign = match (self.way, side) {

@@ -18,7 +18,7 @@ pub struct Exclusion {
 }
 
 impl Exclusion {
-    /// A motion that no value of the parameter stops.
+    /// Creates the exclusion of all values: no value of the parameter stops the motion.
     pub(super) fn everywhere(mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             from: None,
@@ -27,7 +27,7 @@ impl Exclusion {
         }
     }
 
-    /// A motion that no value below `to` stops.
+    /// Creates the exclusion of all values below `to`.
     pub(super) fn below(to: f64, mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             to: Some(to),
@@ -35,7 +35,7 @@ impl Exclusion {
         }
     }
 
-    /// A motion that no value above `from` stops.
+    /// Creates the exclusion of all values above `from`.
     pub(super) fn above(from: f64, mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             from: Some(from),
@@ -44,8 +44,8 @@ impl Exclusion {
     }
 }
 
-/// The fewest of these arcs of tilts, in degrees, that still cover a full turn, in the order of their beginnings. Arcs at
-/// most `gap` apart count as joined.
+/// Returns the fewest of these arcs of tilts, in degrees, that still cover a full turn, in the order of their
+/// beginnings. Arcs at most `gap` apart count as joined.
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
     let ends = |arc: &Exclusion| {
         let [from, to] = [arc.from, arc.to];
@@ -58,7 +58,7 @@ pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<E
     let (first, mut kept) = (first.fold(f64::INFINITY, f64::min), Vec::new());
     let mut reached = first;
     while reached < first + 360.0 {
-        // Of the arcs that begin no later than the last one ends, the one that reaches farthest.
+        // Choose the arc that reaches farthest among those that begin before the covered range ends.
         let joined = arcs
             .iter()
             .filter(|arc| ends(arc).0 <= reached + gap(reached));

@@ -50,7 +50,8 @@ pub enum End {
 }
 
 impl End {
-    /// Creates an end that the range of the parameter sets, not the structure. It has no mechanism.
+    /// Creates an end at which the range of the parameter ends. The structure does not fall there, so there is no
+    /// mechanism.
     pub(super) fn natural(value: f64) -> End {
         End::At {
             value,
@@ -58,7 +59,8 @@ impl End {
         }
     }
 
-    /// Returns the value, if it is confirmed. `None` if there is no end, or if it is unconfirmed.
+    /// Returns the value of a confirmed end. `None` if the interval is unbounded on this side, or if the end is
+    /// unconfirmed.
     pub fn value(&self) -> Option<f64> {
         match self {
             End::At { value, .. } => Some(*value),
@@ -66,7 +68,8 @@ impl End {
         }
     }
 
-    /// Returns the farthest value at which the frame is known to stand; `otherwise` if there is no end.
+    /// Returns the farthest value at which the frame is known to stand; `otherwise` if the interval is unbounded on
+    /// this side.
     fn stands(&self, otherwise: f64) -> f64 {
         match self {
             End::At { value, .. } => *value,
@@ -86,7 +89,7 @@ impl Interval {
         high: End::Unbounded,
     };
 
-    /// Returns an empty interval: no value stops this motion.
+    /// Returns an empty interval, because no value stops this motion.
     pub(super) fn excluded_by(mechanism: Vec<Motion>) -> Interval {
         Interval::Empty(vec![Exclusion::everywhere(mechanism)])
     }
@@ -107,7 +110,7 @@ impl Interval {
         }
     }
 
-    /// Whether the frame is known to stand at a value.
+    /// True if the frame is known to stand at a value.
     pub fn contains(&self, value: f64) -> bool {
         match self {
             Interval::Between { low, high } => {
@@ -121,7 +124,7 @@ impl Interval {
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
             (Interval::Empty(a), Interval::Empty(b)) => {
-                // The simpler of the two reasons.
+                // Keep the explanation with fewer motions.
                 return Interval::Empty(if b.len() < a.len() { b } else { a });
             }
             (empty @ Interval::Empty(_), _) | (_, empty @ Interval::Empty(_)) => return empty,

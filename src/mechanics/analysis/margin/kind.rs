@@ -19,7 +19,7 @@ pub enum MarginKind {
 }
 
 impl MarginKind {
-    /// Returns its name in results.
+    /// Returns the name of this margin in results.
     pub fn word(self) -> &'static str {
         match self {
             MarginKind::Friction => "friction",
@@ -42,7 +42,7 @@ impl MarginKinds {
     /// All of them.
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
-    /// Creates the set of the margins in a list.
+    /// Creates the set of requested margins from a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }
@@ -56,7 +56,7 @@ impl MarginKinds {
         }
     }
 
-    /// Whether the set contains a margin.
+    /// True if the set contains this margin.
     pub fn has(self, kind: MarginKind) -> bool {
         self.bits & bit(kind) != 0
     }

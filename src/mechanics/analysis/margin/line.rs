@@ -100,7 +100,8 @@ impl Line<'_> {
                     mechanism: mechanism.clone(),
                 };
             }
-            // Try a value just inside the one up to which the mechanism proves the fall, otherwise the middle.
+            // Try a value just inside the limit up to which the mechanism proves the fall. If its verdict is undecided,
+            // try the middle.
             let (beyond, inside) = (*beyond, bracket.inside);
             let just = beyond - 0.5 * outward * NEAR * self.size(beyond);
             let found = [just, 0.5 * (inside + beyond)]
@@ -133,7 +134,7 @@ impl Line<'_> {
         ]
     }
 
-    /// Returns a finite value from which to search inward; a limit may be infinite.
+    /// Returns `value`, but at most a large finite number, from which the search can go inward.
     pub fn from(&self, value: f64) -> f64 {
         value.min(MAX_VALUE * self.reach)
     }
@@ -164,7 +165,7 @@ impl Line<'_> {
         }
     }
 
-    /// Finds verdicts on both sides of the expected end. Cached proofs come first, because they need no program.
+    /// Finds verdicts on both sides of the expected end. Cached proofs are tried first, because they need no program.
     fn enclose(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
         let size = self.size(hint);
         let steps = || {

@@ -34,7 +34,7 @@ pub enum Margin {
 }
 
 impl Margin {
-    /// Returns the value; `None` for all variants other than [`Margin::Value`].
+    /// Returns the value of [`Margin::Value`]; `None` for all other variants.
     pub fn at(&self) -> Option<f64> {
         match self {
             Margin::Value { at, .. } => Some(*at),
@@ -97,8 +97,8 @@ impl Margins {
     /// The largest friction coefficient that is tried.
     pub const MOST_FRICTION: f64 = 1e3;
 
-    /// Returns the least factor on loads that may grow without limit, and the mechanism below it. `None` if they may not,
-    /// or if no factor is too small.
+    /// Returns the least sufficient load factor, and the mechanism by which the frame falls below it. `None` unless
+    /// larger factors are sufficient without limit, or if there is no such mechanism.
     pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
         let low = self.intervals.load_factor.as_ref()?.low()?;
         match (&self.load_factor, low) {

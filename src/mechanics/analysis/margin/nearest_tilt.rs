@@ -1,4 +1,4 @@
-//! The tilt nearest to 0 at which a frame stands that falls unturned.
+//! Finds the tilt nearest to 0 at which a frame stands, if it falls without tilt.
 //!
 //! The mechanism of a tilt excludes an arc of tilts. Arc by arc the excluded range around 0 grows, until the frame stands at
 //! one of its ends or until the range is a full turn.
@@ -91,7 +91,8 @@ struct Excluded {
 }
 
 impl Excluded {
-    /// Adds an arc, and what lies between it and the excluded range: there verdicts were undecided.
+    /// Adds an arc to the excluded range. A gap between them belongs to the range, too: the verdicts there were
+    /// undecided.
     fn add(&mut self, arc: Exclusion) {
         let from = arc.from.unwrap_or(f64::NEG_INFINITY);
         let to = arc.to.unwrap_or(f64::INFINITY);
@@ -108,7 +109,7 @@ impl Excluded {
         self.high - self.low >= 360.0
     }
 
-    /// The end of the range that is nearer to 0.
+    /// Returns the end of the excluded range that is nearer to 0.
     fn nearest_end(&self) -> f64 {
         if self.high <= -self.low {
             self.high
@@ -117,7 +118,7 @@ impl Excluded {
         }
     }
 
-    /// The result where the range is a full turn.
+    /// Returns the result if the excluded range is a full turn: empty, or undecided if the range contains gaps.
     fn interval(self) -> Interval {
         let everywhere = self.arcs.iter().find(|arc| arc.from.is_none());
         if let Some(motion) = everywhere {
@@ -130,7 +131,8 @@ impl Excluded {
     }
 }
 
-/// Arcs this far apart at a tilt count as joined: verdicts resolve no less.
+/// Returns the distance, in degrees, up to which two arcs near a tilt count as joined. Verdicts cannot resolve a
+/// smaller distance.
 fn gap(turn: f64) -> f64 {
     FAR * size(turn)
 }

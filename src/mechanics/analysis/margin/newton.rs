@@ -1,4 +1,5 @@
-//! Newton's method for a [`Threshold`]: the root of the least residual, from the side on which the component falls.
+//! Newton's method for a [`Threshold`]: finds the root of the least residual, from the side on which the component
+//! falls.
 
 use super::edge::{Side, Threshold};
 use super::trial::{Setting, Trial};
@@ -39,7 +40,7 @@ struct Steps {
 }
 
 impl Steps {
-    /// Narrows the bracket at a value. Returns whether the component falls there; `None` if the program is not solved.
+    /// Narrows the bracket at a value. Returns true if the component falls there; `None` if the program is not solved.
     fn take(
         &mut self,
         trial: &mut Trial,
@@ -80,7 +81,8 @@ impl Threshold {
             standing: None,
         };
         let mut falling = Vec::new();
-        // The last root at which it stands with the value of its tangent, and the next step into the bracket from its inner end.
+        // The last root at which the component stands, with the value at which its tangent was computed; and the length
+        // of the next step from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
         for _ in 0..STEPS {
             if at.tangent.left <= LEFT {
@@ -97,7 +99,8 @@ impl Threshold {
                 tangent_at != outside && (root - other).abs() <= (AGREES * size).max(NOISE * run)
             };
             falling.push((outside, at.tangent.clone()));
-            // Converged: the two sides, the tangent's root and the falling side, or the roots of two tangents are close.
+            // The method has converged in two cases. The two sides of the bracket are close; or the root of the tangent
+            // is close to the falling side or to the root of another tangent.
             let is_bracketed = (inside - outside).abs() <= CLOSE * size;
             let is_root = (root - outside).abs() <= CLOSE * size || reached.is_some_and(agrees);
             if is_bracketed || (is_near && is_root) {
@@ -136,7 +139,7 @@ impl Threshold {
         standing: Option<(f64, Tangent)>,
     ) {
         let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
-        // Close enough to confirm the threshold, and far enough for a strong proof.
+        // This value is close enough to confirm the threshold, and far enough for a strong proof.
         let near = falling
             .into_iter()
             .rev()

@@ -117,7 +117,8 @@ impl Arc<'_, '_> {
         }
     }
 
-    /// Finds the end between the way `stands` and the way `falls`, at which the component falls by `motion`.
+    /// Finds the end of the stable tilts between the way `stands`, at which the component stands, and the way `falls`,
+    /// at which it falls by `motion`.
     fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
         // If a mechanism excludes almost nothing, bisect next.
@@ -237,7 +238,7 @@ pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2
     Some([turn - off - half, turn - off + half])
 }
 
-/// Returns growing distances from an end, relative to its size.
+/// Returns growing distances from an end, as fractions of its size.
 pub(super) fn steps() -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
         .take_while(|step| *step <= FAR)

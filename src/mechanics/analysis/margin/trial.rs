@@ -102,12 +102,12 @@ impl<'a> Trial<'a> {
         self.given.grips.iter().map(|grip| grip.robot).collect()
     }
 
-    /// Whether the scene lists a load on the component.
+    /// True if the scene lists a load on the component.
     pub fn is_loaded(&self) -> bool {
         is_loaded(self.given)
     }
 
-    /// Whether a limit of some robot is neither 0 nor infinite. The forces are then not proportional to the loads.
+    /// True if a limit of some robot is neither 0 nor infinite. The forces are then not proportional to the loads.
     pub fn is_limited(&self) -> bool {
         is_limited(self.given)
     }
@@ -136,7 +136,7 @@ impl<'a> Trial<'a> {
         decide_verdict(&self.changed(setting), place, &mut self.guesses)
     }
 
-    /// Like [`Trial::judge`], with cached proofs only; undecided if none holds.
+    /// Like [`Trial::judge`], with cached proofs only; undecided if no cached proof holds.
     pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         verdict_from_cache(&self.changed(setting), &self.guesses)
     }
@@ -177,8 +177,8 @@ impl<'a> Trial<'a> {
         remember_limit(&ends, &mut self.guesses);
     }
 
-    /// Caches the results of one program at the end of an interval: the forces there, and the motion well beyond. If the
-    /// loads are linear and `base` is the present value, also the forces just inside.
+    /// Caches the results of one program at the end of an interval: the forces at `at`, and the motion at `beyond`. If
+    /// `base` is given (the present value, for linear loads), also caches the forces at `inside`.
     pub fn learn_edge(
         &mut self,
         program: &Program,
@@ -259,7 +259,7 @@ impl<'a> Trial<'a> {
         if let Some(mu) = setting.friction {
             changed = changed.with_friction(mu);
         }
-        // A weight along gravity and a weight across it together are one weight along changed gravity.
+        // Weights along gravity and weights across it are together equal to weights along changed gravity.
         let down = self.given.pull;
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
@@ -272,13 +272,13 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Whether the scene lists a load on a component.
+/// True if the scene lists a load on a component.
 pub(super) fn is_loaded(component: &Assembly) -> bool {
     let mut bodies = component.bodies.iter();
     bodies.any(|body| body.listed != LoadVector::NONE)
 }
 
-/// Whether a limit of a robot on the component is neither 0 nor infinite.
+/// True if a limit of a robot on the component is neither 0 nor infinite.
 pub(super) fn is_limited(component: &Assembly) -> bool {
     component.grips.iter().any(|grip| {
         [grip.limits.fx, grip.limits.fy, grip.limits.torque]
@@ -287,7 +287,8 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
     })
 }
 
-/// Returns the limits of grip `number` with a setting.
+/// Returns the limits of grip `number` in a setting: unchanged, with one limit replaced, or with all finite limits set
+/// to 0.
 fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {

@@ -1,4 +1,4 @@
-//! Describes withheld margins: those for which the verdicts on both sides are too far apart.
+//! Describes the margins that are withheld because the verdicts on both sides of an end are too far apart.
 
 use super::{End, Interval, Intervals};
 use crate::scene::RobotId;

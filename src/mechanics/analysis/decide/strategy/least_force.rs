@@ -1,5 +1,5 @@
-//! Least force: admissible forces with the least sum that balance, or a motion that no forces can stop. One program answers
-//! nearly every component, and figures draw its forces.
+//! Least force: admissible forces with the least sum that balance, or a motion that no forces can stop. This one
+//! program decides nearly every component, and figures show its forces.
 
 use super::Attempt;
 use crate::program::Program;

@@ -31,7 +31,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Returns the name in results.
+    /// Returns the name of this method in results.
     pub fn name(self) -> &'static str {
         match self {
             Method::ClosedForm => "closed form",
@@ -104,7 +104,7 @@ impl Strategy {
     /// to the limit.
     ///
     /// 1. Closed form, if balance alone determines all forces.
-    /// 2. Least force. It decides nearly every component, and figures draw its forces.
+    /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a status.
     /// 4. Least force with full precision.
@@ -181,12 +181,12 @@ impl Strategy {
         }
     }
 
-    /// Whether the strategy solves the complete program of least force.
+    /// True if the strategy solves the complete program of least force.
     pub fn is_least(&self) -> bool {
         matches!(self, Strategy::Force(_))
     }
 
-    /// Whether the attempt shows that no forces balance, if its own forces have no proof. Only programs with an
+    /// True if an attempt whose forces have no proof shows that no forces balance the loads. Only programs with an
     /// optimum on both sides of the limit show this.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
