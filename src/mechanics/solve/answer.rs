@@ -55,7 +55,7 @@ impl Answer {
     }
 }
 
-/// Whether all numbers are finite.
+/// True if all numbers are finite.
 pub(super) fn is_finite(list: &[f64]) -> bool {
     list.iter().all(|v| v.is_finite())
 }

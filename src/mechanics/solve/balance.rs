@@ -98,7 +98,7 @@ pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
 }
 
-/// Solves the program of least force with given settings.
+/// Solves the program of least force with given solver settings.
 pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_MANY)
 }
@@ -108,7 +108,8 @@ pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Bal
     balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
 }
 
-/// Steps 1 to 4 for a program, with at most `max_iterations` iterations in step 1 if the program has many blocks.
+/// Computes steps 1 to 4 for a program. If the program has many blocks, step 1 takes at most `max_iterations`
+/// iterations.
 fn balance_within(program: &Program, settings: SolverSettings, max_iterations: usize) -> Balance {
     let mut effort = Effort::default();
     // Step 1: solve the dual.
@@ -144,8 +145,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
             let mut face = match (best, settings.choice) {
                 (Some(best), _) => best,
                 (None, Choice::Unique) => whole.with(solved.amounts),
-                // Remove the solver's residual by one linear system, which is cheaper than repairing block by block
-                // later.
+                // Remove the solver's residual by one linear system, which is cheaper than a later correction block by
+                // block.
                 (None, Choice::Any) => {
                     let (loads, amounts) = (&whole.loads, solved.amounts);
                     let amounts =
@@ -158,7 +159,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
             }
             found.forces = Some(face.gathered(program).0);
         }
-        // The dual's velocities are those against which the loads work; the blocks move the other way.
+        // The loads do negative work along the velocities of the dual. The blocks therefore move in the opposite
+        // direction.
         Status::Unbounded => found.motion = motion(),
         _ => {}
     }
@@ -251,7 +253,8 @@ fn least_squares_balance(
     for margin in MARGINS {
         // Step 2: the face of optima.
         let face = whole.narrowed(solved, margin);
-        // A face of a larger margin contains that of a smaller one, so a face with as many columns is the same face.
+        // The face of a larger margin contains the face of a smaller margin. If both have equally many columns, they
+        // are the same face.
         let counts = (face.columns.len(), face.at_limit.len());
         if tried.contains(&counts) {
             continue;
@@ -270,7 +273,8 @@ fn least_squares_balance(
             largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size
         };
         if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
-            // The face is right, but in long arches rounding adds up to more than a proof allows: remove the residual.
+            // The face is correct, but in long arches the rounding errors add up to more than a proof allows. Remove
+            // the residual.
             amounts = balance_by_least_change(
                 &face.loads,
                 &face.columns,
@@ -282,7 +286,7 @@ fn least_squares_balance(
         if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
             continue;
         }
-        // Keep the cheapest balance; stop at the first within the tolerance.
+        // Keep the balance of least cost. Stop at the first balance whose cost is within the tolerance.
         if best.as_ref().is_none_or(|best| cost < best.0) {
             best = Some((cost, face.with(amounts)));
         }

@@ -63,7 +63,7 @@ pub struct BoundedNnls {
     at_limit: Vec<usize>,
 }
 
-/// Returns the columns of a program without redundant ones. With friction, a pure normal force is redundant: it is a
+/// Returns the columns of a program without redundant columns. With friction, a pure normal force is redundant: it is a
 /// sum of the two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
@@ -78,7 +78,7 @@ pub fn generators(program: &Program) -> Vec<Column> {
 }
 
 impl BoundedNnls {
-    /// Renumbers the columns, for a changed program. Columns for which `number` is `None` are removed.
+    /// Renumbers the columns for a changed program. Columns for which `number` is `None` are removed.
     pub fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
         for place in (0..self.passive.len()).rev() {
             match number(self.passive[place]) {
@@ -93,12 +93,12 @@ impl BoundedNnls {
     /// `None` after too many pivots.
     ///
     /// `columns` must contain, under their present numbers, the columns from which the passive set was made. It may
-    /// also contain new ones.
+    /// also contain new columns.
     pub fn find(&mut self, loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut search = Search::new(self, loads, columns);
         if !self.passive.is_empty() {
-            // The warm start may be the optimum already.
+            // The passive set of the start may already be the optimum.
             self.solve_passive(&mut search, Digits::All)?;
         }
         let (mut entry, mut digits) = (Entry::Several, Digits::All);
@@ -113,7 +113,7 @@ impl BoundedNnls {
             }
             if search.candidates.is_empty() {
                 if entry == Entry::Several && !is_balanced {
-                    // A column may have left at once because others entered together with it: try each one alone.
+                    // Columns may have left at once because others entered at the same time. Try each column alone.
                     entry = Entry::One;
                     search.rejected.fill(false);
                 } else if digits == Digits::All {
@@ -124,12 +124,12 @@ impl BoundedNnls {
                 }
                 continue;
             }
-            // After half of the pivots, let one column enter at a time: that is slower, but cannot cycle.
+            // After half of the pivots, let only one column enter at a time. That is slower, but it cannot cycle.
             if 2 * search.pivots_left < search.max_pivots {
                 entry = Entry::One;
             }
             digits = Digits::Some;
-            // Steps 2 to 4.
+            // Step 2 moves columns into the passive set; steps 3 and 4 solve for their amounts.
             let entered = self.enter(&mut search, entry)?;
             if entered.is_empty() {
                 continue;
@@ -159,7 +159,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// Returns the columns with an amount above 0: the passive ones, and those at their limits.
+    /// Returns the columns with an amount above 0: the passive columns, and the columns at their limits.
     pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
         self.passive.iter().chain(&self.at_limit).copied()
     }
@@ -185,7 +185,8 @@ impl BoundedNnls {
         Some(entered)
     }
 
-    /// Moves the amounts to the least squares of the passive set, and removes columns that meet a bound on the way.
+    /// Moves the amounts to the least squares of the passive set, and removes each column whose amount meets a bound
+    /// before that.
     fn solve_passive(&mut self, search: &mut Search, digits: Digits) -> Option<Progress> {
         let (loads, columns) = (search.loads, search.columns);
         let mut progress = Progress::Stayed;

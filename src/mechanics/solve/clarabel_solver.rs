@@ -28,7 +28,7 @@ pub fn by_clarabel(
     let rows = problem.bound.len();
     let quadratic = compressed_columns(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed_columns(rows, problem.unknowns, &problem.matrix);
-    // The cones of the slacks: zero for the equalities, nonnegative for the inequalities.
+    // The cones of the slacks: the zero cone for the equalities, the nonnegative cone for the inequalities.
     let mut cones = Vec::with_capacity(2);
     if problem.equalities > 0 {
         cones.push(SupportedConeT::ZeroConeT(problem.equalities));
@@ -98,7 +98,7 @@ fn clarabel_settings(
     }
 }
 
-/// Builds a compressed sparse column matrix from (row, column, value) entries; entries at one place are added.
+/// Builds a compressed sparse column matrix from (row, column, value) entries; entries at the same place are added.
 fn compressed_columns(
     rows: usize,
     columns: usize,

@@ -19,7 +19,8 @@ pub(crate) struct DeadlineGuard {
 }
 
 impl DeadlineGuard {
-    /// Sets the deadline from now on; `None` means no deadline. Dropping the guard restores the previous one.
+    /// Sets the deadline of this thread; `None` means no deadline. When the guard is dropped, the previous deadline
+    /// applies again.
     pub(crate) fn new(deadline: Option<Instant>) -> DeadlineGuard {
         DeadlineGuard {
             former: DEADLINE.replace(deadline),
@@ -33,12 +34,12 @@ impl Drop for DeadlineGuard {
     }
 }
 
-/// Returns the deadline of this thread.
+/// Returns the deadline of this thread; `None` if it has no deadline.
 pub(crate) fn deadline() -> Option<Instant> {
     DEADLINE.get()
 }
 
-/// Whether the deadline of this thread has passed.
+/// True if the deadline of this thread has passed.
 pub(crate) fn is_late() -> bool {
     deadline().is_some_and(|end| Instant::now() >= end)
 }

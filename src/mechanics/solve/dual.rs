@@ -32,7 +32,7 @@ pub struct Dual {
 }
 
 impl Dual {
-    /// Makes a solution in which all numbers are 0, for a program of this size.
+    /// Creates a solution in which all numbers are 0, for a program of this size.
     fn zero(status: Status, unknowns: usize, columns: usize) -> Dual {
         Dual {
             status,
@@ -44,8 +44,8 @@ impl Dual {
         }
     }
 
-    /// Whether each column is basic, so that it belongs to the face of optima: its slack is below `margin` times its
-    /// amount.
+    /// Returns, for each column, whether it is basic and thus belongs to the face of optima. A column is basic if its
+    /// slack is below `margin` times its amount.
     pub fn active(&self, margin: f64) -> Vec<bool> {
         self.amounts
             .iter()
@@ -80,15 +80,15 @@ pub(super) fn of_velocities(
     answer: &Answer,
 ) -> Dual {
     let n = columns.len();
-    // The multipliers of the rows are the amounts, their slacks the columns' slacks.
+    // The multipliers of the rows are the amounts of the columns. The slacks of the rows are the slacks of the columns.
     let mut solved = Dual::zero(answer.status, loads.len(), columns.len());
     if answer.x.is_empty() {
         return solved;
     }
     for (k, row) in row_of.iter().enumerate() {
         if *row == usize::MAX {
-            // The second column of an opposite pair that shares one equality. Both are basic, even if their amount is
-            // 0.
+            // This is the second column of an opposite pair that shares one equality. Both columns are basic, even if
+            // their amount is 0.
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, -answer.z[row_of[k - 1]]);
         } else if *row < conic.equalities {
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, answer.z[*row]);
@@ -140,7 +140,8 @@ pub(super) fn in_forces(
 ) -> Dual {
     let conic = force_primal(loads, columns, cost, None);
     let answer = once(&conic, settings.into(), effort);
-    // The static form is infeasible if the kinematic form is unbounded, and unbounded if that is infeasible.
+    // The static form is infeasible if the kinematic form is unbounded, and unbounded if the kinematic form is
+    // infeasible.
     let status = match answer.status {
         Status::Infeasible => Status::Unbounded,
         Status::Unbounded => Status::Infeasible,

@@ -1,4 +1,4 @@
-//! Solves small systems of equilibrium by elimination: the unique balance, and the balance of least squares.
+//! Solves small systems of equilibrium equations by elimination: the unique balance, and the balance of least squares.
 //!
 //! An interior-point method gives nine digits in many iterations; elimination gives sixteen digits at once. If
 //! elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan, Matrix Computations,
@@ -61,7 +61,8 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
     (is_balanced && is_admissible).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
 }
 
-/// Forward elimination of the first `n` columns of a table with n + 1 columns; `None` if a pivot is too small.
+/// Performs the forward elimination of the first `n` columns of a table with n + 1 columns; `None` if a pivot is too
+/// small.
 fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
     let width = n + 1;
     for j in 0..n {
@@ -95,7 +96,7 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
 ///
 /// It applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the square of a
 /// unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j = g_jᵀy /
-/// p_j for the columns in use and g_jᵀy ≤ 0 for the dropped ones. Each round solves for y and drops the columns with
+/// p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops the columns with
 /// negative amounts.
 pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
@@ -111,7 +112,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
     let mut in_use = vec![true; columns.len()];
     for _ in 0..MAX_ROUNDS {
         let y = solve_semidefinite(gram(rows, columns, &squares, &in_use), loads)?;
-        // The stationary point for these columns: λ = gᵀy / p.
+        // The amounts of the stationary point of these columns: λ = gᵀy / p.
         let both = columns.iter().zip(&squares);
         let amounts: Vec<f64> = both.map(|(c, square)| c.dot(&y) / square).collect();
         let is_negative = |k: &usize| in_use[*k] && amounts[*k] < -STRICT_TOL * scale;
@@ -127,7 +128,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
 /// The largest number of rounds that drop negative amounts. After that, the solver is used.
 const MAX_ROUNDS: usize = 6;
 
-/// Σ column·columnᵀ/square over the columns in use.
+/// Returns Σ column·columnᵀ/square over the columns in use, as a full matrix.
 fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Vec<f64> {
     let mut gram = vec![0.0; rows * rows];
     let both = columns.iter().zip(squares).zip(in_use);
@@ -154,7 +155,8 @@ fn proved_optimum(
     let kept: Vec<f64> = both()
         .map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 })
         .collect();
-    // Dropped columns must have a multiplier of the right sign; the others must be admissible and balance the loads.
+    // Dropped columns must have a multiplier of the right sign. The amounts of the other columns must be admissible and
+    // balance the loads.
     let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);
     let is_admissible = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
     let mut residual = loads.to_vec();
@@ -189,7 +191,8 @@ fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
     x.iter().all(|v| v.is_finite()).then_some(x)
 }
 
-/// Replaces the lower triangle by the Cholesky factor. Returns which columns have a pivot; the others become 0.
+/// Replaces the lower triangle by the Cholesky factor. Returns, for each column, whether it has a pivot. Columns
+/// without a pivot become 0.
 fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
     let max_diagonal = (0..n).map(|i| a[i * n + i]).fold(0.0, f64::max);
     let mut has_pivot = vec![false; n];

@@ -39,7 +39,8 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     let openings = sum_of_openings(rows, start.len());
     while let Some(first) = null_space.basis.first() {
         let dimension = null_space.basis.len();
-        // Step 1: steepest descent of Σ openings; any direction if they do not change.
+        // Step 1: choose the direction of steepest descent of Σ openings. If no direction changes this sum, choose any
+        // direction.
         let shrinking = negated(&null_space.project(&openings));
         let along = if norm(&shrinking) > DEPENDENCE_TOL {
             unit(&shrinking)
@@ -51,7 +52,8 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         let (step, direction) = match (max_step(&open, &y, &along), max_step(&open, &y, &back)) {
             (Some(step), _) => (step, along),
             (None, Some(step)) => (step, back),
-            // No row closes in either direction: the bodies touch nothing. Remove this direction from the motion.
+            // No row closes in either direction: the bodies that move along it touch nothing. Remove this direction
+            // from the motion.
             (None, None) => {
                 let share: f64 = along.iter().zip(&y).map(|(d, v)| d * v).sum();
                 null_space.remove(&dense(&along));
@@ -69,7 +71,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
             null_space.remove(row);
         }
         open = still_open;
-        // If no new row became tight, drop a direction, because the same step would be repeated without end.
+        // If no new row became tight, drop a direction. Otherwise the same step would be repeated without end.
         if null_space.basis.len() == dimension {
             null_space.basis.pop();
         }

@@ -44,8 +44,8 @@ impl Face {
 
     /// Returns the face of optima, from a solved dual of this face: its basic columns (see [`Dual::active`]).
     ///
-    /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance from it. Such
-    /// columns are fixed; otherwise not every balance on the face would be an optimum.
+    /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance of its amount
+    /// from the limit. Such columns are fixed; otherwise not every balance on the face would be an optimum.
     pub fn narrowed(&self, solved: &Dual, margin: f64) -> Face {
         let mut face = Face {
             columns: Vec::new(),

@@ -1,4 +1,5 @@
-//! [`IncrementalCholesky`]: the Cholesky factor of a matrix that grows and shrinks by one row and column at a time.
+//! [`IncrementalCholesky`]: the Cholesky factor of a matrix to which one row and column at a time is added, or from
+//! which it is removed.
 //!
 //! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one
 //! forward substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry (skyline
@@ -24,7 +25,7 @@ impl IncrementalCholesky {
         self.forward_from(v, 0);
     }
 
-    /// Like [`Self::forward`], for a v whose entries before `begin` are 0.
+    /// Like [`Self::forward`], but requires that the entries of v before `begin` are 0.
     fn forward_from(&self, v: &mut [f64], begin: usize) {
         for (k, row) in self.rows.iter().enumerate().skip(begin) {
             let (before, rest) = v.split_at_mut(k);

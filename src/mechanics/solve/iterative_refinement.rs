@@ -1,4 +1,5 @@
-//! Iterative refinement of amounts: scale the residual to size 1, solve for a correction that removes it, and add it.
+//! Refines amounts iteratively: scales the residual to size 1, solves for a correction that removes it, and adds this
+//! correction.
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
@@ -37,10 +38,11 @@ pub(super) fn balance_by_least_change(
     better.map(|(a, d)| (a + size * d).max(0.0)).collect()
 }
 
-/// Refines amounts until they balance the loads to rounding, or until a round brings no improvement.
+/// Refines amounts until they balance the loads to rounding, or until a round does not reduce the residual.
 ///
 /// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and gains about nine digits.
-/// Without it, the balance of a very light block under a very heavy one is lost in the rounding of the heavy one.
+/// Without refinement, the imbalance of a very light block under a very heavy block is hidden by the rounding errors of
+/// the heavy block.
 pub(super) fn refine_balance(
     loads: &[f64],
     columns: &[Column],
@@ -54,7 +56,7 @@ pub(super) fn refine_balance(
             break;
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
-        // Solve for the correction at size 1.
+        // Solve for the correction of the residual, which is scaled to size 1.
         let correction = Correction {
             amounts: &amounts,
             size,

@@ -1,4 +1,5 @@
-//! The program of least adhesion, lexicographically: least adhesion, then least force, then fewest points with adhesion.
+//! The program of least adhesion. Its objectives are, in this order: least adhesion, least force, and fewest points
+//! with adhesion.
 //!
 //! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number. Each stage
 //! keeps only the columns on the face of optima of the previous stage. Its objective can therefore not worsen the
@@ -106,9 +107,9 @@ pub fn least_adhesion(program: &Program, conditioning: Conditioning) -> LeastAdh
 
 /// Solves the program of least adhesion with given settings.
 ///
-/// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts at a wall of 410
-/// bricks just past its limit each ended without a status after a hundred iterations; with loads of 1 it is solved in
-/// 69.
+/// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts to solve a wall of
+/// 410 bricks slightly beyond its limit each ended without a status after a hundred iterations; with loads of 1 it is
+/// solved in 69.
 pub fn least_adhesion_in(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     determinate::least_adhesion(program).unwrap_or_else(|| by_programs(program, settings))
 }
@@ -244,8 +245,8 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 
 /// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
 ///
-/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least
-/// force falls by a tenth while the adhesion grows by a millionth. Then the balance of stage 1 is returned. It has
+/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least force
+/// falls by a tenth while the adhesion grows by a millionth. In this case, the balance of stage 1 is returned. It has
 /// the least adhesion, but not the least force.
 fn later_stages(
     whole: &Face,
@@ -279,7 +280,7 @@ fn later_stages(
     else {
         return from_first_stage();
     };
-    // Stages 3 and 4. With many blocks, hardly more columns are left than a unique balance has. The least squares then
+    // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance. The least squares then
     // need full conditioning: with plain conditioning they end without a status.
     let squares = match size {
         Size::Many => SolverSettings {
@@ -379,7 +380,8 @@ fn concentrate(
         {
             break;
         }
-        // Reweighting: the cost is about 1/amount, at most a thousand times that of the largest amount.
+        // Reweighting: the cost of a column is about 1/amount. It is at most a thousand times the cost of the column
+        // with the largest amount.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
             if column.force.is_adhesion() {
@@ -397,7 +399,7 @@ fn concentrate(
             break;
         }
         face.amounts = solved.amounts;
-        // Drop the points with little adhesion; stop if there are none.
+        // Drop the points with little adhesion; stop if there are no such points.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
         face = face.only(|c, a| !c.force.is_adhesion() || a > drop_tolerance * most);

@@ -30,8 +30,8 @@ const MAX_ROUNDS: usize = 4;
 
 /// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
-/// `None` if it is so close to the largest load that the unrefined optimum is accurate enough. `least` is the least sum
-/// of adhesion, and `many` says whether the program has many blocks.
+/// `None` if this size is so close to the largest load that the unrefined optimum is accurate enough. `least` is the
+/// least sum of adhesion, and `many` says whether the program has many blocks.
 fn smallest_accurate_force(loads: &[f64], least: f64, many: bool) -> Option<f64> {
     let most = largest(loads);
     let light = lightest(loads);
@@ -47,9 +47,9 @@ fn smallest_accurate_force(loads: &[f64], least: f64, many: bool) -> Option<f64>
 
 /// Returns the optimum of stage 1, refined level by level, and the size of the smallest forces that are accurate in it.
 ///
-/// `None` if sizes do not differ by many powers of ten, or if the refinement fails. `first` is the optimum of stage 1; `many` says
-/// whether the program has many blocks. Before the refinement a small sum of adhesion is noise. If it turns out to be far smaller,
-/// the optimum is refined again.
+/// `None` if sizes do not differ by many powers of ten, or if the refinement fails. `first` is the optimum of stage 1;
+/// `many` says whether the program has many blocks. Before the refinement, a small sum of adhesion is noise. If the
+/// refined sum is far smaller, the optimum is refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
@@ -83,8 +83,8 @@ pub(super) fn chosen(
 ) -> Face {
     let face = whole.narrowed(first, 1.0);
     let least = face.adhesion_sum(&face.amounts);
-    // A column whose slack is below the solver's digits is on the face by mistake. A later stage that uses much of it adds
-    // adhesion, and is skipped.
+    // A column whose slack is below the solver's digits is on the face by mistake. A later stage that uses much of this
+    // column adds adhesion, and is skipped.
     let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SAME_SUM) * least;
     // Stage 2: least force.
     let second = optimum(&face, force_size, settings, effort, |c| c.cost);
@@ -113,15 +113,15 @@ fn optimum(
 
 /// Stage 3: reduces the face to few points with adhesion.
 ///
-/// In each round the cost of an adhesion column rises if its amount is small, relative to the lighter load that it acts
-/// on.
+/// In each round, the cost of an adhesion column increases if its amount is small. The amount is compared with the
+/// smaller load of the bodies that the column acts on.
 fn concentrated(
     mut face: Face,
     force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    // The lighter of the two loads on which a column acts.
+    // The smaller load of the two bodies on which a column acts.
     let own = own_loads(&face.loads);
     let lightest_of = |column: &Column| {
         let loads = column.entries().map(|(row, _)| own[row / 3]);
@@ -136,7 +136,7 @@ fn concentrated(
         if before < 2 {
             break;
         }
-        // Reweighting: the cost of adhesion is about 1/share, at most a thousand times that of the largest share.
+        // Reweighting: the cost of adhesion is about 1/share, at most a thousand times the cost of the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
             .map(|(column, amount)| match column.force.is_adhesion() {
@@ -154,7 +154,7 @@ fn concentrated(
         let Some(solved) = optimum(&face, force_size, settings, effort, cost) else {
             break;
         };
-        // Drop the columns whose amount is exactly 0; stop if there are none.
+        // Drop the columns whose amount is exactly 0; stop if there are no such columns.
         face.amounts = solved.amounts;
         face = face.only(|column, amount| !column.force.is_adhesion() || amount > 0.0);
         if face.columns.iter().filter(adheres).count() == before {

@@ -1,4 +1,4 @@
-//! Two programs that decide near the limit of stability: any balance, and least residual.
+//! Two programs that also decide components near the limit of stability: any balance, and least residual.
 //!
 //! Near that limit the program of least force ends without a status: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:
@@ -79,13 +79,13 @@ impl ScaledProgram<'_> {
     }
 }
 
-/// Finds forces that balance the loads, or a motion that shows that no forces do. Both are 0 if the solver ends without
-/// a status.
+/// Finds forces that balance the loads, or a motion that proves that no forces balance them. Both are 0 if the solver
+/// ends without a status.
 pub fn any_balance(program: &Program) -> Residual {
     let scaled = ScaledProgram::new(program);
     let (loads, columns) = (&scaled.loads, &scaled.slanted.columns);
     let mut effort = Effort::default();
-    // The static form without a cost: any admissible balance.
+    // Solve the static form without a cost: every admissible balance is an optimum.
     let any = in_forces(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
     let mut found = Residual {
         forces: Amounts::none(program),
@@ -102,7 +102,7 @@ pub fn any_balance(program: &Program) -> Residual {
             found.forces = scaled.forces(&amounts);
         }
         Status::Unbounded => {
-            // The program is infeasible: its certificate is the motion.
+            // The program is infeasible. Its certificate is the motion.
             let power: f64 = loads.iter().zip(&any.y).map(|(n, v)| n * v).sum();
             let way: f64 = any.y.iter().map(|v| v.abs()).sum();
             found.nearest = power > MIN_POWER * way;
@@ -113,8 +113,8 @@ pub fn any_balance(program: &Program) -> Residual {
     found
 }
 
-/// Finds the forces of least residual and the motion that proves that it is the least; `None` if the solver ends
-/// without a status.
+/// Finds the forces of least residual and the motion that proves that this residual is the least; `None` if the solver
+/// ends without a status.
 pub fn least_residual(program: &Program) -> Option<Residual> {
     let scaled = ScaledProgram::new(program);
     let mut effort = Effort::default();

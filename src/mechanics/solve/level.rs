@@ -70,8 +70,8 @@ pub(super) fn lightest(loads: &[f64]) -> f64 {
     own.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether amounts balance every body, relative to its own load and to `force_size`, the size of the smallest forces
-/// that must be accurate.
+/// True if the amounts balance every body, relative to its own load and to `force_size`. `force_size` is the size of
+/// the smallest forces that must be accurate.
 fn balances_every_body(
     loads: &[f64],
     columns: &[Column],
@@ -108,7 +108,8 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     sums.into_iter().map(CompensatedSum::value).collect()
 }
 
-/// Refines an optimum until forces of size `force_size` are accurate; `None` if a level fails or the levels do not suffice.
+/// Refines an optimum until forces of size `force_size` are accurate; `None` if a level fails or if the largest number
+/// of levels is not enough.
 ///
 /// The resulting amounts balance every body. Every column has an amount of exactly 0 or a slack of exactly 0.
 pub(super) fn refined_optimum(
@@ -180,7 +181,7 @@ impl Level {
     fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Dual) -> Option<Level> {
         // Step 1: the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
-        // Step 2: classify each column, and find the amount from which it starts.
+        // Step 2: classify each column, and choose the amount with which it enters the level.
         let given = |k: usize| {
             let (column, amount) = (&columns[k], at.amounts[k]);
             let slack = costs[k] - column.dot(&at.y);
@@ -212,7 +213,7 @@ impl Level {
         })
     }
 
-    /// Poses the program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
+    /// Writes the program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
     fn program_of_changes(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> QuadraticProgram {
         let n = columns.len();
         let mut program = QuadraticProgram {
@@ -249,7 +250,7 @@ impl Level {
         program
     }
 
-    /// Steps 3 and 4: solves the level, and returns the corrected optimum; `None` if the solver finds none.
+    /// Steps 3 and 4: solves the level, and returns the corrected optimum. `None` if the solver finds no optimum.
     fn solved(
         &self,
         columns: &[Column],

@@ -70,9 +70,9 @@ pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Largest)
 }
 
-/// Finds the λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·direction`.
+/// Finds the λ nearest to 0, positive or negative, for which admissible forces give `program.loads + λ·direction`.
 ///
-/// [`Limit::Never`] means that no λ does: this program has an optimum exactly if some λ allows a balance.
+/// [`Limit::Never`] means that no λ allows a balance. Otherwise this program has an optimum.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Nearest)
 }
@@ -85,7 +85,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// Returns the number of rows for λ at the end of the program.
+    /// Returns the number of the last rows of the program, whose multipliers give λ.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,
@@ -157,8 +157,8 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
     Limit::Unsolved.into()
 }
 
-/// Tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain conditioning is
-/// first.
+/// Returns the tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain
+/// conditioning is first.
 pub(super) fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
@@ -187,7 +187,7 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
 /// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other
 /// limits stay as given.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
-    // Without a limit and at cost 1, the least cost is the least amount.
+    // The component has no limit, and each unit costs 1. The solution therefore has the least amount.
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
     let is_own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
@@ -200,7 +200,8 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
         |c| f64::from(u8::from(is_own(&c.force))),
     );
     match solved.status {
-        // The objective also contains costs of other limits, so the amounts of the component itself are summed instead.
+        // The objective also contains the costs of other limits. Therefore, the amounts of this component are added
+        // instead.
         Status::Solved => {
             let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);

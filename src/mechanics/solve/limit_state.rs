@@ -22,7 +22,8 @@ pub struct LimitState {
     pub motion: Vec<f64>,
 }
 
-/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`, and the state there.
+/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`, and the forces and the
+/// mechanism at this λ.
 ///
 /// `None` if λ has no largest value, if no λ allows a balance, or if the solver ends without a result.
 pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
@@ -63,7 +64,7 @@ pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
     None
 }
 
-/// Returns the columns of a program without redundant ones, with limits in program units.
+/// Returns the columns of a program without redundant columns, with limits in program units.
 fn columns_of(program: &Program) -> Vec<Column> {
     Slanted::new(&columns_in(program, 1.0)).columns
 }

@@ -1,4 +1,4 @@
-//! Solves the programs of an assembly: least force if it stands, least adhesion if it falls.
+//! Solves the optimisation programs of an assembly: least force if it stands, least adhesion if it falls.
 //!
 //! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts:
 //! [`crate::proof`] checks the forces and the motion and decides. Among several optima, the one of least Σ force² is

@@ -42,7 +42,7 @@ const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
 /// Returns the residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
 fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
-    // The sums begin with the loads; each force is subtracted in three rows of its block.
+    // The sums begin with the loads; each force is then subtracted in the three rows of its block.
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
         sum.add(*load);
@@ -139,8 +139,8 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     changed
 }
 
-/// Returns the factor for each row that makes a block's residual relative to the forces on it: 1/Σ|force|, for
-/// moments also divided by the longest arm.
+/// Returns a factor for each row. The residual times this factor is relative to the forces on the block: 1/Σ|force|,
+/// for moments also divided by the longest arm.
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     // The longest arm of each block.
     let mut reach = vec![0.0; program.blocks];
@@ -167,7 +167,7 @@ fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
 }
 
 /// Changes given forces slightly so that blocks balance better, relative to the forces on them; `None` if no change
-/// helps.
+/// improves the balance.
 ///
 /// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D that of the rows' scales. Each
 /// round solves the program min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces can balance
@@ -190,7 +190,7 @@ pub fn rebalance_relative(
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let conic = relative_changes(&list, &used, &weights, &scales, &left, size);
-        // For loads near the smallest number of f64 the scales are infinite.
+        // If the loads are near the smallest number of f64, the scales are infinite.
         if !all_finite(&conic) {
             break;
         }
@@ -200,12 +200,12 @@ pub fn rebalance_relative(
         }
         let mut changes = vec![0.0; list.len()];
         for (unknown, k) in used.iter().enumerate() {
-            // No amount falls below half of its value, so that a later round can increase it again.
+            // No amount decreases below half of its value, so that a later round can increase it again.
             changes[*k] = (answer.x[unknown] * size).max(-0.5) * weights[*k];
         }
         let next = apply(&best, &list, &changes);
         let (after, total) = residual(program, &next);
-        // Convergence test: all blocks together must gain digits. Some blocks may have no balance at all.
+        // Convergence test: the sum of the digits of all blocks must increase. Some blocks may have no balance at all.
         if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + MIN_DIGITS_GAINED
         {
             break;
@@ -215,7 +215,7 @@ pub fn rebalance_relative(
     better.then_some(best)
 }
 
-/// Poses the program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns
+/// Writes the program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns
 /// `used` and the remaining residual v of each row.
 ///
 /// `left` is the residual, and `size` its largest scaled entry.
@@ -261,7 +261,8 @@ fn digits(left: &[f64], scales: &[f64]) -> f64 {
         .sum()
 }
 
-/// Changes given forces by as little as possible until they balance a program to rounding; `None` if no change helps.
+/// Changes given forces by as little as possible until they balance a program to rounding; `None` if no change improves
+/// the balance.
 pub fn rebalance_absolute(
     program: &Program,
     amounts: &Amounts,
@@ -280,7 +281,8 @@ pub fn rebalance_absolute(
     better.then_some(best)
 }
 
-/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None`.
+/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None` if it finds
+/// no such forces.
 ///
 /// Only amounts below `ratio` times the residual get a lower bound.
 fn correct_once(

@@ -40,16 +40,16 @@ const MAX_ROUNDS: usize = 5;
 /// A grip whose limit exceeds this multiple of the heaviest load is treated as having no limit.
 const NON_BINDING: f64 = 1e4;
 
-/// Returns a motion near a given one that no contact opposes; `None` if there is none.
+/// Returns a motion that no contact opposes, near a given motion. `None` if no such motion is found.
 ///
-/// The largest velocity of the given motion must be about 1. A motion that is impossible without its violations, such
-/// as that of a flat wedge into its notch, loses its power by the change.
+/// The largest velocity of the given motion must be about 1. Some motions are impossible without violations, such as
+/// the motion of a flat wedge into its notch. The corrected motion then has almost no power.
 pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
     let firm = NON_BINDING * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
     for column in columns(program) {
         match column.force {
-            // A component has a column for each sign; one of them is enough for an equality.
+            // A component has two columns, one for each sign. One of them is enough for an equality.
             Force::Grip { sign, .. } if column.limit > firm && sign > 0.0 => held.push(column),
             Force::Grip { .. } => {}
             _ => contacts.push(column),
@@ -81,7 +81,8 @@ fn open_contacts(
         if round == MAX_ROUNDS {
             break;
         }
-        // If contacts cannot open, the program has an interior only if a round may leave a small part of the violation.
+        // If contacts cannot open, the program has an interior only if each round may leave a small part of the
+        // violation.
         let left = match extra {
             0.0 => LEFT_TO_NEXT_ROUND.max(ROUNDING / worst),
             _ => 0.0,

@@ -1,4 +1,4 @@
-//! The residual of forces: the part of the loads that they do not balance.
+//! Computes the residual of forces: the part of the loads that the forces do not balance.
 
 use crate::program::Column;
 

@@ -1,4 +1,4 @@
-//! [`Slanted`]: the columns of a program without redundant ones.
+//! [`Slanted`]: the columns of a program without redundant columns.
 //!
 //! If admissible forces have no cost, a pure normal force is redundant. It is half the sum of the two rays of its
 //! friction cone times 1 + μ. The rays are (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Omitting these columns
@@ -25,7 +25,7 @@ impl Slanted {
         }
     }
 
-    /// Returns the amounts of all columns; 0 for the omitted ones.
+    /// Returns the amounts of all columns; 0 for the omitted columns.
     pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, place) in amounts.iter().zip(&self.places) {
@@ -58,7 +58,7 @@ impl Slanted {
     }
 }
 
-/// Whether a column is a pure normal force that is followed by the two rays of its friction cone.
+/// True if a column is a pure normal force that is followed by the two rays of its friction cone.
 fn is_redundant(all: &[Column], k: usize) -> bool {
     let with_friction = |c: Option<&Column>| {
         c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0))

@@ -15,7 +15,8 @@ use crate::program::QuadraticProgram;
 /// Solves a conic problem.
 ///
 /// # Panics
-/// If the data contain a number that is not finite. Scenes are checked when they are read, so that would be a bug.
+/// Panics if the data contain a number that is not finite. Scenes are checked when they are read, so this would be a
+/// bug.
 pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Conditioning) -> Answer {
     let settings = SolverSettings {
         tolerance,
@@ -24,10 +25,11 @@ pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Condition
     solve_within(problem, settings, MAX_ITERATIONS)
 }
 
-/// Solves a conic problem in at most the given number of iterations; otherwise the status is `Unsolved`.
+/// Solves a conic problem in at most the given number of iterations. If this number is not enough, the status is
+/// `Unsolved`.
 ///
 /// # Panics
-/// As [`solve`].
+/// Panics in the same case as [`solve`].
 pub fn solve_within(
     problem: &QuadraticProgram,
     settings: SolverSettings,
@@ -53,7 +55,7 @@ pub fn solve_within(
     by_clarabel(problem, settings, iterations)
 }
 
-/// Whether every number of a problem is finite.
+/// True if every number of a problem is finite.
 pub(super) fn all_finite(problem: &QuadraticProgram) -> bool {
     let mut entries = problem.matrix.iter().chain(&problem.quadratic);
     is_finite(&problem.linear)

@@ -36,7 +36,7 @@ impl Tangent {
             load => load,
         };
         let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-        // A largest load of 1, as in `least_residual`.
+        // The loads are scaled to a largest load of 1, as in `least_residual`.
         let columns = Slanted::new(&columns_in(program, load)).columns;
         let (conic, row_of) = least_residual_dual(&loads, &columns);
         let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
@@ -57,7 +57,7 @@ impl Tangent {
         Some(tangent)
     }
 
-    /// Estimates V of a sibling with the same loads, to first order.
+    /// Estimates, to first order, the least residual V of another program with the same loads and changed contacts.
     pub fn of_sibling(&self, sibling: &Program) -> f64 {
         self.left + self.work - self.work_in(sibling)
     }

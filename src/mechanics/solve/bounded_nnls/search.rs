@@ -1,4 +1,4 @@
-//! [`Search`]: which columns may enter the passive set, and how often it may change.
+//! [`Search`]: which columns may enter the passive set, and how often this set may still change.
 
 use super::{BoundedNnls, MAX_PIVOTS_PER_COLUMN};
 use crate::program::Column;
@@ -56,7 +56,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Counts a change of the passive set; `None` if there were too many.
+    /// Counts a change of the passive set; `None` if there were too many changes.
     pub(super) fn count_pivot(&mut self) -> Option<()> {
         self.pivots_left = self.pivots_left.checked_sub(1)?;
         Some(())

@@ -45,7 +45,8 @@ impl Joint<'_> {
         (levers, cross(self.arms[0], quarter_turn(normal)))
     }
 
-    /// Computes the contact forces that exert a given wrench on the body: three equations for three unknowns.
+    /// Computes the contact forces that together exert a given wrench on the body. These are three equations for three
+    /// unknowns.
     pub fn forces(&self, wrench: Wrench) -> ContactForces {
         let (levers, lever) = self.levers();
         let normal = self.contact.normal;
@@ -64,7 +65,7 @@ impl Joint<'_> {
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);
-        // The velocity of a point of a rigid body.
+        // Computes the velocity of a point of a rigid body.
         let at = |[x, y, spin]: [f64; 3], arm: Vector| Vector::new(x, y) + quarter_turn(arm) * spin;
         let below = self.below.map_or([[0.0; 2].into(); 2], |(body, between)| {
             let velocity = [0, 1, 2].map(|row| motion[3 * body + row]);
@@ -72,7 +73,8 @@ impl Joint<'_> {
         });
         let across = [0, 1].map(|k| normal.dot(&below[k]) + self.sign * opens[k]);
         let along = tangent.dot(&below[0]) + self.sign * slides;
-        // The spin from the difference of the two openings, then the centroid's velocity from the first point.
+        // The spin follows from the difference of the two openings, and the velocity of the centroid from the first
+        // point.
         let (levers, lever) = self.levers();
         let spin = (across[1] - across[0]) / (levers[1] - levers[0]);
         let velocity = normal * (across[0] - spin * levers[0]) + tangent * (along - spin * lever);
@@ -82,8 +84,8 @@ impl Joint<'_> {
 
 /// Lists the joints in order from the ground outwards, one for each body.
 ///
-/// `None` if the contacts do not form a tree: a body has several ways to the ground or none. Also `None` if the program
-/// has grips or a face is too short.
+/// `None` if the contacts do not form a tree, because a body has several paths to the ground or no path. Also `None` if
+/// the program has grips or if a face is too short.
 pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
@@ -103,7 +105,8 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     }
     let mut found = vec![false; program.blocks];
     let mut joints = Vec::with_capacity(program.blocks);
-    // Depth-first search from the ground. A body that is reached twice has two ways to the ground: not a tree.
+    // Depth-first search from the ground. A body that is reached twice has two paths to the ground, so the contacts do
+    // not form a tree.
     while let Some((number, below)) = queue.pop() {
         let contact = &program.contacts[number];
         let both = [

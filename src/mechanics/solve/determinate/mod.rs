@@ -32,7 +32,7 @@ const ROUNDING_TOL: f64 = 1e-12;
 /// loads changes by about as little.
 const EXTRA_OPENING: f64 = 1e-14;
 
-/// Returns the contact forces, if they are unique and every contact can exert them; otherwise `None`.
+/// Returns the contact forces that balance the loads. `None` if they are not unique, or if a contact cannot exert them.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
@@ -50,8 +50,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
             moment: load[2],
         })
         .collect();
-    // From the ends towards the ground: the wrench that a joint must exert on its body is added to that of the body
-    // below.
+    // Go from the ends towards the ground. Each wrench that a joint must exert on its body also acts on the body below.
     for joint in joints.iter().rev() {
         let wrench = needed[joint.body];
         if let Some((below, between)) = joint.below {
@@ -63,7 +62,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     forces.collect()
 }
 
-/// Computes the least adhesion, and the motion that proves it; `None` if the forces are not unique.
+/// Computes the least adhesion, and the motion that proves that it is the least; `None` if the forces are not unique.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     Split::new(program, &joints)?.stuck(program, &joints)
@@ -79,7 +78,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
-        // A joint on a moving body stays closed: its own body moves with the body below.
+        // If the body below moves, the joint stays closed: its own body moves with the body below.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
         let (opens, slides) = match rests {
             true => split.speeds(joint),
@@ -95,8 +94,8 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     Some((motion, split.stuck(program, &joints)?))
 }
 
-/// Computes the velocities of the bodies, from the speeds at which the joints open and slide; `None` if one is not
-/// finite.
+/// Computes the velocities of the bodies, from the speeds at which the joints open and slide; `None` if a velocity is
+/// not finite.
 ///
 /// Every joint opens by an additional [`EXTRA_OPENING`], unless this costs half of the loads' power or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
@@ -171,8 +170,8 @@ impl Split {
         })
     }
 
-    /// Returns the speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if it
-    /// needs none.
+    /// Returns the speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if the
+    /// joint needs no adhesion.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
         let (pull, missing) = (
             self.adhesion.normal[joint.number],
@@ -184,7 +183,7 @@ impl Split {
             true => -missing.signum(),
             false => 0.0,
         };
-        // The flow rule is associated: a sliding face also opens, at μ times the speed of sliding.
+        // The flow rule is associated: a sliding face also opens, at μ times the sliding speed.
         let opens = pull.map(|pull| match is_above_rounding(pull) {
             true => 1.0,
             false => joint.contact.friction * f64::abs(slides),

@@ -1,4 +1,4 @@
-//! [`BlockDiagonal`]: a symmetric matrix that couples only the columns of one contact, and the Cholesky factors of its
+//! [`BlockDiagonal`]: a symmetric matrix that couples only columns of the same contact, and the Cholesky factors of its
 //! blocks.
 
 use std::ops::Range;
@@ -74,7 +74,8 @@ fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     for (i, j, _) in &problem.quadratic {
         first[*j] = first[*j].min(*i);
     }
-    // Go through the columns backwards. A block begins at column j if no column from j on is coupled with one before j.
+    // Go through the columns backwards. A block begins at column j if no column from j on is coupled with a column
+    // before j.
     let (mut starts, mut low) = (Vec::new(), n);
     for j in (0..n).rev() {
         low = low.min(first[j]);

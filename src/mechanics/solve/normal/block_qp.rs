@@ -48,8 +48,8 @@ const MAX_IDLE_STEPS: usize = 3;
 
 /// Solves the program; `None` if it has another form, or if the method ends without an optimum.
 ///
-/// It also solves chains: for an arch of 10 000 stones, whose thrust is thousands of times a stone's weight, clarabel
-/// reports that the least squares are infeasible.
+/// It also solves long chains of blocks. For an arch of 10 000 stones, whose thrust is thousands of times a stone's
+/// weight, clarabel reports that the least squares are infeasible.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     if !has_only_floors(problem) {
         return None;
@@ -57,7 +57,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     let tolerance = criteria.tolerance;
     let mut run = BlockQp::new(BlockDiagonal::quadratic_of(problem)?, problem)?;
     run.set_starting_point();
-    // Iterate until the fine tolerance is met; at the end, the normal tolerance is enough.
+    // Iterate until the fine tolerance is met. If the iterations end before, the normal tolerance is enough.
     let (mut iterations, mut idle_steps) = (0, 0);
     while !run.is_optimal(tolerance, GAP_FACTOR * tolerance) {
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
@@ -67,7 +67,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
             }
             return None;
         }
-        // Count steps without progress: short ones, and long ones that leave most of the residual.
+        // Count steps without progress: short steps, and long steps after which most of the residual remains.
         let former = max_norm(&run.residuals.primal);
         let step = run.step();
         let is_stalled = max_norm(&run.residuals.primal) > STALLED_SHARE * former;
@@ -93,7 +93,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     })
 }
 
-/// Whether the rows of a problem are the balance and exactly one lower bound for each column.
+/// True if the rows of a problem are the equilibrium equations and exactly one lower bound for each column.
 fn has_only_floors(problem: &QuadraticProgram) -> bool {
     let n = problem.unknowns;
     let is_floor = |(row, column, value): &(usize, usize, f64)| {
@@ -225,18 +225,17 @@ impl BlockQp {
         }
     }
 
-    /// μ, the mean of the products s·z.
+    /// Returns μ, the mean of the products s·z.
     fn mu(&self) -> f64 {
         dot(&self.s, &self.z) / self.s.len().max(1) as f64
     }
 
-    /// Whether the primal residual is at most the tolerance, relative to the largest entry of A x or 1.
+    /// True if the primal residual is at most the tolerance, relative to the largest entry of A x or 1.
     fn is_balanced(&self, tolerance: f64) -> bool {
         max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
     }
 
-    /// Convergence test: true if every residual is small relative to its terms, and Σ s·z is at most `gap` times the
-    /// objective.
+    /// True if every residual is small relative to its terms, and Σ s·z is at most `gap` times the objective.
     fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
         let [_, squared, along] = self.residuals.size;
         let is_small = |list: &[f64], of: f64| max_norm(list) <= tolerance * f64::max(1.0, of);
@@ -288,7 +287,7 @@ impl BlockQp {
     }
 
     /// Computes the Newton direction along which each product s·z changes by `target` and the given share of the
-    /// residuals vanishes.
+    /// residuals is removed.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
         // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.
@@ -329,7 +328,7 @@ impl BlockQp {
         }
     }
 
-    /// Ratio test: the longest step that keeps s and z ≥ 0, at most 1/[`STEP_TO_BOUNDARY`].
+    /// Ratio test: returns the longest step that keeps s and z ≥ 0, at most 1/[`STEP_TO_BOUNDARY`].
     fn max_step(&self, along: &Direction) -> f64 {
         let (s, z) = (self.s.iter().zip(&along.s), self.z.iter().zip(&along.z));
         shorten_step(1.0 / STEP_TO_BOUNDARY, s.chain(z))
@@ -351,7 +350,7 @@ impl BlockQp {
             *target += centre - predictor.s[k] * predictor.z[k];
         }
         let along = self.direction(&target, 1.0 - sigma);
-        // Step length: one for all variables, a little short of the nearest bound.
+        // The step length is the same for all variables and ends a little before the nearest bound.
         let step = f64::min(STEP_TO_BOUNDARY * self.max_step(&along), 1.0);
         let lists = [
             (&mut self.x, &along.x),

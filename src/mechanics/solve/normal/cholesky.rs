@@ -182,7 +182,7 @@ impl Cholesky {
         self.backward(x);
     }
 
-    /// Forward substitution L·x = right-hand side, children before parents.
+    /// Solves L·x = right-hand side by forward substitution, children before parents.
     fn forward<const N: usize>(&self, x: &mut [[f64; N]]) {
         let mut sums: Vec<[f64; N]> = Vec::new();
         for (p, node) in self.supernodes.list.iter().enumerate() {
@@ -213,7 +213,7 @@ impl Cholesky {
         }
     }
 
-    /// Backward substitution Lᵀ·x = right-hand side, parents before children.
+    /// Solves Lᵀ·x = right-hand side by backward substitution, parents before children.
     fn backward<const N: usize>(&self, x: &mut [[f64; N]]) {
         let mut lists: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
         for (p, node) in self.supernodes.list.iter().enumerate().rev() {

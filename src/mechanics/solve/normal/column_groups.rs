@@ -40,8 +40,8 @@ pub(super) struct ColumnGroup<'a> {
 impl ColumnGroups {
     /// Builds the columns from (column, row, value) entries, where each body owns three consecutive rows.
     ///
-    /// A column joins the previous group if its bodies are all among the group's bodies, or the group's all among its
-    /// own.
+    /// A column joins the previous group in two cases: the group contains all bodies of the column, or the column
+    /// contains all bodies of the group.
     pub fn new(
         unknowns: usize,
         columns: usize,

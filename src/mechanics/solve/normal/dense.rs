@@ -1,4 +1,5 @@
-//! Dense kernels of the factorization: Cholesky of the columns of a supernode, and its update matrix.
+//! Dense kernels of the factorization: the Cholesky factor of the columns of a supernode, and the update matrix of the
+//! supernode.
 //!
 //! A right-looking blocked Cholesky factorization (Golub and Van Loan, Matrix Computations, section 4.2). Rows are packed
 //! in groups of four, so that a product of four by four numbers is sixteen independent sums, which the compiler keeps in
@@ -55,7 +56,7 @@ impl PackedRows {
             for (h, right) in groups().skip(g) {
                 let r = 4 * h;
                 let sums = products(left, right);
-                // All four entries are in the triangle, except on the diagonal and in the last rows.
+                // All four entries lie inside the triangle, except on the diagonal and in the last rows.
                 let whole = h > g && r + 4 <= self.rows;
                 for (i, sums) in sums.iter().enumerate().take(wide) {
                     let at = begin(c + i) + r;

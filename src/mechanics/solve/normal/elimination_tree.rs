@@ -36,7 +36,7 @@ impl Graph {
         }
         let mut graph = Graph {
             starts: Vec::with_capacity(n + 1),
-            // `amd` expects the diagonal entry: it subtracts it from the count.
+            // `amd` expects the diagonal entry, and subtracts it from the count itself.
             list: Vec::new(),
         };
         graph.starts.push(0);
@@ -100,7 +100,7 @@ impl<'a> OrderedGraph<'a> {
             order,
             parent: Vec::new(),
         };
-        // A postorder of the tree has the same fill-in and makes columns of equal rows consecutive.
+        // A postorder of the tree has the same fill-in and makes columns with equal rows consecutive.
         let parent = by_degree.elimination_tree();
         let post = postorder(&parent);
         let new_position = inverse(&post);
@@ -125,8 +125,8 @@ impl<'a> OrderedGraph<'a> {
     /// Returns the elimination tree: the parent of a column is the first row below the diagonal in which the factor
     /// has an entry.
     ///
-    /// `ancestor` leads from a column towards the root of its present subtree; paths are compressed on the way (Liu
-    /// 1986).
+    /// `ancestor` leads from a column towards the root of its present subtree. The paths are shortened during the
+    /// search (Liu 1986).
     fn elimination_tree(&self) -> Vec<Option<usize>> {
         let n = self.order.len();
         let (mut parent, mut ancestor) = (vec![None; n], vec![None; n]);
@@ -181,7 +181,7 @@ fn inverse(order: &[usize]) -> Vec<usize> {
 /// Returns an order of the tree's nodes with children before parents and every subtree consecutive.
 fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
     let n = parent.len();
-    // Children as linked lists: the first child of each node, and the next sibling.
+    // The children are stored as linked lists: the first child of each node, and the next sibling.
     let mut first_child: Vec<Option<usize>> = vec![None; n];
     let mut next: Vec<Option<usize>> = vec![None; n];
     let mut roots = None;
@@ -193,7 +193,7 @@ fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
         next[k] = head.replace(k);
     }
     let (mut post, mut stack) = (Vec::with_capacity(n), Vec::new());
-    // Depth first, without recursion: chains are as deep as they are long.
+    // The search is depth first and without recursion, because the tree of a chain is as deep as the chain is long.
     while let Some(root) = roots {
         roots = next[root];
         stack.push(root);

@@ -70,7 +70,7 @@ pub(super) fn solve(
         if let Some(termination) = optimality.termination(lp, final_tolerance) {
             break Some(termination);
         }
-        // Crossover: stop early if the basic columns will not become distinct.
+        // Crossover: stop early if the basic columns will not become distinct from the others.
         if let Some(crossover) = criteria.crossover {
             let early = crossover.early_factor * criteria.tolerance;
             if run.is_never_complementary(&optimality, crossover, final_tolerance, &mut trend)
@@ -80,7 +80,7 @@ pub(super) fn solve(
                 break Some(Termination::Optimal);
             }
         }
-        // If only the balance is missing, remove its residual instead of taking another step.
+        // If only the balance of the loads is not met, remove its residual instead of taking another step.
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
         if restorations < MAX_RESTORATIONS && optimality.lacks_only_balance(lp, final_tolerance) {
             run.restore_balance();
@@ -93,12 +93,12 @@ pub(super) fn solve(
         };
         let is_over = iterations >= max_iterations || is_late || !optimality.mu.is_finite();
         if is_over || !run.step(&optimality) {
-            // The finer tolerance of the crossover was not reached; the normal tolerance may be met.
+            // The finer tolerance of the crossover is not met, but the normal tolerance may be met.
             break optimality.termination(lp, criteria.tolerance);
         }
         iterations += 1;
     };
-    // Scale the iterate: an optimum to τ = 1, a certificate to a gain of 1.
+    // Scale the iterate. An optimum is scaled to τ = 1, a certificate to a gain of 1.
     let at = run.at;
     let scale = match termination {
         Some(Termination::PrimalInfeasible) => 1.0 / dot(lp.loads, &at.y),
@@ -145,7 +145,8 @@ impl<'a> InteriorPoint<'a> {
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
     }
 
-    /// Whether, according to its trend, the slack of the basic columns will still be too large at the final tolerance.
+    /// True if the slack of the basic columns, extrapolated by its trend, will still be too large at the final
+    /// tolerance.
     fn is_never_complementary(
         &self,
         optimality: &Optimality,
@@ -187,7 +188,7 @@ impl<'a> InteriorPoint<'a> {
 
     /// Sets the amounts of columns that have a cost and are not clearly basic to 0.
     ///
-    /// The former amounts are restored if the remaining ones are not an optimum to the given tolerance.
+    /// The former amounts are restored if the remaining amounts are not an optimum to the given tolerance.
     fn drop_non_basic(&mut self, tolerance: f64) {
         let former = self.at.f.clone();
         let slack = self.at.z.iter().zip(self.lp.cost);

@@ -47,8 +47,8 @@ impl Iterate {
         }
     }
 
-    /// Mehrotra's starting point: the least-squares solutions of A f = loads and Aᵀy + z = cost, with f and z shifted
-    /// until they are positive. Replaces the values of `factor` by the factor of A·Aᵀ.
+    /// Returns Mehrotra's starting point: the least-squares solutions of A f = loads and Aᵀy + z = cost, with f and z
+    /// shifted until they are positive. Replaces the values of `factor` by the factor of A·Aᵀ.
     pub fn starting_point(lp: &LinearProgram, factor: &mut Cholesky) -> Iterate {
         let columns = lp.cost.len();
         factor.factor(
@@ -75,7 +75,7 @@ impl Iterate {
         for (z, c) in at.z.iter_mut().zip(lp.cost) {
             *z = c - *z;
         }
-        // Shift f and z by a constant each.
+        // Add one constant to f and another constant to z.
         for list in [&mut at.f, &mut at.z] {
             let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;
@@ -97,7 +97,8 @@ impl Iterate {
         both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
     }
 
-    /// Ratio test: the longest step along a direction that keeps f, z, τ and κ ≥ 0, at most 1/[`STEP_TO_BOUNDARY`].
+    /// Ratio test: returns the longest step along a direction that keeps f, z, τ and κ ≥ 0, at most
+    /// 1/[`STEP_TO_BOUNDARY`].
     pub fn max_step(&self, direction: &Iterate) -> f64 {
         let pair = [(self.tau, direction.tau), (self.kappa, direction.kappa)];
         let (f, z) = (
@@ -125,7 +126,8 @@ impl Iterate {
         }
         self.tau += step * direction.tau;
         self.kappa += step * direction.kappa;
-        // The homogeneous form determines only ratios: rescale before numbers leave the range of f64.
+        // The homogeneous form determines only the ratios of the numbers. Scale them before they leave the range of
+        // f64.
         let size = self.tau.max(self.kappa);
         if !(1e-3..1e3).contains(&size) {
             let lists = [&mut self.f, &mut self.z, &mut self.y];

@@ -1,4 +1,4 @@
-//! Computes the amounts of least norm that balance the loads, of any sign: f = Aᵀ(A·Aᵀ)⁻¹·loads.
+//! Computes the amounts, positive or negative, of least norm that balance the loads: f = Aᵀ(A·Aᵀ)⁻¹·loads.
 //!
 //! A·Aᵀ is factored once, and the multipliers y of A·Aᵀ·y = loads are improved by iterative refinement (Golub and Van
 //! Loan, Matrix Computations, section 3.5.3).

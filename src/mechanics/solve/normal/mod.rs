@@ -79,13 +79,13 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     solve_any_size(problem, criteria, CHAIN_OPERATIONS)
 }
 
-/// Whether a problem is a least-squares problem in forces.
+/// True if a problem is a least-squares problem in forces.
 pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
     problem.equalities > 0 && !problem.quadratic.is_empty()
 }
 
-/// Like [`solve`], for any number of blocks. With fewer than `chain_operations` operations for each unknown, the
-/// structure is a chain.
+/// Like [`solve`], for any number of blocks. The structure counts as a chain if its factorization needs fewer than
+/// `chain_operations` operations for each unknown.
 fn solve_any_size(
     problem: &QuadraticProgram,
     criteria: StoppingCriteria,
@@ -120,7 +120,7 @@ fn solve_any_size(
     Some(form.answer(problem, solution, velocities))
 }
 
-/// Finds the least ½|amounts|² of any sign that balance the loads.
+/// Finds the amounts, positive or negative, that balance the loads with the least ½|amounts|².
 fn solve_least_norm(
     problem: &QuadraticProgram,
     criteria: StoppingCriteria,
@@ -143,12 +143,13 @@ fn solve_least_norm(
             s: vec![0.0; loads.len()],
             iterations: 1,
         }),
-        // For a chain that loses too many digits, clarabel finds no optimum either, even after two hundred iterations.
+        // If this method loses too many digits for a chain, clarabel finds no optimum either, even after two hundred
+        // iterations.
         None => is_chain.then(|| Answer::without_status(problem)),
     }
 }
 
-/// Whether the structure is a chain, judged by the number of operations of its factorization.
+/// True if the structure is a chain: its factorization needs fewer than `chain_operations` operations for each unknown.
 fn is_chain(factor: &Cholesky, columns: &ColumnGroups, chain_operations: f64) -> bool {
     factor.operations() < chain_operations * columns.unknowns() as f64
 }
@@ -190,7 +191,7 @@ impl ProblemKind {
         if problem.equalities == 0 {
             return Some(ProblemKind::Linear(LinearForm::Kinematic));
         }
-        // After the balance, only the rows −amount ≤ 0 are allowed, one for each column.
+        // After the equilibrium equations, only the rows −amount ≤ 0 are allowed, one for each column.
         let signs = problem.bound.len() - problem.equalities;
         let is_sign = |(row, column, value): &(usize, usize, f64)| {
             *row - problem.equalities == *column && *value == -1.0
@@ -235,7 +236,7 @@ impl LinearForm {
         }
     }
 
-    /// Converts the solution of the dual pair to the unknowns, rows and signs of the problem.
+    /// Converts the solution of the primal and the dual program to the unknowns, rows and signs of the problem.
     fn answer(
         self,
         problem: &QuadraticProgram,
@@ -246,7 +247,7 @@ impl LinearForm {
         let status = match solution.termination {
             None => Status::Unsolved,
             Some(Termination::Optimal) => Status::Solved,
-            // The kinematic form is the dual: its statuses are exchanged.
+            // The kinematic form is the dual, so the statuses infeasible and unbounded are exchanged.
             Some(Termination::PrimalInfeasible) if in_amounts => Status::Infeasible,
             Some(Termination::Unbounded) if !in_amounts => Status::Infeasible,
             Some(_) => Status::Unbounded,

@@ -88,7 +88,7 @@ impl Newton {
         residuals: &Residuals,
         optimality: &Optimality,
     ) -> bool {
-        // 1 for a linear program; 0 if τ stays 1.
+        // This is 1 for a linear program, and 0 if τ stays 1.
         let is_homogeneous = 1.0 - lp.velocity_weight;
         // Weights of this iterate, and the factor of the normal equations.
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
@@ -136,15 +136,15 @@ impl Newton {
         std::mem::swap(&mut self.direction, &mut self.candidate);
         let max_step = self.correct_centrality(&system, at, sides, centre);
 
-        // Step length: one for all variables, as the homogeneous form requires.
+        // The step length is the same for all variables, as the homogeneous form requires.
         let step = f64::min(STEP_TO_BOUNDARY * max_step, 1.0);
         at.advance(&self.direction, step);
         step > MIN_STEP
     }
 
-    /// Gondzio's correctors: products that a longer step would move away from the centre are corrected.
+    /// Applies Gondzio's correctors: corrects the products that a longer step would move away from the centre.
     ///
-    /// Improves `direction`, and returns the longest step along it.
+    /// Improves `direction`, and returns the longest step along the improved direction.
     fn correct_centrality(
         &mut self,
         system: &System,
@@ -250,7 +250,7 @@ impl Newton {
         side
     }
 
-    /// Back substitution: dτ, then the amounts, slacks and κ that belong to the velocities of `candidate`.
+    /// Back substitution: computes dτ, then the amounts, slacks and κ that belong to the velocities of `candidate`.
     fn complete_candidate(&mut self, system: &System, at: &Iterate, sides: Sides) {
         let lp = system.lp;
         let (tau_part, to) = (&self.tau_direction, &mut self.candidate);

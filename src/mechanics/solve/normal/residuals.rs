@@ -83,14 +83,14 @@ impl Optimality {
         }
     }
 
-    /// Whether the amounts balance the loads to the tolerance, relative to the sum of the largest load and amount.
+    /// True if the amounts balance the loads to the tolerance, relative to the sum of the largest load and amount.
     pub fn is_primal_feasible(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let f = self.size[0];
         let scale = f64::max(1.0, max_norm(lp.loads) + f / self.tau);
         self.primal[0] < tolerance * self.tau * scale
     }
 
-    /// Whether Aᵀy + z equals the costs and the two objectives are equal, both to the tolerance.
+    /// True if Aᵀy + z equals the costs and the two objectives are equal, both to the tolerance.
     fn is_dual_optimal(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let tau = self.tau;
         let [_, z, y] = self.size;
@@ -101,23 +101,23 @@ impl Optimality {
             && gap < tolerance * primal.abs().min(dual.abs()).max(1.0)
     }
 
-    /// Whether all conditions of an optimum hold to the tolerance.
+    /// True if all conditions of an optimum hold to the tolerance.
     pub fn is_optimal(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// Whether all conditions of an optimum hold except the balance of the loads.
+    /// True if all conditions of an optimum hold except the balance of the loads.
     pub fn lacks_only_balance(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// Returns the gap between the objectives, and a sum of slacks, both relative to the cost.
+    /// Returns the gap between the objectives, and the given sum of slacks, both relative to the cost.
     pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
         [self.primal_objective - self.dual_objective, slack]
             .map(|v| v.abs() / self.primal_objective.abs())
     }
 
-    /// Convergence test: returns that the iterate is an optimum or a certificate, or `None` if neither.
+    /// Convergence test: returns whether the iterate is an optimum or a certificate; `None` if it is neither.
     pub fn termination(&self, lp: &LinearProgram, tolerance: f64) -> Option<Termination> {
         let [f, z, y] = self.size;
         if self.is_optimal(lp, tolerance) {

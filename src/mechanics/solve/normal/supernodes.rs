@@ -84,7 +84,7 @@ fn symbolic_factor(
             }
         }
         rows[begin..].sort_unstable();
-        // The parent is the supernode of the first row below.
+        // The parent is the supernode that contains the first row below this supernode.
         if let Some(first) = rows.get(begin) {
             children[supernode_of[*first as usize]].push(g);
         }
@@ -141,8 +141,8 @@ impl ColumnRange {
 /// Finds the fundamental supernodes (chains of columns with equal rows), and merges them with their parents.
 fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnRange> {
     let n = parent.len();
-    // A column belongs to the supernode of the previous column if it is that column's parent in the tree, has one row
-    // less, and has no other child.
+    // A column belongs to the supernode of the previous column in one case: it is the parent of that column in the
+    // tree, has one row less, and has no other child.
     let mut children = vec![0; n];
     for p in parent.iter().flatten() {
         children[*p] += 1;

@@ -22,13 +22,13 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// Creates a matrix of zeros.
+    /// Creates a banded matrix of zeros with `size` rows.
     pub(super) fn new(size: usize, bandwidth: usize) -> Band {
         let bandwidth = bandwidth.min(size.saturating_sub(1));
         Band {
             size,
             bandwidth,
-            // Row exchanges can fill in up to `bandwidth` more entries on the right.
+            // Row exchanges can create up to `bandwidth` more entries on the right.
             rows: vec![0.0; size * (3 * bandwidth + 1)],
             pivot_rows: Vec::with_capacity(size),
         }
@@ -115,7 +115,7 @@ impl Band {
 /// Finds a position for every block, so that blocks that touch have nearby positions. Also returns the largest
 /// difference between the positions of two blocks that touch.
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
-    // The graph of blocks that touch.
+    // The graph whose edges connect blocks that touch.
     let mut neighbours = vec![Vec::new(); program.blocks];
     let pairs = || {
         let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
@@ -127,8 +127,8 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
     }
     let mut place = vec![usize::MAX; program.blocks];
     let mut next = 0;
-    // Breadth-first search, in which blocks with few neighbours come first. It starts from a peripheral block, the last
-    // one that a first search reaches.
+    // Breadth-first search, in which blocks with few neighbours come first. It starts from a peripheral block: the last
+    // block that an earlier search reaches.
     let breadth_first = |from: usize, place: &[usize]| {
         let mut list = vec![from];
         let mut seen: Vec<bool> = place.iter().map(|p| *p != usize::MAX).collect();

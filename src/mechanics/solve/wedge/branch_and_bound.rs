@@ -1,4 +1,4 @@
-//! Branch and bound over the patterns of pressing and sliding: it proves that no springs come to rest.
+//! Branch and bound over the patterns of pressing and sliding. It proves that the springs come to rest in no pattern.
 //!
 //! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
 //! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance,
@@ -37,7 +37,7 @@ pub(super) enum Search {
     Open,
 }
 
-/// Searches all patterns, depth first.
+/// Searches all patterns, depth first, for a rest or for a proof that there is no rest.
 pub(super) fn search(program: &Program) -> Search {
     let springs = Springs::new(program, 1.0);
     let layout = VariableLayout::new(&springs);
@@ -65,7 +65,8 @@ pub(super) fn search(program: &Program) -> Search {
                 }
                 layout.most_violated(&springs, &node, &answer.x)
             }
-            // Without a valid status, branch as well: the children have more equalities and may be easier to decide.
+            // Without a valid status, the node is divided too: the children have more equalities and may be easier to
+            // decide.
             _ => node.first_open(&springs),
         };
         let Some(branch) = branch else {
@@ -76,7 +77,8 @@ pub(super) fn search(program: &Program) -> Search {
     Search::NoRest(ruled_out)
 }
 
-/// Whether springs come to rest in the pattern of a relaxation's solution, with or without the decisions of the node.
+/// True if the springs come to rest in the pattern of the solution `x` of a relaxation, with or without the decisions
+/// of the node.
 fn leads_to_rest(
     program: &Program,
     springs: &Springs,
@@ -85,8 +87,8 @@ fn leads_to_rest(
     x: &[f64],
 ) -> bool {
     let u = &x[..program.loads.len()];
-    // The springs of robots yield around given forces. Choose these so that they exert the solution's forces at its
-    // displacements.
+    // The springs of robots yield around given forces. Choose the given forces such that the springs exert the forces
+    // of the solution at its displacements.
     let components = layout.grips(x).iter().zip(&springs.grips);
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
     let robots = Springs::around(program, &given, 1.0);

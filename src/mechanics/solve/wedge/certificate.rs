@@ -28,7 +28,8 @@ const ZERO_MULTIPLIER: f64 = 1e-6;
 /// Multipliers of inequalities below this fraction of the largest are dropped before the first correction.
 const NEGLIGIBLE_MULTIPLIER: f64 = 1e-7;
 
-/// Whether the rows of a program are proved infeasible, by the given multipliers or by those of largest gain.
+/// True if multipliers prove that the rows of a program are infeasible: the given multipliers, or those of largest
+/// gain.
 ///
 /// `z` are the multipliers that the solver returned with the status `Infeasible`, one for each row.
 pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
@@ -37,7 +38,7 @@ pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &P
             .is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
 }
 
-/// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1.
+/// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1. `None` if the solver finds no optimum.
 ///
 /// The multipliers that a solver returns may be so small that the corrections exceed them. The multipliers of largest
 /// gain are as large as possible.
@@ -47,7 +48,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     if size == 0.0 {
         return None;
     }
-    // Unknowns are the multipliers. Rows: Aᵀz = 0, then z ≤ 1 and −z ≤ 1 or 0.
+    // The unknowns are the multipliers. The rows are Aᵀz = 0, then z ≤ 1, and −z ≤ 1 (−z ≤ 0 for inequalities).
     let equal = conic.matrix.iter();
     let mut matrix: Vec<(usize, usize, f64)> = equal
         .map(|(row, column, value)| (*column, *row, *value))
@@ -73,7 +74,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     (answer.status == Status::Solved).then(|| answer.x.iter().map(clean).collect())
 }
 
-/// Whether multipliers prove infeasibility, after corrections by iterative refinement.
+/// True if multipliers prove infeasibility, possibly after corrections by iterative refinement.
 fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let most = z.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     // Drop rows with negligible multipliers. The correction compensates for them.
@@ -146,7 +147,7 @@ fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     product
 }
 
-/// Test: true if the gain −bᵀz exceeds the tolerance of a verdict, and also the largest |xᵀAᵀz| for x within
+/// True if the gain −bᵀz exceeds two numbers: the tolerance of a verdict, and the largest |xᵀAᵀz| for x within
 /// [`MAX_DISPLACEMENT`].
 fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z
@@ -164,8 +165,9 @@ fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let error: f64 = transpose_product(conic, &z).iter().map(|v| v.abs()).sum();
     let loads = &program.loads;
     let total: f64 = loads.iter().map(|v| v.abs()).sum();
-    // The verdict "stable" allows a small residual for each block, so the gain must exceed its contribution. The first
-    // rows are the balance. For a block without a load, a millionth of all loads is used.
+    // The verdict "stable" allows a small residual for each block, so the gain must exceed the contribution of these
+    // residuals. The first rows are the equilibrium equations. For a block without a load, a millionth of all loads is
+    // used.
     let band: f64 = loads
         .chunks(3)
         .zip(z.chunks(3))

@@ -21,7 +21,7 @@ const MIN_GROUND: f64 = 1e-9;
 const NEWTON_GROUND: f64 = 1e-4;
 
 impl Springs<'_> {
-    /// Returns the rest that the iteration converges to; `None` if there is none, or if the program has robots.
+    /// Returns the rest to which the iteration converges. `None` if it does not converge, or if the program has robots.
     pub(super) fn find_rest_by_fixed_friction(&self) -> Option<Rest> {
         if !self.grips.is_empty() {
             return None;
@@ -72,7 +72,7 @@ impl Springs<'_> {
         self.pattern(u, &nothing)
     }
 
-    /// Poses the program of least energy with fixed friction limits:
+    /// Writes the program of least energy with fixed friction limits:
     ///
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///

@@ -1,4 +1,5 @@
-//! Checks whether a balance builds up from rest, or only with a self-stress that the loads do not produce (wedging).
+//! Checks whether forces that balance the loads build up from rest, or need a self-stress that the loads do not produce
+//! (wedging).
 //!
 //! Every application point gets a unilateral spring along the normal, and every interface a spring along its face. All
 //! springs are unstressed before the loads act; friction is Coulomb's. Robots may exert any force within their limits.
@@ -113,7 +114,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
-    // Fast attempts to find a rest: with robots' springs around their given forces, around 0, and with fixed friction.
+    // Fast attempts to find a rest: with the springs of robots around their given forces, then around 0, then with
+    // fixed friction.
     let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -142,11 +144,11 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
 }
 
-/// Returns the self-stress that a program without a rest needs, measured at the contacts that open or slide in the
-/// given motion.
+/// Returns the self-stress that a program without a rest needs. It is measured at the contacts that open or slide in
+/// the given motion.
 fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
-    // The contacts that open or slide, and whether any point closes.
+    // Find the contacts that open or slide, and whether any point closes.
     let mut moved = vec![false; program.contacts.len()];
     let mut presses_nothing = true;
     for point in &springs.points {
@@ -156,7 +158,7 @@ fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Sel
             || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
     }
     let contacts: Vec<usize> = (0..moved.len()).filter(|k| moved[*k]).collect();
-    // The least sum of normal forces at the contacts that the motion opens or slides.
+    // Compute the least sum of normal forces at the contacts that open or slide in the motion.
     let cost = |column: &Column| match column.force {
         Force::Ray {
             contact, normal, ..

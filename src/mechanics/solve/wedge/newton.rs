@@ -109,8 +109,8 @@ impl Springs<'_> {
         false
     }
 
-    /// Line search: the displacements between `u` and `target` with the smallest residual, among [`STEP_SHARES`]. It
-    /// stops at the first step length with a sufficient decrease (Armijo).
+    /// Line search: returns the displacements between `u` and `target` with the smallest residual, among the steps
+    /// [`STEP_SHARES`]. It stops at the first step length with a sufficient decrease (Armijo).
     fn line_search(&self, u: &[f64], target: &[f64], ground: f64) -> Vec<f64> {
         let now = self.residual_norm(u, ground);
         let mut best = (f64::INFINITY, u.to_vec());
@@ -128,9 +128,10 @@ impl Springs<'_> {
         best.1
     }
 
-    /// Continuation: softens the springs to the ground step by step until the forces without them are a rest.
+    /// Continuation: softens the springs to the ground step by step, until the forces without these springs are a rest.
     ///
-    /// Returns the rest. If none is found, the error holds the last displacements, scaled so that the largest is 1.
+    /// Returns the rest. If no rest is found, the error contains the last displacements, scaled so that the largest is
+    /// 1.
     pub(super) fn find_rest(&self) -> Result<Rest, Vec<f64>> {
         let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.all_pressed();

@@ -28,7 +28,7 @@ pub(super) enum Branch {
 }
 
 impl Node {
-    /// Returns the root of the tree: only faces without friction are fixed, because for these the decision has no
+    /// Returns the root of the tree. Only the faces without friction are decided, because for them the decision has no
     /// effect.
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
@@ -39,7 +39,7 @@ impl Node {
         }
     }
 
-    /// Returns the children of a node. The last one is to be explored first.
+    /// Returns the children of a node. The last child of the list is to be explored first.
     pub fn children(&self, at: Branch) -> Vec<Node> {
         let with = |change: &dyn Fn(&mut Node)| {
             let mut child = self.clone();
@@ -56,7 +56,7 @@ impl Node {
         }
     }
 
-    /// Whether a face may transmit a friction force: false if all its points are fixed as not pressing.
+    /// True if a face may transmit a friction force. False if all its points are decided as not pressing.
     pub fn may_carry(&self, springs: &Springs, contact: usize) -> bool {
         let points = springs.points.iter().zip(&self.pressed);
         points
@@ -64,9 +64,9 @@ impl Node {
             .any(|(_, pressed)| *pressed != Some(false))
     }
 
-    /// Returns the decisions of the node as numbers of contacts and application points.
+    /// Returns the decisions of the node, with the indices of their contacts and application points.
     pub fn described(&self, springs: &Springs) -> RuledOut {
-        // The number of a point within its contact, 0 or 1.
+        // Returns the index of a point within its contact, 0 or 1.
         let end = |k: usize| {
             let former = springs.points[..k].iter();
             let contact = springs.points[k].contact;
@@ -94,7 +94,7 @@ impl Node {
             .or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
     }
 
-    /// Returns a pattern in which the node's decisions replace the given ones.
+    /// Returns the given pattern, in which the decisions of the node replace those of the pattern.
     pub fn impose_on(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
         for (to, decided) in imposed.pressed.iter_mut().zip(&self.pressed) {

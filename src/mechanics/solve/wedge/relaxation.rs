@@ -62,12 +62,12 @@ impl VariableLayout {
         }
     }
 
-    /// Returns the robots' components in a solution.
+    /// Returns the components of the robots' forces in a solution.
     pub fn grips<'x>(&self, x: &'x [f64]) -> &'x [f64] {
         &x[self.grips..self.end]
     }
 
-    /// Poses the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
+    /// Writes the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
         let mut builder = Builder {
             equal: Rows::default(),
@@ -98,7 +98,7 @@ impl VariableLayout {
         }
     }
 
-    /// Adds the balance of all blocks, three rows for each. They are the first rows of the program.
+    /// Adds the equilibrium equations of all blocks, three rows for each block. They are the first rows of the program.
     fn add_balance(&self, springs: &Springs, builder: &mut Builder) {
         let loads = &springs.program.loads;
         let mut balance = vec![Vec::new(); loads.len()];
@@ -122,7 +122,7 @@ impl VariableLayout {
 
     /// Adds the law of the points, N = max(0, −g), which is relaxed for open points.
     ///
-    /// Returns, for each contact, the unknowns of those normal forces that may be above 0.
+    /// Returns, for each contact, the indices of the unknown normal forces that may be above 0.
     fn add_points(&self, springs: &Springs, node: &Node, builder: &mut Builder) -> Vec<Vec<usize>> {
         let mut pressing = vec![Vec::new(); springs.tangents.len()];
         for (k, point) in springs.points.iter().enumerate() {
@@ -193,7 +193,7 @@ impl VariableLayout {
         }
     }
 
-    /// Adds the robots' limits; without robots, the row that the loads do no negative work.
+    /// Adds the limits of the robots. Without robots, adds a row instead: the loads do no negative work.
     fn add_robots(&self, springs: &Springs, builder: &mut Builder) {
         let grips = springs.grips.iter().enumerate();
         for (k, grip) in grips.filter(|g| g.1.limit.is_finite()) {
@@ -208,7 +208,8 @@ impl VariableLayout {
         }
     }
 
-    /// Branching rule: returns the open point or face at which a solution violates the springs' law most.
+    /// Branching rule: returns the open point or face at which a solution violates the law of the springs most. `None`
+    /// if there is no open point, and no open face that may transmit force.
     pub fn most_violated(&self, springs: &Springs, node: &Node, x: &[f64]) -> Option<Branch> {
         let u = &x[..self.points];
         let mut worst: Option<(f64, Branch)> = None;

@@ -21,7 +21,7 @@ const LAW_TOL: f64 = 1e-8;
 /// The largest number of steps of iterative refinement. Each gains the digits of the LU factors.
 const MAX_REFINEMENTS: usize = 12;
 
-/// Returns, for each contact, the sum of the numbers given for its application points.
+/// Returns, for each contact, the sum of the given normal forces at its application points.
 pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sums = vec![0.0; springs.tangents.len()];
     for (point, normal) in springs.points.iter().zip(normal) {
@@ -31,11 +31,11 @@ pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) 
 }
 
 impl Springs<'_> {
-    /// Computes the forces of a pattern, and returns them if they are a rest.
+    /// Computes the forces of a pattern. Returns them if they are a rest; otherwise `None`.
     ///
     /// Openings, slips and yields are refined instead of displacements. The forces on a light block are then accurate
-    /// relative to its own load, even if heavy blocks move far. A motion that the pattern does not resist stays as it
-    /// is in `u`.
+    /// relative to its own load, even if heavy blocks move far. A motion that the pattern does not resist keeps its
+    /// value in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
@@ -142,7 +142,7 @@ impl Springs<'_> {
         sizes
     }
 
-    /// Whether every block is balanced relative to its own load.
+    /// True if every block is balanced relative to its own load.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
         self.sizes(rest)
             .iter()
@@ -153,7 +153,7 @@ impl Springs<'_> {
             })
     }
 
-    /// Whether the forces obey the law of points, faces and robots' limits.
+    /// True if the forces obey the laws of points and faces and the limits of robots.
     fn obeys(&self, rest: &Rest, gap: &[f64], slip: &[f64]) -> bool {
         let sizes = self.sizes(rest);
         let contacts = &self.program.contacts;

@@ -25,7 +25,7 @@ pub enum Slide {
 }
 
 impl Slide {
-    /// Returns the sign of friction at its limit; 0 if the face sticks and the spring determines friction.
+    /// Returns the sign of friction at its limit; 0 if the face sticks, because the spring then determines friction.
     pub(super) fn friction_sign(self) -> f64 {
         match self {
             Slide::Sticks => 0.0,
@@ -161,15 +161,15 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// Returns the pattern of given displacements. Points and faces that only rounding would decide keep their state
-    /// in `former`.
+    /// Returns the pattern of given displacements. If only rounding would decide the state of a point or face, it keeps
+    /// its state in `former`.
     pub(super) fn pattern(&self, u: &[f64], former: &Pattern) -> Pattern {
         let size = |column: &Column| {
             column
                 .entries()
                 .fold(0.0, |m: f64, (r, v)| m.max((u[r] * v).abs()))
         };
-        // Points: pressed if the opening is negative.
+        // A point is pressed if its opening is negative.
         let mut found = former.clone();
         let mut normal = vec![0.0; self.tangents.len()];
         for (point, pressed) in self.points.iter().zip(&mut found.pressed) {
@@ -181,7 +181,7 @@ impl<'a> Springs<'a> {
                 normal[point.contact] -= gap;
             }
         }
-        // Faces: the spring's force against the friction limit.
+        // A face slides if the force of its spring exceeds the friction limit.
         for (k, slides) in found.slides.iter_mut().enumerate() {
             let slip = self.tangents[k].dot(u);
             let limit = self.program.contacts[k].friction * normal[k].max(0.0);
@@ -194,7 +194,7 @@ impl<'a> Springs<'a> {
                 *slides = Slide::Back;
             }
         }
-        // Robots: the spring's force against the limit.
+        // A robot yields if the force of its spring exceeds its limit.
         for (grip, limit) in self.grips.iter().zip(&mut found.limits) {
             let force = grip.given - grip.column.dot(u);
             *limit = if force.abs() > grip.limit {
