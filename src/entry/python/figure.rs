@@ -69,8 +69,8 @@ pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     ground.chain(blocks).collect()
 }
 
-/// Writes a report on one scene. `name` and `text` are those of the scene file, and the ending of `path` selects the
-/// form.
+/// Writes a report on one scene to the file `path`, whose ending selects the form. `name` and `text` are those of the
+/// scene file.
 pub(super) fn report(
     found: &Analysis,
     path: &str,

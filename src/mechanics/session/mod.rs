@@ -185,7 +185,8 @@ impl Session {
         self.file.blocks.retain(|entry| !named(entry));
     }
 
-    /// Makes a robot hold a block. The grip point `at` is in metres; without it, it is the block's centroid.
+    /// Makes a robot hold a block. The grip point `at` is in metres; without `at`, the grip point is the centroid of
+    /// the block.
     ///
     /// # Errors
     /// If the robot or block does not exist, the point is not valid, or the robot holds another block.
