@@ -35,7 +35,7 @@ pub(super) fn document(
 ) -> Result<String, ChartError> {
     static FONTS: Once = Once::new();
     FONTS.call_once(|| {
-        // Registering fails only for a font file that cannot be read. Then drawing reports the error.
+        // Registration fails only for a font file that cannot be read. In this case drawing reports the error.
         let _ = register_font(FONT, FontStyle::Normal, Face::Sans.data());
         let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
     });
@@ -64,7 +64,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
     if !(least > 0.0 && most.is_finite() && least <= most) {
         return (-1, 1);
     }
-    // Leave a little room, so that no mark lies on the frame.
+    // Leave some space, so that no mark lies on the frame.
     let low = libm::floor(libm::log10(least) - 0.1) as i32;
     let high = libm::ceil(libm::log10(most) + 0.1) as i32;
     (low, high.max(low + 2))

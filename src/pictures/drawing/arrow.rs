@@ -49,7 +49,7 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
 /// a stroke along it does not cross the arrow between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
-    // Corners 1 to 5 of the arrow lead from one edge of the shaft around the tip to the other edge.
+    // Corners 1 to 5 of the arrow go from one edge of the shaft around the tip to the other edge.
     let corners = arrow.points().skip(1).take(5);
     Outline::line(corners)
 }
@@ -76,8 +76,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
         .segments
         .push(Segment::Line(at(neck, radius + head)));
-    // The tip lies slightly outside the circle. On the circle the head would look bent inwards, on the tangent
-    // outwards.
+    // The tip lies slightly outside the circle. With its tip on the circle, the head would look bent inwards. With its
+    // tip on the tangent, the head would look bent outwards.
     let tip = at(end, radius + 0.12 * long);
     outline.segments.push(Segment::Line(tip));
     outline

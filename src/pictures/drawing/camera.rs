@@ -40,7 +40,7 @@ impl Camera {
 
     /// Converts a point of the scene to its position on the page.
     pub fn place(&self, p: Point) -> PagePoint {
-        // Subtract before multiplying: far from the origin this has less rounding error.
+        // Subtract before multiplying, because this gives a smaller rounding error far from the origin.
         let d = p - self.corner;
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }

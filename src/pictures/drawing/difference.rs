@@ -70,7 +70,7 @@ pub fn lightness(colour: Colour) -> f64 {
 /// assert!((contrast(Colour::hex(0x767676), Colour::WHITE) - 4.54).abs() < 0.01);
 /// ```
 pub fn contrast(a: Colour, b: Colour) -> f64 {
-    // The coefficients of sRGB, rounded as in WCAG.
+    // These are the coefficients of sRGB, rounded as in WCAG.
     let luminance = |c: Colour| dot([0.2126, 0.7152, 0.0722], linear(c)) + 0.05;
     let (a, b) = (luminance(a), luminance(b));
     if a > b { a / b } else { b / a }

@@ -9,7 +9,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     if !(spacing > 0.0) {
         return lines;
     }
-    // Lines fall to the right on the page: y − x is constant along each line.
+    // Lines go down to the right on the page: y − x is constant along each line.
     let first = page.at.y - page.at.x - page.width;
     let count = ((page.width + page.height) / spacing).floor();
     for number in 0..=count as usize {

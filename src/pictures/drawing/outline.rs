@@ -60,8 +60,8 @@ impl Outline {
                 corner(0.0, h),
             ]);
         }
-        // The distance of the control points from the corner. With it the cubic curve approximates a quarter circle
-        // best.
+        // This is the distance of the control points from the corner for which the cubic curve is the best
+        // approximation of a quarter circle.
         let c = r * (1.0 - QUARTER);
         Outline {
             segments: vec![

@@ -169,8 +169,8 @@ fn ring_position(
         for part in 0..POSITIONS_PER_RING {
             let angle = TAU * part as f64 / POSITIONS_PER_RING as f64;
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-            // The side of the label that is nearest to the anchor lies on the ring, so wide labels are as near as
-            // narrow ones.
+            // The nearest side of the label lies on the ring, so wide labels are as near to the anchor as narrow
+            // labels.
             let (x, y) = (
                 cos * radius + cos * width / 2.0,
                 sin * radius + sin * height / 2.0,
@@ -202,7 +202,7 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
         rect,
         leader: needs_leader.then_some([end, anchor]),
     };
-    // Do not count one piece of ink: it is the item that the label names.
+    // Do not count one piece of ink, because this piece is the item that the label names.
     let penalty = if avoided { AVOIDED_COST } else { 0.0 }
         + INK_CROSSING_COST * others.saturating_sub(1) as f64
         + LABEL_CROSSING_COST * labels as f64;

@@ -205,8 +205,8 @@ impl Theme {
             Some(colour) => (colour, 11),
             None => (below, 15),
         };
-        // Try shades in steps of 1/20 towards black or white, whichever has more contrast. One of these two is readable
-        // on any colour.
+        // Try shades in steps of 1/20 towards black or white, whichever has the higher contrast. Either black or white
+        // is readable on any colour.
         let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
         let legible = |colour: &Colour| contrast(*colour, below) >= MIN_CONTRAST;
         (least..=20).map(shade).find(legible).unwrap_or(ink)

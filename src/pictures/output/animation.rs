@@ -53,8 +53,8 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
         .map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
     for (number, patch) in patches.iter().enumerate() {
-        // The encoder checks after each call that the frame lies on the page. So move it to the corner before its size
-        // changes.
+        // The encoder checks after each call that the frame lies on the page. Therefore move the frame to the corner
+        // before its size changes.
         writer.reset_frame_position().map_err(failed)?;
         writer
             .set_frame_dimension(patch.width, patch.height)

@@ -77,7 +77,7 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {
-        // The file may already be deleted. An error cannot be reported to anybody.
+        // The file may already be deleted. No caller can handle an error here, so it is ignored.
         let _ = fs::remove_file(path);
     }
     beside

@@ -178,7 +178,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
             format!("{}mm", number(mm * drawing.height / drawing.width)),
         ),
     };
-    // Most shapes and texts share these attributes, so write them once, here.
+    // Most shapes and texts share these attributes, so write them only once.
     svg.put(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
@@ -299,7 +299,7 @@ impl Writer<'_> {
             self.attribute("class", &xml(&group.class));
         }
         if !group.title.is_empty() {
-            // Screen readers read the parts of a group that contains titles. Any other group is one image for them.
+            // Screen readers read the parts of a group that contains titles. They treat any other group as one image.
             let is_group = holds_titles(&group.items);
             self.attribute("role", if is_group { "group" } else { "img" });
         }

@@ -44,7 +44,7 @@ pub(crate) fn apart(marks: &mut Marks) {
         return;
     }
     let original = arrows.clone();
-    // The boxes of the arrows that have been placed.
+    // `placed` has the boxes of the arrows that have already been placed.
     let mut placed = Places::sized_for(original.iter().map(space_around));
     let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -81,7 +81,7 @@ fn offset_of_least_change(
             too_close(&there, &arrows[other])
         })
     };
-    // Most arrows overlap nothing at their ideal offset.
+    // Most arrows do not overlap any other arrow at their ideal offset.
     if clear(&ideal) {
         return ideal;
     }
@@ -99,7 +99,7 @@ fn offset_of_least_change(
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
-    // A small offset is final: arrows farther away only give larger offsets.
+    // A small offset is final, because arrows farther away can only give larger offsets.
     let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));
     nearby
         .filter(|offset| offset.abs() < 0.5 * NEARBY * arrow.width)
@@ -172,7 +172,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
         .map(|(p, q)| p.2 + q.2 + gap)
         .fold(0.0, f64::max);
     let cross = |d: Vector| along.x * d.y - along.y * d.x;
-    // Two straight axes are nearest at an end of their common range.
+    // Two straight axes are nearest to each other at an end of their common range.
     let ends = [
         from.max(0.0).min(long),
         (from + project(v)).max(0.0).min(long),

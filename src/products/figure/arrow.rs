@@ -159,7 +159,7 @@ impl Marks {
         // The torque arrow of a load has a least length, so it is always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // One scale serves forces in N and torques in N·m.
+        // Forces in N and torques in N·m have the same scale.
         let amount = round_above(least / unit * self.newtons_per_unit);
         let parts = [
             ("force", forces, units.force()),
@@ -204,7 +204,7 @@ pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let tip = arrow.at + reach;
     let neck = tip - reach * (long / length);
     let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
-    // The head is a triangle. Approximate it by a strip around its axis with two thirds of its width.
+    // The head is a triangle. It is approximated by a strip along its axis with two thirds of its width.
     let head = from_segment(neck, tip, p) - wide / 3.0;
     shaft.min(head)
 }

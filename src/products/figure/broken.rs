@@ -156,7 +156,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
         entries.push(ListEntry::numbered(number, words));
     }
     entries.extend(ListEntry::rest(sketch.problems.list.len(), "problems"));
-    // Near misses are only found if each body is valid. Overlaps do not matter.
+    // Gaps that are nearly contacts are only found if each body is valid. Bodies may overlap.
     let scene = sketch.scene.as_ref();
     let near = scene.map(|scene| Interfaces::new(scene).near_misses);
     let near = near.unwrap_or_default();

@@ -99,7 +99,7 @@ impl PanelContent for CarriedForces {
                 "how it begins to fall just beyond this edge, enlarged".into(),
             ));
         }
-        // The scale of the forces: a round force of about a third of the reach of the polygon.
+        // The scale of the forces is a round force with an arrow of at most 64 pixels.
         let pixels_per_newton = first.scale * unit / context.unit;
         let newtons = round_below(64.0 / pixels_per_newton);
         if newtons > 0.0 && newtons.is_finite() {
@@ -178,7 +178,7 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     if !plan.is_apart {
         let at = pen.camera.place(plan.zero);
         if !plan.capacity.contains([0.0, 0.0]) {
-            // One of the carried forces: it shows where their tail is.
+            // This arrow is one of the carried forces. It shows that the tails of all forces are at this point.
             let to = pen.camera.place(plan.middle());
             let along = (to.x - at.x, to.y - at.y);
             ink.arrow(at, along, 2.0);
@@ -279,10 +279,10 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> G
     let fill = theme.page.mixed(theme.motion, DISPLACED_OPACITY);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     group = group.with(Path::filled(goes, fill).with_stroke(Stroke::new(edge, line.width)));
-    // The direction of the force beyond the edge.
+    // This arrow has the direction of the force beyond the edge.
     let own = moved.get(plan.capacity.block.0).and_then(Option::as_ref);
     let from = place(own.map_or(plan.point, |d| d.moved(plan.point)));
-    // On a narrow page a shorter arrow would only be a head.
+    // On a narrow page, a shorter arrow would only be a head.
     let length = (0.2 * shown.width.min(shown.height)).max(17.0);
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));

@@ -105,7 +105,7 @@ impl Sentences<'_> {
         });
         match (hinge, slip) {
             (Some((_, other)), _) => {
-                // With a kernel a block does not turn about its corners, but about points between them.
+                // With a safety kernel, a block turns about points between its corners and not about the corners.
                 let about = if scene.kernel > 0.0 {
                     "hinge"
                 } else {

@@ -223,7 +223,7 @@ impl PanelContent for Comparison {
             names.collect()
         };
         let (came, went) = (names(&came), names(&went));
-        // Blocks that have the same name in both frames, but another outline, weight or load.
+        // These blocks have the same name in both frames, but different outlines, weights or loads.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
         let alone = |names: &[String]| -> Vec<String> {
             names

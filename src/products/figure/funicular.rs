@@ -249,7 +249,7 @@ impl BlockForces<'_> {
             let vertex = intersection(at, force, load, tolerance)?;
             let ends_here = last.is_none() && number + 1 == loads.len();
             if ends_here && matches!(load.origin, ForceOrigin::Load(_)) {
-                // This is the last load and there is no other joint: the line ends at the point where the load acts.
+                // This is the last load and there is no other joint, so the line ends at the point where the load acts.
                 path.extend(self.segment(load.origin, (load.at, at), load.force));
                 continue;
             }
@@ -383,8 +383,8 @@ fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Poin
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
     let between = load.at - at;
-    // Nearly parallel lines are the same line or do not meet, because only rounding errors would determine their
-    // intersection.
+    // Nearly parallel lines either are the same line or do not meet. Rounding errors would determine the position of
+    // any other intersection.
     if sine.abs() < LENGTH_TOL {
         let off = cross(between, a).abs();
         return (off <= near).then(|| at + a * between.dot(&a));

@@ -73,7 +73,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
     let opening = relative.map(|v| v.dot(&interface.normal));
-    // An end keeps contact if it does not open, or only by the dilation μ of sliding.
+    // An end stays in contact if it does not open, or if it opens only by the dilation μ of sliding.
     let touches = [0, 1].map(|k| {
         let free = opening[k] - interface.friction * along[k].abs();
         opening[k] <= noise || free.abs() <= noise
@@ -82,7 +82,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     let turns_about = match touches {
         [true, false] => Some(points[0]),
         [false, true] => Some(points[1]),
-        // The two points nearly coincide. Both keep contact while the bodies turn about them.
+        // The two points nearly coincide. Both stay in contact while the bodies turn about them.
         [true, true] if turning > 5.0 * noise => Some(points[0]),
         _ => None,
     };

@@ -184,7 +184,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
                 .with(casing(rests.clone()))
                 .with(Path::stroked(rests, rest(theme, bold)));
         }
-        // A safe part without length is a point: draw it as a dot.
+        // A safe part of length 0 is a point, which is drawn as a dot.
         let path = if scene.kernel < 1.0 && length > 0.0 {
             let stroke = Stroke::new(theme.safe, bold).mitred();
             Path::stroked(Outline::line(points), stroke)

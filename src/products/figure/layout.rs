@@ -195,7 +195,7 @@ impl Row<'_> {
             _ => 360.0,
         };
         let high = f64::min(high, context.options.height.unwrap_or(f64::INFINITY));
-        // With a given page width or many columns the available width limits the scale. Otherwise panels are at least
+        // With a given page width or many columns, the available width limits the scale. Otherwise panels are at least
         // as wide as captions need.
         let wide = match context.options.width {
             Some(_) => room,

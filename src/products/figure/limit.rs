@@ -105,7 +105,7 @@ impl<'a> Marked<'a> {
 
 /// Returns the joint nearest to its limit; `None` if every joint is far from its limit.
 fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
-    // If several shares are equal except for rounding, take the first, so that noise does not change the name.
+    // If several shares are equal except for rounding, take the first, so that rounding errors do not change the name.
     let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
     let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)

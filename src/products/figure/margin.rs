@@ -218,7 +218,7 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
             let (sin, cos) = sin_cos_degrees(edge);
             Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
         }
-        // The ratio of both arrows is the ratio of horizontal load and weight.
+        // The ratio of the lengths of both arrows is the ratio of horizontal load and weight.
         Toward::HorizontalLoad => quarter_turn(down) * edge,
         Toward::LoadFactor => return None,
     };

@@ -97,7 +97,7 @@ impl<'a> Pen<'a> {
             camera,
             line: (unit / FULL_OUTLINE_UNIT_EDGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
             casing: (unit / FULL_CASING_UNIT_EDGE).clamp(1.0 / 9.0, 1.0) * widths.casing,
-            // With very small blocks, wider arrows would cover everything.
+            // With very small blocks, wider arrows would hide the whole picture.
             wider: if unit < MIN_READABLE_UNIT_EDGE {
                 1.0
             } else {

@@ -190,8 +190,8 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let drawn = Group::with_class(class).titled(title);
         drawn.with(Path::stroked(line, stroke)).into()
     };
-    // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open polygon the
-    // second join would look like the gap.
+    // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open polygon,
+    // the second of these lines would look like the gap.
     let closed = closed(marks);
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
         let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
@@ -230,7 +230,7 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Two sides overlap if the middle and the first quarter point of one nearly lie on the other.
+    // Two sides overlap if two points of one side nearly lie on the other side: its middle and its first quarter point.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
@@ -287,7 +287,8 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     };
     let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // The left edge of the polygon is next to the structure and its ground. The middle of both is at the same height.
+    // The left edge of the polygon is next to the structure and its ground. The middle of the polygon is at the height
+    // of the middle of the structure.
     let right = view::ground_shown(scene, unit(scene, None))
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);

@@ -25,7 +25,7 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     // In a zoomed picture use the smallest block, because small blocks must be visible next to large neighbours.
     let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
     let middle = sizes.get(middle).copied().unwrap_or(1.0);
-    // There are small blocks next to a very large one. Arrows as long as a small block would be nearly invisible.
+    // If there are small blocks next to a very large block, arrows as long as a small block would be nearly invisible.
     let uneven = zoom.is_none() && mean > UNEVEN_RATIO * middle;
     let typical = 0.6 * if uneven { mean } else { middle };
     match scene.lattice {

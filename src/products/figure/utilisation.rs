@@ -315,7 +315,8 @@ fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
-    // The scale of the page is the same in all directions, so a unit normal remains one.
+    // The scale of the page is the same in all directions, so a unit normal of the scene is also a unit normal on the
+    // page.
     let (x, y) = (
         contact.interface.normal.x * half,
         -contact.interface.normal.y * half,

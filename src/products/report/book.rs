@@ -54,7 +54,7 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
         return Err(invalid("it has no book after the context"));
     };
     let mut problems = Vec::new();
-    // mdBook 0.5 names the chapters `items`, earlier versions `sections`.
+    // mdBook 0.5 uses the key `items` for the chapters, earlier versions use `sections`.
     let key = if book["items"].is_array() {
         "items"
     } else {

@@ -163,7 +163,7 @@ impl Writer {
     }
 
     fn figure(&mut self, figure: &Figure) -> Result<(), ReportError> {
-        // Text is drawn as outlines: the reader may have other fonts.
+        // Text is drawn as outlines, because the reader may have other fonts.
         let options = Options {
             words: Words::Outlines,
             ..Options::default()
@@ -188,7 +188,7 @@ impl Writer {
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
-        // A share is within 0 … 1.
+        // A share is from 0 to 1.
         ((share * BAR as f64) as usize).min(BAR - 1)
     };
     let mut cells = ['─'; BAR];
@@ -220,7 +220,7 @@ fn table(out: &mut String, grid: &Grid) {
     if grid.lines.is_empty() {
         return;
     }
-    // Columns with pictures are left out: a Markdown table contains text only.
+    // Columns with pictures are left out, because a Markdown table contains only text.
     let pictured = |column: &usize| {
         let mut cells = grid.lines.iter().filter_map(|l| l.cells.get(*column));
         cells.any(|c| c.picture.is_some())

@@ -245,13 +245,14 @@ impl Body {
 /// valid scenes.
 fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, ReportError> {
     let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
-    // Placeholder numbers suffice here: the page numbers in the table of contents do not change its length.
+    // Placeholders for page numbers are sufficient here, because the page numbers do not change the length of the table
+    // of contents.
     let first = if is_short {
         0
     } else {
         print::head(head, &vec![999; scenes.len()]).len()
     };
-    // `starts` is indexed by the numbers of the scenes, since the scenes may have been sorted.
+    // `starts` is indexed by the numbers of the scenes, because the scenes may have been sorted.
     let mut starts = vec![0; scenes.len()];
     let mut next = first;
     for (row, pages) in head.rows.iter().zip(&scenes) {

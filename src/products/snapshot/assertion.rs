@@ -135,7 +135,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         .filter(|p| references.contains(&p.file))
         .collect();
     if may_write() {
-        // If the folder cannot be created, writing the files below reports the error.
+        // If the folder cannot be created, the code below reports the error when it writes the files.
         let _ = std::fs::create_dir_all(&folder);
     }
     let lock = store::lock_folders([folder], access());

@@ -124,8 +124,7 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
-        // The numbers of both are rounded: those of the reference when it was written, those of `facts` when they
-        // were made.
+        // Numbers are rounded both in the reference, when it was written, and in `facts`, when they were made.
         let changes = Facts::read(text)
             .map_err(|error| error.to_string())?
             .changes(facts);

@@ -184,7 +184,7 @@ impl Search {
         for entry in entries {
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
-            // `file_type` does not follow symbolic links, which may form a cycle.
+            // `file_type` does not follow symbolic links. Such links may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
             match path
                 .extension()
@@ -315,7 +315,7 @@ impl Search {
                 return None;
             }
         };
-        // Skip JSON files of other programs. A file with references counts as a scene even without the key
+        // Skip JSON files of other programs. A file that has references counts as a scene even without the key
         // `"drystone"`, so that the missing key is reported.
         (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
@@ -328,7 +328,7 @@ impl Search {
         for file in expected.keys() {
             stems.insert(file.with_extension(""));
         }
-        // Facts and pictures contain a mark that shows that they are references. Files with the same stem belong to
+        // Facts and pictures contain a mark that identifies them as references. Files with the same stem belong to
         // them.
         let marked: Vec<&PathBuf> = self
             .others

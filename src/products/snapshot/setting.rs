@@ -103,7 +103,7 @@ impl Settings {
         for (key, value) in table.get_ref() {
             reading.key(key, value);
         }
-        // Sort the problems by their place in the file; the table has another order.
+        // Sort the problems by their position in the file, because the table has another order.
         reading.problems.sort();
         if reading.problems.is_empty() {
             return Ok(reading.settings);

@@ -117,8 +117,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
             }
         }
         let square = dot(&direction, &direction);
-        // Directions are rounded to 1e-16, so what remains of a dependent direction has a squared length
-        // of about 1e-32 of the original. The threshold 1e-20 separates dependent from independent directions.
+        // Directions are rounded to 1e-16. The rest of a dependent direction therefore has a squared length of about
+        // 1e-32 of the original. The threshold 1e-20 separates dependent from independent directions.
         if square.near() > 1e-20 * whole {
             axes.push(Axis {
                 place,

@@ -62,8 +62,8 @@ impl Reference {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
             return match least > EXACT * largest {
-                // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of
-                // 2. A small total of large forces is then perhaps not known to twelve digits.
+                // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of 2.
+                // If the total is small and the forces are large, the total may not be known to twelve digits.
                 true if optimum.gap < 0.5 => Reference {
                     verdict: Verdict::Unstable,
                     total: (optimum.gap <= MAX_GAP).then_some(least),

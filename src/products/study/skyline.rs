@@ -59,7 +59,7 @@ impl Skyline {
             let row = &mut rest[0];
             let start = self.first[i];
             let whole = row[i - start].abs().near();
-            // Compute row i of L·D from the finished rows above, then divide it by D.
+            // Compute row i of L·D from the rows above, which are finished. Then divide row i by D.
             for j in start..i {
                 let from = start.max(self.first[j]);
                 let mut sum = row[j - start];

@@ -27,7 +27,7 @@ pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
 
 /// Names the point and the block: `at (1, 2) on block a`.
 pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
-    // A coordinate that is only the rounding of the block's size is 0.
+    // A coordinate that is only a rounding error relative to the block's size is written as 0.
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
     let plain = |v: f64| match v.abs() <= 1e-9 * bounds.diagonal() {
         true => digits(0.0),

@@ -22,12 +22,12 @@ fn in_chosen_unit(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return with_prefix(value, unit);
     }
-    // Equal forces get equal digits: see `with_prefix`.
+    // Equal forces must have equal digits; see `with_prefix`.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let sign = if value < 0.0 { "−" } else { "" };
     let size: f64 = rounded.parse().unwrap_or(value);
     if (1e-4..1e7).contains(&size) {
-        // The shortest decimal that reads back as the rounded number.
+        // `size` is the shortest decimal number that gives the rounded number when it is read.
         return format!("{sign}{size} {unit}");
     }
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
@@ -44,9 +44,9 @@ fn with_prefix(value: f64, unit: &str) -> String {
             format!("unlimited {unit}")
         };
     }
-    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. A rounding error of the solver
-    // (below 1e-9) may lie on either side of a tie. The factor moves values just below a tie above it, so that equal
-    // forces get equal digits.
+    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. A value exactly between two
+    // roundings may have a rounding error of the solver (below 1e-9) in either direction. The factor moves values just
+    // below this limit above it, so that equal forces have equal digits.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
@@ -184,7 +184,7 @@ pub fn digits(x: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{x:.3e}");
     }
-    // `first` is the exponent of the first digit; three more digits follow.
+    // `first` is the exponent of the first digit. Three more digits follow it.
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
     let text = format!("{x:.decimals$}");

@@ -253,7 +253,7 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
     for (is_high, end) in sensitivity.ends() {
         let before = value(kind, end.value);
         let mut changes = most_effective(scene, found, end, is_high, 10);
-        // A change that is too small for the digits says nothing.
+        // Leave out a change that is too small to change the written digits.
         changes.retain(|change| value(kind, change.after) != before);
         let name = name(kind, is_high);
         lines.push(match changes.is_empty() {

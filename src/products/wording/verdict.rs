@@ -42,7 +42,7 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
 /// verdict. Empty for all other frames.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
-        // What decides has to fit in two lines. Remedies are in the report and on the terminal.
+        // The text has to fit in two lines, so it has only the reason. Remedies are in the report and on the terminal.
         let doubt = found.doubt();
         return doubt.split("; ").next().unwrap_or_default().to_owned();
     }

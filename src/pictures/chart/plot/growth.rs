@@ -140,7 +140,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
         *height = (*height).max(free);
         free = *height + NAMES_APART;
     }
-    // From bottom to top: move names up again, so that none is far from its line.
+    // From bottom to top: move names up again, so that no name is far from its line.
     let mut below = (SIZE.1 - 66) * FINE;
     for (height, end) in heights.iter_mut().zip(ends).rev() {
         *height = (*height)

@@ -28,7 +28,7 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
             (ten(low)..ten(high)).log_scale(),
         )?;
     let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
-    // The number of labels is an upper bound for plotters, which counts both ends.
+    // plotters draws at most this number of labels, including both ends.
     let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
     axes.configure_mesh()
         .x_labels(every(left, right))

@@ -95,7 +95,8 @@ impl Ink {
         for y in cells.top..=cells.bottom {
             for x in cells.left..=cells.right {
                 for entry in &grid.lists[y * grid.columns + x] {
-                    // A piece in several cells is tested in the first cell that both it and the box touch.
+                    // If a piece is in several cells, it is tested only in the first cell that the piece and the box
+                    // both touch.
                     let first = x == cells.left.max(entry.left) && y == cells.top.max(entry.top);
                     if first && tested(&self.pieces[entry.number]) {
                         return true;
@@ -167,8 +168,8 @@ impl Ink {
     /// True if the rectangle does not overlap any ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // The bounding boxes overlap, so no side of the rectangle separates the two. Only the sides of the piece remain
-        // to be tested.
+        // The bounding boxes overlap, so no side of the rectangle separates the piece from the rectangle. Only the
+        // sides of the piece must be tested.
         let meets = |piece: &Piece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))

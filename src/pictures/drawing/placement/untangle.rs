@@ -18,7 +18,7 @@ pub(super) fn untangle(
     placed: &mut [Option<Placed>],
     avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
-    // The label of a request at the position of another label; `None` if it does not fit there.
+    // Moves the label of a request to the position of another label; `None` if the label does not fit there.
     let moved = |number: usize, to: PageRect| {
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
@@ -28,7 +28,7 @@ pub(super) fn untangle(
         let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
         free.then(|| Placed::with_leader(rect, request.anchor))
     };
-    // Thousands of labels may have no position. They cross nothing, so only the others are compared.
+    // Thousands of labels may have no position. They cross nothing, so only labels with a position are compared.
     let numbers: Vec<usize> = (0..placed.len()).filter(|i| placed[*i].is_some()).collect();
     let mut present: Vec<Option<Placed>> = numbers.iter().map(|i| placed[*i]).collect();
     let moved = |number: usize, to: PageRect| moved(numbers[number], to);

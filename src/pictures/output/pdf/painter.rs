@@ -52,7 +52,7 @@ impl PdfPainter<'_, '_> {
             return;
         };
         let (fill, stroke) = (path.fill().and_then(fill), path.stroke().and_then(stroke));
-        // PDF draws the stroke above the fill, but most figures need it below, so draw them separately.
+        // PDF draws the stroke above the fill. Most figures need the stroke below the fill, so draw both separately.
         for (fill, stroke) in passes(fill, stroke, path.paint_order()) {
             self.surface.set_fill(fill);
             self.surface.set_stroke(stroke);

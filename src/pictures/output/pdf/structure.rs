@@ -15,7 +15,7 @@ type Rows = Vec<(usize, Vec<Node>)>;
 /// Builds the tag tree of a document: cells are put in rows, and rows in tables.
 pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     let mut nodes = Vec::new();
-    // The table whose cells are being collected: its number, and its rows with their numbers.
+    // `open` is the table whose cells are collected: its number, and its rows with their numbers.
     let mut open: Option<(usize, Rows)> = None;
     for (role, content) in tags {
         if let Some(Role::Cell { table, row, head }) = role {

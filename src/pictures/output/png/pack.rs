@@ -25,8 +25,8 @@ pub(super) fn encode(
     let rows = fewest(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    // Compress all rows at once. For single rows the compressor would clear its buffers each time, which doubles the
-    // cost.
+    // Compress all rows at once. If rows were compressed one by one, the compressor would clear its buffers each time,
+    // which doubles the cost.
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
     writer
         .write_chunk(png::chunk::IDAT, &packed)
@@ -125,7 +125,8 @@ impl Table {
     fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
         let bits =
             u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
-        // Multiplicative hashing with 2³² divided by the golden ratio: the high bits depend on all channels.
+        // Multiplicative hashing with 2³² divided by the golden ratio. The high bits of the product depend on all
+        // channels.
         let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
         while let Some(number) = self.places[place] {
             if self.found[usize::from(number)] == colour {

@@ -86,7 +86,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
         }
     }
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
-        // Version 3: a table without glyph names, because the glyph indices have changed.
+        // Version 3 is a table without glyph names. The names are left out because the glyph indices have changed.
         let mut head = post
             .as_bytes()
             .get(..32)

@@ -58,7 +58,7 @@ impl Steps {
         let to = hundredths(to);
         let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
         match (x, y) {
-            // Do not omit a line without length: with round ends it is drawn as a dot.
+            // Do not omit a line of length 0, because with round ends it is drawn as a dot.
             (_, 0) => self.put('h', &[x]),
             (0, _) => self.put('v', &[y]),
             _ => self.put('l', &[x, y]),
@@ -86,8 +86,8 @@ impl Steps {
     }
 
     fn put(&mut self, letter: char, numbers: &[i64]) {
-        // Omit a command letter that equals the last one. Always write `M`, because coordinates after it would mean a
-        // line.
+        // Omit a command letter that equals the previous letter. Always write `M`, because further coordinates after
+        // `M` would mean a line.
         let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
         if !stated {
             self.data.push(letter);
@@ -121,7 +121,7 @@ fn hundredths(point: PagePoint) -> (i64, i64) {
             value.is_finite(),
             "a drawing holds the number {value}; every number of a drawing is finite"
         );
-        // `as` saturates, but only for numbers far outside any page.
+        // `as` saturates only for numbers far outside any page.
         (value * 100.0).round() as i64
     };
     (whole(point.x), whole(point.y))

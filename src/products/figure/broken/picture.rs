@@ -35,7 +35,7 @@ pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let shown = [corners(true).or_else(|| corners(false)), places];
     let around = shown.into_iter().flatten().reduce(Bounds::union)?;
     let size = around.width().max(around.height());
-    // A single point gives no scale.
+    // The scale cannot be computed for a single point.
     (size > 0.0 && size.is_finite()).then(|| around.grown(0.1 * size))
 }
 

@@ -279,7 +279,7 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
         Vector::new(cos, sin) * cut
     };
     let mut ring: Vec<Vector> = (0..ROUND).map(corner).collect();
-    // The set as a polygon that ends far beyond the circle.
+    // `outline` is the set as a polygon that ends far beyond the circle.
     let mut outline = corners.clone();
     match capacity.rays[..] {
         [only] if corners.len() == 1 => return vec![*from, from + only * cut],
@@ -336,7 +336,7 @@ fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
         return Vec::new();
     }
     let mut chosen: Vec<usize> = capacity.longest_edges();
-    // Of edges with the same mechanism, as both sides of a segment, the first.
+    // Unbounded edges come first, then the longest edges.
     chosen.truncate(MOST_PICTURES);
     // Numbers run anticlockwise.
     chosen.sort_unstable();
@@ -355,7 +355,7 @@ fn sides(
         let along = Vector::new(-edge.normal.y, edge.normal.x);
         let known = [force(edge.ends[0]), force(edge.ends[1])];
         let base = known[0].or(known[1]).unwrap_or(edge.normal * edge.limit);
-        // Where the line of the edge leaves the circle.
+        // Intersection of the line of the edge with the circle at which forces are cut off.
         let far = |sign: f64| {
             let (b, c) = (base.dot(&along), base.norm_squared() - cut * cut);
             let root = (b * b - c).max(0.0).sqrt();

@@ -21,7 +21,7 @@ impl<'a> Clearance<'a> {
         let blocks = frame.placed.iter();
         let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
         let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
-        // Schematic outlines overlap at rest already.
+        // Schematic outlines already overlap at rest.
         let is_drawn =
             |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
         let is_listed = scene.lists_contacts();
@@ -49,7 +49,7 @@ impl<'a> Clearance<'a> {
             let near = placed[number + 1..].iter();
             let near = near.take_while(|other| other.2.min.x <= bounds.max.x);
             for (b, other, others) in near {
-                // Two bodies with the same motion, or both at rest, do not move relative to each other.
+                // Two bodies with the same motion, or two bodies at rest, do not move relative to each other.
                 if motion(*a) != motion(*b)
                     && bounds.intersects(*others)
                     && overlap_share(one, other) > MAX_OVERLAP

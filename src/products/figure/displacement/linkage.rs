@@ -220,7 +220,7 @@ impl Linkage {
                 let way = self.place(first, poses, point) - self.place(second, poses, point);
                 system.gaps[row] = normal.dot(&way);
                 system.add(row, first, normal, self.arm(first, poses, point));
-                // The line turns with the second body about its centre.
+                // The line turns with the second body about the centre of this body.
                 let arm = self.arm(second, poses, point) + way;
                 system.add(row, second, -normal, arm);
                 1
@@ -299,7 +299,7 @@ fn conditions(
         return Vec::new();
     }
     match joint.touch {
-        // The bodies slide on a whole face.
+        // The bodies slide along a whole face.
         None => vec![
             (false, Condition::Parallel),
             (false, Condition::OnLine(joint.at, normal)),

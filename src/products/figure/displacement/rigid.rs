@@ -20,9 +20,9 @@ impl Displacement {
     pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
         let angle = amplitude * motion.spin;
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        // The rotation about the instantaneous centre is a rotation about the centroid plus the chord of the centroid's
-        // arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first terms of the series are exact up to
-        // rounding, and they include a pure translation.
+        // The rotation about the instantaneous centre equals a rotation about the centroid, followed by the translation
+        // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first
+        // terms of the series are exact except for rounding. They also cover a pure translation.
         let (along, aside) = if angle.abs() < 1e-6 {
             (1.0, 0.5 * angle)
         } else {

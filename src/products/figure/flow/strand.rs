@@ -246,7 +246,7 @@ impl Sharing {
             for to in &outs {
                 let (start, end) = (from.force.norm(), to.force.norm());
                 let widths = [start * end / leaving, end * start / entering];
-                // A strand begins along the force that enters, and ends against the force that leaves.
+                // A strand begins in the direction of the entering force. It ends opposite to the leaving force.
                 let first = self.end(from.at, from.force, &outs, to, leaving);
                 let last = self.end(to.at, -to.force, &ins, from, entering);
                 strands.push(self.strand(from, to, [first, last], widths));

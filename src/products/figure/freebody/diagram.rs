@@ -174,7 +174,7 @@ impl Diagram<'_> {
                 };
                 arrows.push(Arrow {
                     title: format!("{what} {} on block {}", symbol.stated(), self.block_name()),
-                    // Several arrows of one unknown have one common name, at the first of them.
+                    // Several arrows of one unknown have a common name, which is at the first of these arrows.
                     symbol: (self.detail == Detail::Parts || part == 0).then_some(symbol),
                     at: corner.at,
                     along: self.on_page(direction, length),

@@ -124,7 +124,7 @@ impl<'a> Sheet<'a> {
         let guided = guided(analysis, frame, block, &contacts);
         let left = if guided { MARGIN + ASIDE } else { MARGIN };
         let room = (width - MARGIN - left).max(60.0);
-        // Arrows and their names need space (`pads`) around the shown part; compute the scale that remains.
+        // Arrows and their names need space (`pads`) around the shown part. Compute the scale for the remaining space.
         let fitted = |pads: [f64; 4]| {
             let across = (room - pads[0] - pads[2]).max(40.0) / view.width();
             let scale = across.min(LARGEST / view.height());

@@ -92,7 +92,7 @@ impl Sheet<'_> {
         } else {
             self.camera.rect(self.view)
         };
-        // Inside another body the name would seem to be the name of that body. The heading names the block in any case.
+        // Inside another body, the name would seem to be the name of that body. The heading also names the block.
         let covers_other_block = |_: usize, rect: PageRect| {
             let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
             let at = self.camera.back(at);

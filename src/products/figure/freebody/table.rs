@@ -174,7 +174,7 @@ impl Table {
             }
             y += ROW * size;
         }
-        // Leave half a row of space below.
+        // Leave space of half a row below the table.
         (group, y - top.y - 0.9 * size)
     }
 }

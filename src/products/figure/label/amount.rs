@@ -145,7 +145,8 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let largest = |kind: fn(ArrowKind) -> bool| {
         let own = arrows.iter().filter(|a| kind(a.kind) && pen.seen(a));
         own.reduce(|most, a| {
-            // If several forces are equal except for rounding, take the first, so that noise does not move a label.
+            // If several forces are equal except for rounding, take the first of them, so that rounding errors do not
+            // move a label.
             if a.force.norm() > (1.0 + SAME_FORCE) * most.force.norm() {
                 a
             } else {
@@ -184,7 +185,8 @@ fn centres_along(
         return Vec::new();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
-    // The distance of a label's centre from a line with this normal that touches the label.
+    // `reach` returns the distance of a label's centre from a line that touches the label. (x, y) is the normal of the
+    // line.
     let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
     let mut middles = Vec::new();
     for share in [0.5, 0.7, 0.3, 0.9, 0.1] {

@@ -43,7 +43,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     } else {
         name_size(pen, pen.unit())
     };
-    // The name of a small block is nearer to it.
+    // The first positions for the name of a small block are nearer to the block.
     let extent = block.body.polygon.bounds().diagonal();
     let request = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
@@ -108,8 +108,8 @@ fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    // Rounded distances are equal if they only differ by rounding errors. The sort is stable, so the order of the grid
-    // then decides.
+    // Round the distances, so that distances that differ only by rounding errors are equal. The sort is stable, so
+    // equal distances keep the order of the grid.
     let step = DISTANCE_STEP * whole.diagonal();
     let rank = |p: &Point| ((p - middle).norm() / step).round();
     let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();

@@ -31,7 +31,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     }
     let drawn = DrawnArrows::new(context, unit);
     entries.extend(block_colours(context, &drawn));
-    // In small figures weights have no ring at their tails, so there is nothing to explain.
+    // In small figures, weights have no ring at their tails, so the legend does not explain this ring.
     if !options.printed()
         && unit >= MIN_READABLE_UNIT_EDGE
         && drawn.any(|kind| kind == ArrowKind::Weight)

@@ -88,7 +88,7 @@ pub(super) fn amplitudes(
     let mut items = vec![written(low, at, theme)];
     let parts = 64;
     for part in 0..parts {
-        // Each part reaches to the end of the bar, and the next part covers it, so that there are no gaps.
+        // Each part extends to the end of the bar, and the next part covers it. The bar therefore has no gaps.
         let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
         let rect = PageRect {
             at: at.moved(start + x, -5.0),

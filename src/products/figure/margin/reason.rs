@@ -65,7 +65,7 @@ fn parameter(toward: Toward) -> &'static str {
 /// Describes the margin of a frame that stands: the end of the interval nearest to the present value. For the load
 /// factor, also describes the least factor.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
-    // Below the least factor on its loads a frame falls, but it is not what loads may grow to.
+    // The frame also falls below the least factor on its loads. That factor does not limit how much the loads may grow.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {

@@ -48,7 +48,7 @@ impl ArrowMaker<'_> {
                 }
                 let vector = self.missing_vector(&scale, block, force);
                 let width = self.width(look.1, vector);
-                // The figures of the source begin every arrow at its point.
+                // In the figures of the thesis, every arrow begins at its point of action.
                 let at = match self.options.printed() {
                     true => at,
                     false => self.on_own_side(kind, block, at, vector, width),
@@ -120,7 +120,7 @@ impl ArrowMaker<'_> {
     ) -> Point {
         match kind {
             ArrowKind::MissingPull(_) => {
-                // The heads of the pair stay apart by a little more than the gap between arrows.
+                // The heads of both arrows are apart by a little more than the gap between arrows.
                 let length = vector.norm();
                 at - vector * ((length + 0.6 * apart::GAP * width) / length)
             }

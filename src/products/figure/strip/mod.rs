@@ -42,8 +42,8 @@ pub(crate) fn strip(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
-    // Some names do not fit into their blocks. Draw the figure again with space around the structure, and keep it if
-    // this helps at least half of these names.
+    // Some names do not fit into their blocks. Draw the figure again with space around the structure. Keep this figure
+    // if it has space for at least half of these names.
     let (across, up) = SPACE_FOR_NAMES;
     let roomy = context.with_room(across / scale, up / scale);
     let (roomier, still, _) = drawn(&roomy);

@@ -59,7 +59,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
             }
         }
     }
-    // Each chain was walked from both of its ends.
+    // Each chain has been found twice, once from each end. Keep only one of both.
     let place = |joint: usize| across.dot(&found.contacts[joint].resultant.at.coords);
     chains.retain(|chain| {
         let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);

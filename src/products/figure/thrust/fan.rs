@@ -215,7 +215,7 @@ impl Fan {
                 below = at.y;
             }
         }
-        // The pole distance is the thrust.
+        // The distance of the pole from the load line is the thrust.
         let across = quarter_turn(scene.down());
         let thrust = quantity(self.chain.thrust(across), scene.units.force());
         let ends = self.vertices.iter().copied().chain([self.pole]);

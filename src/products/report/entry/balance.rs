@@ -246,7 +246,7 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
     let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
     for force in forces {
         let mut what = force.what.clone();
-        // Smaller torques are rounding of the solver.
+        // Smaller torques are rounding errors of the solver.
         if force.torque.abs() > TORQUE_TOL * (1.0 + force.force.norm()) {
             let stated = moments.with_unit(force.torque);
             what.push_str(&format!(", and a torque of {stated}"));

@@ -143,7 +143,7 @@ fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
 
 fn bar_end(margin: &StatedMargin<'_>, end: &End) -> BarEnd {
     match end {
-        // A kernel is never above 1.
+        // A kernel cannot be larger than 1.
         End::Unbounded if margin.parameter == Parameter::Kernel => BarEnd::Domain,
         End::Unbounded => BarEnd::Open,
         End::Unconfirmed { .. } => BarEnd::Unconfirmed,

@@ -103,7 +103,7 @@ fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Sect
                 alone(side, number, drawing, only_in(counts, number))
             }
         };
-        // `sheet::empty` sees one scene only; letters are needed if either scene has several steps.
+        // `sheet::empty` knows only one scene, but letters are needed if either scene has several steps.
         section.letter = if several {
             letter(number)
         } else {

@@ -17,7 +17,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
             let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
             bars.first().map_or(1.0, |bar| bar.reserve)
         };
-        // If margins are equal, the last step governs: it has the most blocks.
+        // If margins are equal, the last of these steps governs, because it has the most blocks.
         let steps = (0..analysis.frames.len()).rev();
         steps
             .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))

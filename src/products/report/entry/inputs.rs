@@ -83,7 +83,7 @@ fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     }
     let volume = own.body.polygon.area() * scene.thickness;
     let density = own.weight / (scene.gravity.norm() * volume);
-    // Seven digits remove the rounding error of this division, so that equal densities compare as equal.
+    // Rounding to seven digits removes the rounding error of this division, so that equal densities compare as equal.
     density
         .is_finite()
         .then(|| format!("{density:.6e}").parse().unwrap_or(density))

@@ -126,7 +126,7 @@ impl<'a> Ranking<'a> {
         let metres = self
             .units
             .lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
-        // As exact as the lengths of the joints, in which it is counted.
+        // The offset has the same decimals as the lengths of the joints, because it is measured along them.
         let offs = self
             .units
             .lengths(contacts().map(|c| 0.5 * c.interface.length()));
@@ -263,7 +263,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let off = (contact.resultant.at - interface.middle())
         .dot(&interface.tangent())
         .abs();
-    // With a kernel of 1 the resultant may act in the middle only.
+    // With a kernel of 1, the resultant may act only in the middle.
     let share = if half > 0.0 {
         (off / half).min(1.0)
     } else {

@@ -41,7 +41,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
         Verdict::Undecided => None,
         Verdict::Unstable => {
             let mut said: Vec<String> = unsupported_phrase(scene, found).into_iter().collect();
-            // The mechanism that the figure shows.
+            // This is the mechanism that the figure shows.
             let shown = alone(analysis, number).elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))

@@ -46,7 +46,7 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
 fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
     let id = format!("scene-{number}-step-{place}");
     let label = format!("{} {}", section.letter, section.title);
-    // A landmark needs a name that no other has.
+    // The name of a landmark must be unique on the page.
     let label = match label.trim() {
         "" => None,
         label => Some(format!("Scene {number}: {label}")),
@@ -173,7 +173,7 @@ fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
         mark: Some(mark.to_owned()),
         ..Options::default()
     };
-    // Text that names its fonts needs no layout, so this cannot fail.
+    // Text that names its fonts needs no layout, so this call cannot fail.
     PreEscaped(svg::write_with(&drawing, &options).unwrap_or_else(|_| svg::write(&drawing)))
 }
 
@@ -199,7 +199,7 @@ fn chart(of: &Chart) -> Markup {
             figure.chart.study { div.paper.always { (PreEscaped(&of.svg)) } figcaption { (of.caption) } }
         };
     }
-    // Uses the text colour of the page, which may be light on dark.
+    // The chart uses the text colour of the page, which may be light on dark.
     let svg = of
         .svg
         .replace(chart::INK, "currentColor")

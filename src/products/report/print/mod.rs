@@ -68,7 +68,7 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
         if section.begins_page {
             flow.new_page();
         } else if number > 0 && !section.title.is_empty() {
-            // Its pictures must still fit.
+            // Reserve enough space for the pictures of the section.
             flow.reserve(420.0);
         }
         match (section.letter.as_str(), section.title.as_str()) {
@@ -97,7 +97,7 @@ fn foot(entry: &Entry) -> String {
 
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     for (number, part) in parts.iter().enumerate() {
-        // A heading stays with the table below it.
+        // A heading stays on one page with the table below it.
         if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
         {
             flow.reserve(HEADING + flow.least(grid));

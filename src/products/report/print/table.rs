@@ -130,7 +130,7 @@ impl Flow {
         let top = self.y;
         let face = face(cell);
         let colour = self.theme.ink;
-        // A cell that is longer than a page is cut; the other forms of the report have its whole text.
+        // A cell that is longer than a page is cut. The other forms of the report have the whole text.
         let most = ((BOTTOM - MARGIN) / (LINE * SMALL)) as usize - 4;
         for part in wrap(&cell.words, face, SMALL, wide).into_iter().take(most) {
             self.put(&part, at, face, SMALL, colour, anchor);

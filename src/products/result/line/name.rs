@@ -16,7 +16,7 @@ pub(super) struct Name {
 /// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // Keys below the name of a robot have no field of their own; they are selected together.
+    // Keys below the name of a robot are not separate fields. They are selected together.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))
@@ -65,7 +65,7 @@ pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
 /// Returns the most similar field; `None` if no field is similar.
 pub(super) fn nearest(typed: &str) -> Option<String> {
     let known = all();
-    // Other common words for interfaces and for the total force.
+    // Users may type other common words for interfaces and for the total force.
     let synonym = match typed.rsplit('.').next().unwrap_or(typed) {
         "forces" | "contacts" | "contact_forces" => Some("frames.interfaces"),
         "force" | "sum_of_forces" => Some("frames.total_force"),

@@ -26,7 +26,7 @@ pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>>
 
 /// Returns a hash of the properties that two elements must share to be paired at this stage.
 fn key(element: &Element, stage: usize) -> u64 {
-    // The hash may differ between versions of Rust: it is not stored or printed.
+    // The hash may differ between versions of Rust. This has no effect, because it is not stored or printed.
     let mut hasher = DefaultHasher::new();
     match stage {
         0 => element.hash(&mut hasher),

@@ -335,7 +335,7 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => {
                 // Numbers without a unit are counts and coefficients. They have no rounding error of the solver, so
-                // the unit is fixed.
+                // their step is a constant.
                 let rounded = last_digit(a).max(last_digit(b));
                 let digit = if new.unit.is_empty() {
                     UNITLESS_STEP

@@ -18,7 +18,7 @@ impl Rounding {
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
-        // The exponent is read from the printed number, because a logarithm may be off by one at powers of ten.
+        // Read the exponent from the printed number, because a computed logarithm may be wrong by one at powers of ten.
         let printed = format!("{size:e}");
         let ten: i32 = printed
             .split_once('e')

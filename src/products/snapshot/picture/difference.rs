@@ -60,7 +60,7 @@ impl PixelPair<'_> {
         if !differ(a, b, threshold) {
             return None;
         }
-        // Antialiasing is detected from neighbouring pixels. They correspond only in pictures of equal size.
+        // Antialiasing is detected from neighbouring pixels. The neighbours correspond only in pictures of equal size.
         let same_size = (expected.width, expected.height) == (found.width, found.height);
         let antialiased = same_size
             && (is_antialiased(expected, found, self.x, self.y)
@@ -127,7 +127,7 @@ impl Difference {
                 let begin = y as usize * p.width as usize;
                 begin..begin + width as usize
             };
-            // 1. Skip equal rows and equal pixels, which are most of a picture.
+            // 1. Skip equal rows and equal pixels. Most rows and pixels of a picture are equal.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;

@@ -48,8 +48,8 @@ impl Palette {
         }
         let mut common: Vec<([u8; 4], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
         common.retain(|(_, count)| *count >= MIN_FREQUENT_PIXELS);
-        // Sort the most frequent colour first. Colours with equal counts keep the order of the map, so that the
-        // result is reproducible.
+        // Sort the colours by frequency, the most frequent first. Colours with equal counts keep the order of the map,
+        // so that the result is reproducible.
         common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         common.truncate(MAX_EXACT_COLOURS);
         let mut entries: Vec<([u8; 4], Vec<[u8; 4]>)> = Vec::with_capacity(MAX_COLOURS);
@@ -135,7 +135,7 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut widths = vec![widest(&boxes[0])];
     while boxes.len() < max {
         let wide = |w: &(u8, u8, usize)| w.1.saturating_sub(w.0);
-        // Of several widest boxes, the first one is cut.
+        // If several boxes are equally wide, the first of them is cut.
         let mut at = 0;
         for (place, width) in widths.iter().enumerate() {
             if wide(width) > wide(&widths[at]) {
@@ -195,8 +195,8 @@ pub(super) fn encode(
         }
         Some(palette) => {
             encoder.set_color(png::ColorType::Indexed);
-            // PNG filters store differences of neighbouring bytes. For indices of a palette these do not compress
-            // better.
+            // PNG filters store differences of neighbouring bytes. For indices of a palette, these differences do not
+            // compress better.
             encoder.set_filter(png::Filter::NoFilter);
             let opaque = palette.colours.iter().flat_map(|c| [c[0], c[1], c[2]]);
             encoder.set_palette(opaque.collect::<Vec<u8>>());
