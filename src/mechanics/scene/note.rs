@@ -309,7 +309,8 @@ impl Notes<'_> {
             .collect();
         if let Some(first) = light.first() {
             let top = Trail::Top;
-            let wording = say::default_density(light.len(), beside);
+            let force = self.scene.units.force.unwrap_or_default().name();
+            let wording = say::default_density(light.len(), beside, force);
             self.add(
                 NoteCode::DefaultDensity,
                 &top.key("blocks").index(*first),

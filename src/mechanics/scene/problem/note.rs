@@ -71,17 +71,21 @@ pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn default_density(blocks: usize, beside: Option<&str>) -> Wording {
+pub(in crate::mechanics::scene) fn default_density(
+    blocks: usize,
+    beside: Option<&str>,
+    force: &str,
+) -> Wording {
     let weight = match blocks {
         1 => "the weight of 1 block comes".to_owned(),
         _ => format!("the weights of {blocks} blocks come"),
     };
     let beside = beside.map_or(String::new(), |beside| {
-        format!(", but the {beside} are in newtons")
+        format!(", but the {beside} are in {force}")
     });
     note(
         format!("{weight} from the default density of 1 kg/m³{beside}"),
-        "give `density` in kg/m³ (stone has about 2500), or `weight` in newtons",
+        format!("give `density` in kg/m³ (stone has about 2500), or `weight` in {force}"),
     )
 }
 
