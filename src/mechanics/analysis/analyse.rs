@@ -73,7 +73,7 @@ pub(super) fn analyse_frames(
         .collect()
 }
 
-/// Analyses one frame. Components in `known` are not decided again; new ones are added to it.
+/// Analyses one frame. Components in `known` are not decided again; new components are added to `known`.
 pub(super) fn analyse_frame(
     context: &FrameContext,
     options: Options,
@@ -149,7 +149,7 @@ fn decide_fresh(
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| {
-        // A deadline guard is valid only on its own thread.
+        // A deadline guard is valid only on the thread that creates it.
         let _until = DeadlineGuard::new(options.deadline);
         decide_component(&components[*k], options)
     };

@@ -112,8 +112,8 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
-    // Robot limits that can hardly be reached are left out first. If the result exceeds one of them, decide again
-    // with all limits.
+    // First, robot limits far above the loads are left out. If the result exceeds such a limit, decide again with all
+    // limits.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
@@ -150,7 +150,7 @@ impl<'a> Component<'a> {
     /// Route 1: decides without a solver. `None` if no closed form applies, or if its forces have no proof.
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
         let found = if self.assembly.heaviest_load() == 0.0 {
-            // No load: no force is needed.
+            // Without loads, no force is needed.
             self.stands(self.prove_forces(&Amounts::none(program)))
         } else if let Some((mechanism, proof)) = self.falls_freely() {
             Findings {

@@ -109,7 +109,7 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
-        // A gap that a pinning stone between the two bodies keeps open is intended.
+        // If a pinning stone between the two bodies keeps a gap open, the gap is intended.
         let gaps = (found.near_misses.iter())
             .filter(|gap| gap.bodies.iter().all(stands))
             .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());

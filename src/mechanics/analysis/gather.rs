@@ -107,8 +107,8 @@ pub(super) fn add(
     }
     analysis.doubts.extend(found.doubt.clone());
     analysis.proof = match (analysis.verdict, found.verdict) {
-        // Two components with the same verdict: use the worse numbers of both proofs. Otherwise the worse verdict has its
-        // own proof.
+        // If two components have the same verdict, use the worse numbers of both proofs. Otherwise use the proof of the
+        // worse verdict.
         (a, b) if a == b => worst(analysis.proof, found.proof),
         (a, b) if a < b => found.proof,
         _ => analysis.proof,
@@ -118,7 +118,7 @@ pub(super) fn add(
 
 /// Sets the forces at the contacts and grips of one component, and adds them to the total.
 fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
-    // Contacts: normal forces, friction and their resultant.
+    // Set the normal forces, the friction and their resultant at each contact.
     for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
         let contact = &mut analysis.contacts[at.interface];
         let (normal, friction) = (pressed.normal, pressed.friction);
@@ -128,7 +128,7 @@ fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findin
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
-    // Robots: force, torque, and the largest used fraction of a limit.
+    // Set the force and the torque of each robot, and the largest used fraction of its limits.
     for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {

@@ -74,12 +74,12 @@ impl Analysis {
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
             Toward::LoadFactor => [side(&margins.load_factor, 1.0), margins.least_factor()],
         };
-        // Take the nearer of the two sides.
+        // Take the limit that is nearer to 0.
         let (at, motions) = edges
             .into_iter()
             .flatten()
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-        // Exactly at the limit the loads have no power along the mechanism. Slightly beyond they do.
+        // Exactly at the limit the loads have no power along the mechanism. Slightly beyond the limit they have power.
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         match toward {
             Toward::Tilt => {
@@ -205,7 +205,8 @@ impl<'a> Fall<'a> {
         }
     }
 
-    /// Returns one elementary mechanism, with sliding along the joints if possible; `None` if none is found.
+    /// Returns one elementary mechanism, with sliding along the joints if possible; `None` if no such mechanism is
+    /// found.
     fn elementary(&self) -> Option<Vec<Motion>> {
         if self.motions.len() > MOST_BLOCKS {
             return None;
@@ -314,7 +315,7 @@ impl<'a> Fall<'a> {
         for motion in &self.motions {
             let block = &self.scene.blocks[motion.block.0];
             let body = BodyId::Block(motion.block);
-            // Weight and listed loads.
+            // Add the power of the weight and of the listed loads.
             let weight = self.scene.down() * block.weight;
             power.extend(self.speed(body, block.centroid, weight, 1.0));
             let loads = self.scene.loads.iter().filter(|l| l.block == motion.block);

@@ -39,7 +39,7 @@ pub fn pair(
         ..*load
     });
     scene.loads.extend(more);
-    // Take the two frames. The title of the second lists the other differences.
+    // Take the two frames. The title of the second frame also lists the other differences.
     let [title, later] = titles;
     let differences = differences(first, second);
     let mut frames = vec![

@@ -84,7 +84,7 @@ impl Analysis {
         }
     }
 
-    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` if it has no proof.
+    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` if its forces have no proof.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &*self.scene;
         let frame = &scene.frames[number];

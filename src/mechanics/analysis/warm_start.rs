@@ -165,7 +165,8 @@ impl WarmStart {
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.nearest.renumber(|k| {
-            // Find the contact or grip of the old column, then the new column at the same place in it.
+            // Find the contact or grip of the old column. Then find the new column at the same place of this contact or
+            // grip.
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);
             let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
             let place = new.binary_search_by(|(other, _)| other.cmp(origin)).ok()?;

@@ -337,8 +337,8 @@ pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Builds the column of a force at an application point of a contact. The other body, if there is one, receives the
-/// opposite force.
+/// Builds the column of a force at an application point of a contact. If the contact has another body, the opposite
+/// force acts on that body.
 fn contact_column(
     contact: &ContactTerm,
     point: usize,

@@ -64,7 +64,7 @@ pub fn kinematic_dual(
             && columns[k].limit.is_infinite()
             && cost(&columns[k]) == -cost(&columns[k + 1])
     };
-    // First the equalities: one for each pair of opposite columns without limit whose costs are opposite.
+    // First add the equalities: one for each pair of opposite columns without limit whose costs are opposite.
     let mut k = 0;
     while k < columns.len() {
         if is_free_pair(k) {
@@ -75,7 +75,7 @@ pub fn kinematic_dual(
         k += 1;
     }
     dual.equalities = dual.bound.len();
-    // Then the inequalities of all other columns.
+    // Then add the inequalities of all other columns.
     let mut k = 0;
     while k < columns.len() {
         if row_of[k] != usize::MAX {
@@ -86,7 +86,7 @@ pub fn kinematic_dual(
         dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
-    // Last the unknowns w for the limits, with their rows w ≥ 0.
+    // Last add the unknowns w for the limits, with their rows w ≥ 0.
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
             let w = dual.unknowns;

@@ -111,7 +111,7 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            // Rounding along the contact can be taken by friction that the cone allows but that is not used.
+            // Unused friction inside the cone can balance a rounding error along the contact.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
@@ -164,7 +164,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
             continue;
         }
         let [x, y, moment] = residual;
-        // The residual relative to the load is only reported; it does not decide.
+        // The residual relative to the load is only reported. It does not affect the verdict.
         if body.load > 0.0 {
             share = share.max(libm::hypot(x, y).max(moment.abs()) / body.load);
         }
@@ -200,7 +200,7 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
             (contact.points[1], contact.normal * second),
             (contact.ends[0], contact.tangent() * pressed.friction),
         ];
-        // Action on one body, reaction on the other; the ground needs no balance.
+        // The force acts on one body, and its reaction on the other. The ground needs no balance.
         let sides = [(Some(contact.on), 1.0), (contact.from, -1.0)];
         for (body, sign) in sides {
             let Some(number) = body else {

@@ -25,7 +25,7 @@ impl Forces {
 /// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
 /// if the motion gives no better one. Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // A limit above this counts as no limit.
+    // A limit above this value counts as no limit.
     let binding = NON_BINDING * moving_load(assembly, motions);
     // `worst` is δ. Components of grips without a binding limit can increase it. For components with such a limit, the
     // excess over δ is subtracted from the power.
@@ -33,7 +33,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let mut limited = Vec::new();
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
-        // The speeds against which the robot's components act, rounding included.
+        // Compute the speeds against which the components of the robot's force act, rounding included.
         let at_grip = motion.about(body.centroid, grip.at);
         let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
@@ -51,7 +51,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
             }
         }
     }
-    // The bound: (power − excess of limited robots − rounding) / δ.
+    // The bound is (power − excess of limited robots − rounding) / δ.
     let (power, summed) = power_of_loads(assembly, motions);
     let spent = limited
         .iter()

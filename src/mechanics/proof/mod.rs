@@ -233,13 +233,13 @@ const NON_BINDING: f64 = 1e4;
 /// Checks forces on an assembly: the balance of each body, tension, slip, and the limits of robots.
 pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
-    // The relative excess; 0 if the law is satisfied, which avoids 0/0.
+    // Returns the relative excess. It is 0 if the law is satisfied, which avoids 0/0.
     let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
     // The contact law: no tension, and friction within the cone. Errors are relative to the forces at the same contact.
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
         let own = first.abs() + second.abs() + pressed.friction.abs();
-        // A corner has one application point: its second normal force must be 0.
+        // A corner has only one application point, so its second normal force must be 0.
         let pull = match contact.kind {
             ContactKind::Edge => (-first).max(-second),
             ContactKind::Corner => (-first).max(second.abs()),
@@ -248,7 +248,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
         worst_pull = worst_pull.max(share(pull, own));
         worst_slip = worst_slip.max(share(slip, own));
     }
-    // The limits of robots, component by component.
+    // Check the limits of robots for each component of the force and for the torque.
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let limits = grip.limits;
         for (given, limit) in [
@@ -259,7 +259,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
             worst_slip = worst_slip.max(share(given - limit, given));
         }
     }
-    // The balance of each body.
+    // Check the balance of each body.
     let (worst_imbalance, worst_share) = balance::worst(assembly, forces);
     Proof::Forces {
         worst_imbalance,
@@ -301,7 +301,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Returns the largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if
 /// every contact opens.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // The velocity of a point, and the sum of its absolute terms, which bounds the rounding error.
+    // Returns the velocity of a point, and the sum of its absolute terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
         None => (Vector::zeros(), Vector::zeros()),
         Some(number) => {

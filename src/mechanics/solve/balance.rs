@@ -183,7 +183,7 @@ fn balance_by_levels(
     if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
         return None;
     }
-    // Refine the optimum level by level, then choose on its face.
+    // Refine the optimum level by level. Then choose the forces of least Σ force² on its face.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.narrowed(&optimum, 1.0);

@@ -213,7 +213,7 @@ impl BoundedNnls {
                 search.state[k] = State::AtLimit;
                 self.at_limit.push(k);
             }
-            // Other amounts may have reached 0 in the same step; rounding must not leave them negative.
+            // Other amounts may have reached 0 in the same step. Rounding must not make them negative.
             for now in &mut self.amounts {
                 *now = now.max(0.0);
             }

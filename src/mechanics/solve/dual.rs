@@ -155,7 +155,7 @@ pub(super) fn in_forces(
     for (y, multiplier) in solved.y.iter_mut().zip(&answer.z) {
         *y = -multiplier;
     }
-    // The row x ≥ 0 of a column is followed by the row of its limit, if it has one.
+    // The row x ≥ 0 of a column is followed by the row of its limit, if the column has a limit.
     let mut row = loads.len();
     for (k, column) in columns.iter().enumerate() {
         solved.amounts[k] = answer.x[k].max(0.0);

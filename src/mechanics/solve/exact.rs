@@ -34,7 +34,7 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
     if n > rows || rows > MAX_ROWS {
         return None;
     }
-    // The augmented matrix, row by row: the columns, followed by the loads.
+    // Build the augmented matrix row by row: the columns, followed by the loads.
     let width = n + 1;
     let mut table = vec![0.0; rows * width];
     for (j, column) in columns.iter().enumerate() {

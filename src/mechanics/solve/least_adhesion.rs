@@ -118,7 +118,7 @@ pub fn least_adhesion_in(program: &Program, settings: SolverSettings) -> LeastAd
 pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     let mut effort = Effort::default();
     let size = Size::new(program);
-    // Scale the loads of many blocks to a largest of 1.
+    // If there are many blocks, scale the loads to a largest load of 1.
     let load = match largest(&program.loads) {
         load if size == Size::Many && load > 0.0 => load,
         _ => 1.0,

@@ -79,7 +79,7 @@ fn balances_every_body(
     force_size: f64,
 ) -> bool {
     let rest = residual(loads, columns, amounts);
-    // Σ |force| on each body, which bounds the rounding of its residual.
+    // Compute Σ |force| on each body, which bounds the rounding error of its residual.
     let mut acting = own_loads(loads);
     for (column, amount) in columns.iter().zip(amounts) {
         for (row, value) in column.entries() {
@@ -179,7 +179,7 @@ struct Level {
 
 impl Level {
     fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Dual) -> Option<Level> {
-        // Step 1: the residual.
+        // Step 1: compute the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
         // Step 2: classify each column, and choose the amount with which it enters the level.
         let given = |k: usize| {

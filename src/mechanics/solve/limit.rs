@@ -132,7 +132,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
             (Status::Solved, Some(factor)) => {
                 let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
                 let total: Vec<f64> = total.collect();
-                // The forces at the limit, with the solver's residual removed.
+                // Compute the forces at the limit, and remove the solver's residual.
                 let amounts = amounts_of_rows(&answer, &row_of);
                 let mut amounts = rebalanced(&total, &columns, amounts);
                 amounts.iter_mut().for_each(|amount| *amount *= load);

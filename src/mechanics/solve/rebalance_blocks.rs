@@ -142,7 +142,7 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
 /// Returns a factor for each row. The residual times this factor is relative to the forces on the block: 1/Σ|force|,
 /// for moments also divided by the longest arm.
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
-    // The longest arm of each block.
+    // Find the longest arm of each block.
     let mut reach = vec![0.0; program.blocks];
     let mut reaches = |block: usize, arm: Vector| reach[block] = f64::max(reach[block], arm.norm());
     for contact in &program.contacts {
@@ -180,7 +180,7 @@ pub fn rebalance_relative(
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
-        // The residual, scaled for each block by the forces on it.
+        // Compute the residual, scaled for each block by the forces on it.
         let (left, total) = residual(program, &best);
         let scales = row_scales(program, &total);
         let size = largest_scaled(&left, &scales);

@@ -71,7 +71,7 @@ fn open_contacts(
     let mut motion = motion.to_vec();
     let small = if extra == 0.0 { ROUNDING } else { 0.5 * extra };
     for round in 0..=MAX_ROUNDS {
-        // Convergence test: the worst violation.
+        // Convergence test: compute the worst violation.
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| extra - c.dot(&motion));
         let worst = torn.chain(closing).fold(0.0, f64::max);
@@ -110,6 +110,7 @@ fn open_contacts(
             *v += worst * d;
         }
     }
-    // Columns whose length is far from 1 have more rounding than others; the proof checks the remaining violation.
+    // Columns whose length is far from 1 have larger rounding errors than others. The proof checks the remaining
+    // violation.
     (extra == 0.0).then_some(motion)
 }

@@ -47,7 +47,7 @@ impl Slanted {
             let Force::Ray { normal, .. } = all[k + 1].force else {
                 continue;
             };
-            // Equal amounts of both rays have no friction: they are a pure normal force.
+            // Equal amounts of both rays have no friction, so together they are a pure normal force.
             let shared = 0.5 * full.amounts[k + 1].min(full.amounts[k + 2]);
             full.amounts[k] = 2.0 * normal * shared;
             full.slack[k] = (full.slack[k + 1] + full.slack[k + 2]) / (2.0 * normal);

@@ -48,25 +48,26 @@ pub(super) fn found(probe: &Probe) -> Option<Found> {
     unbounded(probe)
 }
 
-/// Computes an unbounded set; `None` if the directions in which it is unbounded were not found.
+/// Computes an unbounded set. `None` if the directions in which it is unbounded were not found, or if a proof of a
+/// carried force was not found.
 fn unbounded(probe: &Probe) -> Option<Found> {
     let cone = Cone::of(probe)?;
     let around = probe.heaviest();
     if cone == Cone::Everything {
         let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
-        // Without loads every force is carried. With them, at least one must be proved.
+        // Without loads every force is carried. With loads, at least one carried force must have a proof.
         let samples = vec![sample(probe, unit(0.0), Some(around))?];
         return Some(Found { samples, rays });
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First the directions inside the arc. Their farthest forces give the size of the set.
+        // First compute the directions inside the arc. Their farthest forces give the size of the set.
         let count = ((to - from) / MAX_STEP).ceil().max(1.0);
         let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
         let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
-        // Then the two ends of the arc, whose edges are unbounded.
+        // Then compute the two ends of the arc, whose edges are unbounded.
         let reach = Some(REACH * largest);
         let first = sample(probe, unit(from), reach)?;
         if to - from > SAME_ANGLE {

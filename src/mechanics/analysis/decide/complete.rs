@@ -19,7 +19,8 @@ impl Component<'_> {
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
             Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
-            // If the other bodies may move too, the least adhesion can be smaller than that of the falling bodies alone.
+            // If the other bodies may move too, the least adhesion can be smaller than the least adhesion of the
+            // falling bodies alone.
             Verdict::Unstable if program.blocks < LARGE_PROGRAM_BLOCKS => {
                 self.with_failures_of_the_whole(program, decision)
             }
@@ -33,8 +34,8 @@ impl Component<'_> {
         if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;
         }
-        // For large components, except those that the first short attempt decided, the program of least force has not been
-        // solved completely yet.
+        // For a large component, the program of least force has not been solved completely yet, unless the first short
+        // attempt decided the component.
         let sought = usize::from(
             program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
         );
@@ -126,7 +127,8 @@ impl Component<'_> {
             if let (Some((mechanism, proof)), false) = (own, least_adhesion.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }
-            // A later setting replaces the result of an earlier one only if the earlier one does not balance every body.
+            // A later setting replaces the result of an earlier setting only if the earlier result does not balance
+            // every body.
             let found = least_adhesion.balanced == Some(true);
             let holds = found
                 && self

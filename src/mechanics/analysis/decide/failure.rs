@@ -24,7 +24,7 @@ impl Component<'_> {
             .flatten()
             .chain(&adhesion.friction)
             .chain(adhesion.grip.iter().flatten());
-        // The largest adhesion of the component, N.
+        // Compute the largest adhesion of the component, N.
         let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();

@@ -7,7 +7,7 @@ use crate::program::Program;
 use crate::proof::{Forces, Motion, Proof};
 use crate::solve::{Amounts, Effort};
 
-/// Returns forces in newtons that balance a component, with their proof. `None` if they do not balance it.
+/// Returns forces in newtons that balance a component, with their proof. `None` if the forces do not balance it.
 ///
 /// `program` is that of the component, in any scale.
 pub(in crate::mechanics::analysis) fn proved_forces(

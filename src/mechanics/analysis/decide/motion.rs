@@ -31,8 +31,8 @@ impl Component<'_> {
         if speed == 0.0 {
             return None;
         }
-        // Some contact is violated: remove the solver's error. For large components first try few rigid pieces, which
-        // is faster and more exact.
+        // The motion violates a contact: remove the solver's error. For large components, first try a motion of a few
+        // rigid pieces, because that is faster and more exact.
         if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
             let in_pieces = || self.prove_motion_in_pieces(&motion, effort);

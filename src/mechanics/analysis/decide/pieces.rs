@@ -29,7 +29,7 @@ impl Component<'_> {
         effort: &mut Effort,
     ) -> Option<(Vec<Motion>, Proof)> {
         SAME_PIECE_SPEED.into_iter().find_map(|tolerance| {
-            // 1. Join bodies that move nearly as one.
+            // 1. Join bodies that move nearly as one rigid body.
             let piece = pieces(self.assembly, motion, tolerance);
             let joined = self.assembly.merged(&piece);
             if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len()
@@ -92,7 +92,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
             sets.union(on, contact.from.unwrap_or(ground));
         }
     }
-    // Number the pieces in the order of their first bodies; bodies joined with the ground rest.
+    // Number the pieces in the order of their first bodies. Bodies that are joined with the ground get no number.
     let resting = sets.find(ground);
     let mut number = vec![None; bodies.len() + 1];
     let mut count = 0;

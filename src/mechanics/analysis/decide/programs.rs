@@ -71,7 +71,7 @@ impl Component<'_> {
         let strategies =
             Strategy::in_order(program, &self.settings, self.place, self.complete_result);
         for strategy in strategies {
-            // After the deadline the last attempt is reported. Even writing the next program takes time.
+            // After the deadline, the last attempt is reported, because even writing the next program takes time.
             if progress.last.is_some() && is_late() {
                 break;
             }
@@ -102,7 +102,7 @@ impl Component<'_> {
         progress: &mut Progress,
     ) -> Option<Decision> {
         let amounts = attempt.forces.as_ref()?;
-        // Forces that balance the whole to the solver's accuracy may still leave a light body unbalanced.
+        // Forces that balance the whole component to the solver's accuracy may not balance a light body.
         let proof = self.prove_forces(amounts).proof;
         let outcome = match self.believes(&proof) {
             true => Outcome::Stands(amounts.clone(), proof),

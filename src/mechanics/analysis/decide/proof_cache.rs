@@ -104,7 +104,8 @@ fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<
         let size = (from[1] - from[0]).norm();
         return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
     }
-    // The sum of the two forces stays. Their difference follows from the moment about the middle, which stays too.
+    // The sum of the two forces stays the same. Their moment about the middle also stays the same and gives their
+    // difference.
     let difference = 2.0 * moment.dot(&along) / square;
     let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
     // Treat rounding below 0 as 0.

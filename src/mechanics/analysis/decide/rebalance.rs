@@ -90,7 +90,7 @@ impl Component<'_> {
                 amounts = better;
                 continue;
             }
-            // Step 2: the least change of all forces. If it does not help once, it is not tried again.
+            // Step 2: make the least change of all forces. If this fails once, it is not tried again.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
                     Some(better)
@@ -169,7 +169,8 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
         }
-        // The whole component is already being decided. A part that contains nearly all bodies would cost as much again.
+        // The whole component is already being decided. To decide a part that contains nearly all bodies would take as
+        // much time again.
         let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
         if own == all || (own > MAX_SMALL_SET && 2 * own > all) {
             return PartOutcome::Open;

@@ -106,7 +106,7 @@ impl Threshold {
             (near, far) = (far, (far * 10.0).min(self.most));
             (verdict, motion) = trial.judge(&setting(far));
         }
-        // The bracket: the component stands at `inside` and does not stand at `outside`.
+        // In the bracket, the component stands at `inside` and does not stand at `outside`.
         let (inside, outside) = match self.way {
             Way::Most => (near, far),
             Way::Least => (far, near),
@@ -181,7 +181,7 @@ impl Threshold {
             let middle = 0.5 * (bracket.inside + bracket.outside);
             is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
         }
-        // The component stands at a value that is 0 within the tolerance: the end is 0.
+        // The component stands at a value that is 0 within the tolerance, so the end is 0.
         if self.way == Way::Least && is_none(bracket.inside) {
             return End::natural(0.0);
         }

@@ -136,14 +136,14 @@ impl Interval {
                     high: other_high,
                 },
             ) => {
-                // The larger of the two lower ends; an end without a value is at −∞.
+                // Take the larger of the two lower ends. An unbounded end counts as −∞.
                 let [a, b] = [&low, &other_low].map(|end| end.stands(f64::NEG_INFINITY));
                 let low = if b.total_cmp(&a) == Ordering::Greater {
                     other_low
                 } else {
                     low
                 };
-                // The smaller of the two upper ends.
+                // Take the smaller of the two upper ends.
                 let [a, b] = [&high, &other_high].map(|end| end.stands(f64::INFINITY));
                 let high = if b.total_cmp(&a) == Ordering::Less {
                     other_high

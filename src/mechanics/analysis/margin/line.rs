@@ -65,7 +65,7 @@ impl Line<'_> {
         let hint = hint
             .map(|hint| self.rounded(hint))
             .filter(|hint| (hint - from) * outward >= -STABLE_BEYOND * self.size(*hint));
-        // The least meaningful value may itself be the end.
+        // The least meaningful value of the parameter may itself be the end.
         let is_natural = outward < 0.0 && self.least.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.least)
@@ -220,8 +220,8 @@ impl Line<'_> {
         let reached = match self.reach(trial, value, &motion) {
             Cut::Above(bound) if outward > 0.0 => bound,
             Cut::Below(bound) if outward < 0.0 => bound,
-            // The mechanism excludes the inner side too, so the verdict stable was only within its tolerance. Cut at
-            // the value itself.
+            // The mechanism also excludes values at which the verdict is stable, so that verdict holds only within its
+            // tolerance. Cut at the value itself.
             _ => value,
         };
         let bound = if (reached - bracket.inside) * outward < 0.0 {
@@ -273,7 +273,7 @@ impl Line<'_> {
         hint: Option<f64>,
     ) -> Result<f64, Interval> {
         let (mut low, mut high) = (self.least, f64::INFINITY);
-        // The motions that exclude all values below `low` and all above `high`.
+        // The motions that exclude all values below `low` and all values above `high`.
         let [mut below, mut above] = [None, None];
         let limit = MAX_REACH * self.reach;
         let mut next = Some(present);

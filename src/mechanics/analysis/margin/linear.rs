@@ -65,8 +65,8 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         Limit::At(change) => (present + change * line.reach).max(line.least),
         _ => present,
     };
-    // Cache its forces and its motion: they often prove the verdicts that follow. If the component stands at no
-    // value, the motion belongs to the present one.
+    // Cache the forces and the motion of this program, because they often prove later verdicts. If the component stands
+    // at no value, the motion belongs to the present value.
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
         Limit::Never => [present; 3],
@@ -109,7 +109,7 @@ fn end(
             trial.learn_edge(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))
         }
-        // The component stands only within the proof's tolerance: the start is the end.
+        // The component stands only within the proof's tolerance, so the start is the end.
         Limit::Never => line.end(trial, start, outward, Some(start)),
         // The program was not solved, or its unbounded ray could not be confirmed: search the end by verdicts alone.
         _ => line.end(trial, start, outward, None),

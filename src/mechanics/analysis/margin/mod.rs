@@ -82,7 +82,8 @@ pub(super) struct ComponentIntervals {
 }
 
 impl ComponentIntervals {
-    /// Returns the interval of a margin with one parameter; `None` if it was not computed.
+    /// Returns the interval of the parameter of a margin. `None` if it was not computed, or if the margin is
+    /// [`MarginKind::Robots`].
     pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
         match kind {
             MarginKind::Friction => self.friction.as_ref(),
@@ -122,7 +123,7 @@ pub(super) fn find_margins(
         intervals.tilt = Some(nearest_tilt::nearest(&mut trials));
         judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
     }
-    // The tilts certainly form one arc only if no loads are listed and no robot has a finite limit.
+    // Only if no loads are listed and no robot has a finite limit, it is certain that the tilts form a single arc.
     let is_cone =
         |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
     if let Some(Interval::Between { .. }) = intervals.tilt

@@ -28,9 +28,9 @@ pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// Finds the tilt nearest to 0 at which all components stand, in degrees. The error is the interval if none is found:
-/// empty or undecided. Each mechanism excludes an arc around 0, until the frame stands at one end of the excluded
-/// range.
+/// Finds the tilt nearest to 0 at which all components stand, in degrees. If no such tilt is found, the error is the
+/// interval: empty or undecided. Each mechanism excludes an arc around 0, until the frame stands at one end of the
+/// excluded range.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let mut excluded = Excluded::default();
     let mut turn = 0.0;
@@ -48,7 +48,7 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
                 Together::Undecided => {}
                 Together::Falls(arc) => {
                     excluded.add(arc);
-                    // If the arc adds nothing, take a small step.
+                    // If the arc does not enlarge the excluded range, take a small step.
                     if outward > 0.0 {
                         excluded.high = excluded.high.max(at + MIN_GAP);
                     } else {

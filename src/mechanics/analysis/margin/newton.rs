@@ -91,7 +91,7 @@ impl Threshold {
             let (inside, outside) = (at.inside, at.outside);
             let size = inside.max(outside);
             let root = trial.root(&at.tangent, setting, [outside, inside]);
-            // The change of the parameter that changes the least residual by 1.
+            // Compute the change of the parameter that changes the least residual by 1.
             let run = (root - outside).abs() / at.tangent.left;
             let is_within = at.contains(root);
             let is_near = is_within || (root - inside).abs() <= 4.0 * LEFT * run;

@@ -140,7 +140,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         }
     }
     let enough = if stands { given } else { f64::INFINITY };
-    // The least limit from one linear program, confirmed by verdicts.
+    // One linear program gives the least limit, and verdicts confirm it.
     let found = least_grip_limit(&program, grip, component);
     let hint = match found.limit {
         Limit::At(at) => {

@@ -72,7 +72,8 @@ enum Exit {
 impl Arc<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // If the search does not start at a tilt of 0, the frame falls there. The first step then ends there.
+        // If the search does not start at the tilt 0, the frame falls at the tilt 0. The first step towards 0 then ends
+        // at 0.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
         loop {
@@ -121,7 +122,7 @@ impl Arc<'_, '_> {
     /// at which it falls by `motion`.
     fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
-        // If a mechanism excludes almost nothing, bisect next.
+        // If a mechanism excludes hardly any tilts, the next step is a bisection.
         let mut is_slow = false;
         for _ in 0..MAX_CUTS {
             // The mechanism excludes every tilt from `bound` to `falls`, where it was found.
@@ -166,7 +167,7 @@ impl Arc<'_, '_> {
         Exit::Unconfirmed(stands, falls)
     }
 
-    /// Finds the first end between two ways at which the component stands; `None` if it stands everywhere between
+    /// Finds the first end between two ways at which the component stands; `None` if it stands at every way between
     /// them.
     ///
     /// The components of gravity at which the structure stands form a convex set. If the set contains both ends of an

@@ -83,7 +83,7 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// Creates a trial of a component. `forces` balance the unchanged component; `None` if it does not stand.
+    /// Creates a trial of a component. `forces` balance the unchanged component; they are `None` if it does not stand.
     pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
         let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
@@ -215,7 +215,7 @@ impl<'a> Trial<'a> {
             let Some(m) = motion.iter().find(|m| m.block == body.block) else {
                 continue;
             };
-            // The work of weight and loads, less what limited robots absorb.
+            // Add the power of the weight and the loads, less the power that limited robots absorb.
             power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
             for grip in changed.grips.iter().filter(|grip| grip.body == number) {
                 let speed = m.about(body.centroid, grip.at);
@@ -244,7 +244,7 @@ impl<'a> Trial<'a> {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());
         let scale = Scale::new(self.given.length, heaviest);
-        // One scale for both, so that their load vectors can be subtracted.
+        // Both programs have the same scale, so that their load vectors can be subtracted.
         let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
         let toward = toward.collect();

@@ -140,7 +140,7 @@ impl EndState {
             self.freedom = Freedom::Unknown;
             return;
         }
-        // Every pair of directions, because the derivative is linear in the forces and linear in the motions.
+        // Combine every motion with every set of forces, because the derivative is linear in both.
         self.freedom = Freedom::Hull;
         let moved = |first: &[f64], by: &[f64]| -> Vec<f64> {
             let share = largest(first) / largest(by);
@@ -344,8 +344,8 @@ impl Condition {
     }
 }
 
-/// Returns all ways to choose `count` different numbers from 0 up to, but not including, `of`. `None` if they are too
-/// many.
+/// Returns all ways to choose `count` different numbers from 0 up to, but not including, `of`. `None` if there are too
+/// many ways.
 fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..count {

@@ -43,7 +43,7 @@ impl<'a> Search<'a> {
     pub(super) fn find_candidates(&mut self, residual: &[f64], threshold: f64) {
         self.candidates.clear();
         for (k, column) in self.columns.iter().enumerate() {
-            // Positive if moving the amount away from its bound reduces the residual.
+            // The gradient is positive if a move of the amount away from its bound reduces the residual.
             let gradient = match self.state[k] {
                 State::AtZero => column.dot(residual),
                 State::AtLimit => -column.dot(residual),

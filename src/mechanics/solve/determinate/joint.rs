@@ -91,7 +91,8 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
         return None;
     }
-    // The contacts of each body. The search starts from the contacts with the ground, which are put into the queue.
+    // List the contacts of each body. Put the contacts with the ground into the queue, because the search starts from
+    // them.
     let mut touching = vec![Vec::new(); program.blocks];
     let mut queue = Vec::new();
     for (number, contact) in program.contacts.iter().enumerate() {

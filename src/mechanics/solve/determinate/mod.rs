@@ -136,7 +136,7 @@ impl Split {
             if !(first.is_finite() && second.is_finite() && along.is_finite()) {
                 return None;
             }
-            // The contact exerts the part inside its friction cone; the rest is adhesion.
+            // The contact exerts the part of the force inside its friction cone. The rest is adhesion.
             let pressed = [first.max(0.0), second.max(0.0)];
             let limit = joint.contact.friction * (pressed[0] + pressed[1]);
             let friction = along.clamp(-limit, limit);

@@ -69,7 +69,7 @@ impl BlockDiagonal {
 /// Returns the finest division of the columns into consecutive blocks that no entry of the objective crosses.
 fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     let n = problem.unknowns;
-    // The first column that each column is coupled with.
+    // For each column, find the first column with which it is coupled.
     let mut first: Vec<usize> = (0..n).collect();
     for (i, j, _) in &problem.quadratic {
         first[*j] = first[*j].min(*i);

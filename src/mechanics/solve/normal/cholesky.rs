@@ -54,7 +54,7 @@ impl Cholesky {
     /// Symbolic analysis: finds the order of elimination and permutes the rows of `columns` into this order. `None` if
     /// no order is found.
     pub fn new(columns: &mut ColumnGroups) -> Option<Cholesky> {
-        // The order of elimination and the rows of each supernode.
+        // Find the order of elimination and the rows of each supernode.
         let supernodes = Supernodes::new(columns)?;
         columns.permute_rows(&supernodes.position);
         let mut begin = vec![0];
@@ -118,7 +118,7 @@ impl Cholesky {
             packed,
         } = &mut self.workspace;
         update_stack.clear();
-        // The supernodes whose update matrices are on the stack.
+        // These are the supernodes whose update matrices are on the stack.
         let mut on_stack: Vec<usize> = Vec::new();
         for (p, node) in self.supernodes.list.iter().enumerate() {
             let rows = &self.supernodes.rows[node.rows.clone()];

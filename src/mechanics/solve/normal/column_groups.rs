@@ -51,7 +51,7 @@ impl ColumnGroups {
         let mut groups: Vec<Range<usize>> = Vec::new();
         let (mut bodies, mut own): (Vec<u32>, Vec<u32>) = Default::default();
         for k in 0..columns {
-            // The bodies that the column acts on.
+            // Find the bodies that the column acts on.
             own.clear();
             own.extend(sparse.entries(k).map(|(row, _)| row / 3));
             let is_subset = |a: &[u32], b: &[u32]| a.iter().all(|body| b.contains(body));
@@ -262,7 +262,7 @@ impl SparseColumns {
         for k in 0..columns {
             start[k + 1] += start[k];
         }
-        // Counting sort: place the entries of each column behind each other.
+        // Counting sort: place the entries of each column one after the other.
         let mut next = start.clone();
         let mut list = vec![(0, 0.0); start[columns]];
         for (column, row, value) in entries {

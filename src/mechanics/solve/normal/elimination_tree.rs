@@ -16,7 +16,7 @@ pub(super) struct Graph {
 impl Graph {
     pub fn new(columns: &ColumnGroups) -> Graph {
         let n = columns.unknowns();
-        // The groups that touch each unknown.
+        // Count, for each unknown, the groups that have an entry in its row.
         let mut begin = vec![0; n + 1];
         let groups = || (0..columns.group_count()).map(|k| columns.group(k).rows);
         for row in groups().flatten() {

@@ -90,7 +90,7 @@ impl Newton {
     ) -> bool {
         // This is 1 for a linear program, and 0 if τ stays 1.
         let is_homogeneous = 1.0 - lp.velocity_weight;
-        // Weights of this iterate, and the factor of the normal equations.
+        // Compute the weights of this iterate, and the factor of the normal equations.
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *weight = f / z;
         }
@@ -154,7 +154,7 @@ impl Newton {
     ) -> f64 {
         let mut max_step = at.max_step(&self.direction);
         for _ in 0..MAX_CORRECTORS {
-            // The step is close enough to a full step.
+            // The step is close enough to a full step, so no corrector is needed.
             if max_step > 1.0 - MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
             }

@@ -159,7 +159,7 @@ fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnR
             rows: counts[end - 1] - 1,
             zeros: 0.0,
         };
-        // In a postorder the last child comes just before its parent: only that child can be merged.
+        // In a postorder, the last child comes just before its parent. Only this child can be merged.
         while let Some(last) = ranges.last() {
             let above = parent[last.end() - 1];
             if !above.is_some_and(|p| (range.first..range.end()).contains(&p)) {

@@ -151,7 +151,7 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
         if place[block] != usize::MAX {
             continue;
         }
-        // Number each connected part of the structure in turn.
+        // Number one connected part of the structure after the other.
         let farthest = breadth_first(block, &place)
             .last()
             .copied()

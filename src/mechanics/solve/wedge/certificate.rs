@@ -77,7 +77,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
 /// True if multipliers prove infeasibility, possibly after corrections by iterative refinement.
 fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let most = z.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    // Drop rows with negligible multipliers. The correction compensates for them.
+    // Set negligible multipliers to 0. The correction compensates for them.
     let mut z: Vec<f64> = z.to_vec();
     for (row, z) in z.iter_mut().enumerate() {
         if row >= conic.equalities && *z <= NEGLIGIBLE_MULTIPLIER * most {
@@ -112,7 +112,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
         .enumerate()
         .for_each(|(k, row)| number[*row] = k);
     let entries = conic.matrix.iter();
-    // The least change of these multipliers with Aᵀ·change = −error.
+    // Compute the least change of these multipliers with Aᵀ·change = −error.
     let correction = QuadraticProgram {
         unknowns: rows.len(),
         quadratic: (0..rows.len()).map(|k| (k, k, 1.0)).collect(),

@@ -93,7 +93,7 @@ impl Springs<'_> {
             if target.iter().any(|v| !v.is_finite()) {
                 return false;
             }
-            // Convergence test: the pattern reproduces itself.
+            // Convergence test: the displacements have the pattern from which they were computed.
             let next = self.pattern(&target, pattern);
             if next == *pattern {
                 *u = target;

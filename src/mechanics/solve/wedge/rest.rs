@@ -68,7 +68,7 @@ impl Springs<'_> {
     /// Computes the forces of the springs in a pattern, from the opening of each point, the slip of each face and the
     /// yield of each robot.
     fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
-        // Normal forces at the pressed points, summed for each contact.
+        // Compute the normal forces at the pressed points, and their sum for each contact.
         let mut sum = vec![0.0; self.tangents.len()];
         let mut normal = vec![0.0; self.points.len()];
         for (k, point) in self.points.iter().enumerate() {
@@ -77,7 +77,7 @@ impl Springs<'_> {
                 sum[point.contact] += normal[k];
             }
         }
-        // Friction: the force of the spring if the face sticks, otherwise ±μ(N1 + N2).
+        // Friction is the force of the spring if the face sticks, otherwise ±μ(N1 + N2).
         let friction = pattern
             .slides
             .iter()
@@ -162,7 +162,7 @@ impl Springs<'_> {
             .iter()
             .enumerate()
             .map(|(k, c)| {
-                // The tolerance is relative to the load of the lighter of the two bodies.
+                // The tolerance is relative to the smaller load of the two bodies.
                 let lighter = c
                     .from
                     .as_ref()

@@ -234,7 +234,7 @@ impl<'a> Springs<'a> {
                 );
             }
         }
-        // Springs along faces that stick.
+        // Add the springs along the faces that stick.
         for (tangent, slides) in self.tangents.iter().zip(&pattern.slides) {
             if *slides == Slide::Sticks {
                 enter(tangent, tangent, self.along);
@@ -245,7 +245,7 @@ impl<'a> Springs<'a> {
                 enter(&grip.column, &grip.column, 1.0);
             }
         }
-        // Springs to the ground.
+        // Add the springs to the ground.
         for row in 0..3 * self.program.blocks {
             band.add(row, row, ground);
         }

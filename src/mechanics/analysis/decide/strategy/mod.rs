@@ -100,10 +100,10 @@ impl Attempt {
 }
 
 impl Strategy {
-    /// Returns the strategies in the order in which they are tried: from the fastest to the one that decides closest
-    /// to the limit.
+    /// Returns the strategies in the order in which they are tried: from the fastest strategy to the strategy that
+    /// decides closest to the limit.
     ///
-    /// 1. Closed form, if balance alone determines all forces.
+    /// 1. Closed form, if the equilibrium equations alone determine all forces.
     /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a status.
@@ -132,8 +132,8 @@ impl Strategy {
         let quick = settings.iter().find(plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
         match place {
-            // Large: a short attempt, any balance, least adhesion if failures are requested, least residual, then
-            // full attempts.
+            // Large components: a short attempt, any balance, least adhesion if failures are requested, least residual,
+            // then full attempts.
             Place::Anywhere if many && !any => {
                 strategies.splice(0..0, residual);
                 if complete_result {
@@ -141,7 +141,7 @@ impl Strategy {
                 }
                 strategies.splice(0..0, quick.map(Strategy::FirstLook));
             }
-            // Large, verdict only: any balance, a short attempt, least residual, then full attempts.
+            // Large components, verdict only: any balance, a short attempt, least residual, then full attempts.
             Place::Anywhere if many => {
                 strategies.splice(0..0, residual);
                 let unique = |settings| SolverSettings {
@@ -150,7 +150,7 @@ impl Strategy {
                 };
                 strategies.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
             }
-            // Small: one attempt at least force, any balance, least residual, then refined attempts.
+            // Small components: one attempt at least force, any balance, least residual, then refined attempts.
             Place::Anywhere => {
                 let second = 1.min(strategies.len());
                 strategies.splice(second..second, residual);
