@@ -196,8 +196,8 @@ fn combine(
     analysis
 }
 
-/// Checks whether a stable frame stands only by wedging, if this is requested. Writes the answer to `analysis` and
-/// returns the outcome for the effect report.
+/// Checks whether a stable frame stands only by wedging, if this is requested. Writes the answer to `analysis`, and
+/// returns the outcome for the report on effects.
 fn find_wedging(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
@@ -239,7 +239,8 @@ fn find_margins(
     Some(judged)
 }
 
-/// Finds how a margin of a frame changes with its geometry, weights, friction and loads, if this is requested.
+/// Finds how a margin of a frame changes with its geometry, weights, friction and loads. `None` if this is not
+/// requested.
 fn find_sensitivity(
     context: &FrameContext,
     analysis: &FrameAnalysis,

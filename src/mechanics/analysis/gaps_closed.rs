@@ -121,9 +121,9 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     scene.frames.iter().map(in_frame).collect()
 }
 
-/// Analyses the scene with all places closed by a little more than the widest. If some frame keeps its verdict,
-/// analyses it once more, closed by as much as corners may be off. Returns each closing length in metres with its
-/// frames.
+/// Analyses the scene with all places closed by a little more than the widest place. If the verdict of some frame stays
+/// the same, analyses the scene once more, with a larger length: the possible error of corners. Returns each length in
+/// metres with the resulting frames.
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
@@ -189,8 +189,7 @@ fn is_undecided(verdict: Verdict) -> bool {
     verdict == Verdict::Undecided
 }
 
-/// Makes every frame with an overlap undecided. After the deadline, the second verdict that it needs cannot be
-/// computed.
+/// Makes every frame with an overlap undecided, because after the deadline its second verdict cannot be computed.
 fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
     for (frame, played) in frames.iter_mut().zip(&scene.frames) {
         let placed = |body: &BodyId| match body {

@@ -7,7 +7,7 @@ use crate::scene::{BlockId, RobotId};
 /// bits of the grip point's coordinates), and the bits of L.
 pub(super) type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-/// Returns the key of a component.
+/// Returns the key of a component. Equal components have equal keys.
 pub(super) fn key(component: &Assembly) -> Key {
     let blocks = component.bodies.iter().map(|body| body.block);
     let holds = component.grips.iter().map(|grip| {

@@ -55,8 +55,8 @@ impl Analysis {
     }
 
     /// Returns the limit of stability of a frame (numbered from 0) that is nearer to 0, and the elementary mechanism
-    /// there. `None` if margins were not computed, or if the frame does not fall in this direction. If the load factor
-    /// has no upper limit, its lower limit is returned.
+    /// there. `None` if the margin was not computed, or if the frame does not fall in this direction. If the load
+    /// factor has no upper limit, its lower limit is returned.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -247,8 +247,8 @@ impl<'a> Fall<'a> {
         row
     }
 
-    /// Returns the rows that must not be negative: otherwise an admissible force opposes the motion. Robots at their
-    /// limits yield in the directions of `start`.
+    /// Returns the rows that must not be negative. If a row is negative, an admissible force opposes the motion. Robots
+    /// at their limits yield in the directions of `start`.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.found.contacts {

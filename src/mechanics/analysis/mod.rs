@@ -193,7 +193,7 @@ impl Analysis {
         }
     }
 
-    /// Returns the worst verdict of all frames.
+    /// Returns the worst verdict of all frames; stable if there are no frames.
     pub fn verdict(&self) -> Verdict {
         self.frames
             .iter()

@@ -102,7 +102,7 @@ impl Options {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// Returns the solver settings in the order in which they are tried, until a proof is strong enough.
+    /// Returns the solver settings in the order in which they are tried until a proof is strong enough.
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),

@@ -114,7 +114,7 @@ impl WarmStart {
         (verdict, Source::Examined)
     }
 
-    /// Returns the verdict on an assembly, if the warm start proves one.
+    /// Returns the verdict on an assembly; `None` if the warm start proves no verdict.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         // If there is no active set from an earlier frame, fewer bodies are allowed.
         let most = match self.columns.is_empty() {
@@ -157,7 +157,7 @@ impl WarmStart {
         }
     }
 
-    /// Transfers the active set to the columns of another frame. A column with other values counts as another column.
+    /// Transfers the active set to the columns of another frame. A column is kept only if its values are the same.
     fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
         let begins = begins(assembly, &columns);
         let mut new: Vec<(Origin, usize)> =
@@ -179,7 +179,7 @@ impl WarmStart {
     }
 }
 
-/// Returns the number of the first column of each contact and grip, in the order of the columns.
+/// Returns the index of the first column of each contact and grip, in the order of the columns.
 fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
     let bits = |p: crate::geometry::Point| [p.x.to_bits(), p.y.to_bits()];
     let mut begins: Vec<(usize, Origin)> = Vec::new();

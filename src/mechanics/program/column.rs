@@ -70,7 +70,7 @@ impl Force {
         )
     }
 
-    /// Returns the effect that the force belongs to.
+    /// Returns the effect, such as friction, that the force belongs to.
     fn effect(&self, program: &Program) -> EffectName {
         match *self {
             Force::Ray {

@@ -37,8 +37,8 @@ impl Program {
 /// Returns the rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly
 /// so.
 ///
-/// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). Each cluster is turned to its mean
-/// angle.
+/// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). All directions of a cluster are
+/// rotated to its mean angle.
 fn turns(directions: &[Vector]) -> Vec<f64> {
     let angles = directions.iter().map(|d| beyond_axis(*d));
     let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();

@@ -17,7 +17,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Chooses the scale of an assembly from its length L and its heaviest load.
+    /// Creates the scale of an assembly from its length L and its heaviest load.
     pub fn from_assembly(assembly: &Assembly) -> Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }

@@ -98,7 +98,7 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, torque / self.radius]);
     }
 
-    /// Returns the unbalanced force and moment over radius, N.
+    /// Returns the unbalanced force, and the unbalanced moment divided by the radius, N.
     fn residual(&self) -> Vec3 {
         let [x, y, moment] = self.residual.map(CompensatedSum::value);
         [x, y, moment / self.radius]

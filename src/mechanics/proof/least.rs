@@ -23,7 +23,7 @@ impl Forces {
 /// Returns a lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
 /// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
-/// if the motion gives no better one. Torques are divided by the assembly's length L.
+/// if the motion gives no better bound. Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A limit above this value counts as no limit.
     let binding = NON_BINDING * moving_load(assembly, motions);

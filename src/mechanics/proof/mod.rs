@@ -212,7 +212,7 @@ impl Motion {
     /// error is at most a small fraction of this sum.
     ///
     /// The components are summed separately, so that the rounding of a horizontal motion does not count as a vertical
-    /// one.
+    /// motion.
     fn summed(&self, centroid: Point, point: Point) -> Vector {
         self.velocity.abs() + (quarter_turn(point - centroid) * self.spin).abs()
     }

@@ -80,8 +80,8 @@ const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 /// The finer tolerance, as a fraction of the normal one.
 const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// Returns the fraction of the basic columns that are doubtful: their amount and slack differ by a factor of less
-/// than 1000. It is 0 if the dual is not solved.
+/// Returns the fraction of the basic columns that are doubtful: their amount and slack differ by a factor of less than
+/// 1000. The fraction is 0 if the dual is not solved.
 fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
@@ -236,7 +236,8 @@ fn solve_dual(
     (solved, settings)
 }
 
-/// Steps 2 to 4: finds the balance of least Σ force² among those of least cost; `None` if no margin gives one.
+/// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if no margin gives such a
+/// balance.
 ///
 /// `settings` holds two settings: for repairing a balance, and for the least squares.
 fn least_squares_balance(

@@ -164,8 +164,8 @@ impl BoundedNnls {
         self.passive.iter().chain(&self.at_limit).copied()
     }
 
-    /// Moves candidates into the passive set, unless they depend on it. Returns those that entered, with their former
-    /// states; `None` after too many pivots.
+    /// Moves candidates into the passive set, unless they depend linearly on its columns. Returns the columns that
+    /// entered, with their former states; `None` after too many pivots.
     fn enter(&mut self, search: &mut Search, entry: Entry) -> Option<Vec<(usize, State)>> {
         let mut entered = Vec::new();
         for k in entry.choose(&mut search.candidates, search.columns, search.loads.len()) {
@@ -221,8 +221,8 @@ impl BoundedNnls {
     }
 
     /// Ratio test: returns the longest step (as a fraction) towards the optimum of the passive set that keeps all
-    /// bounds. Also returns the place of the column that meets its bound first; `None` if the full step keeps all
-    /// bounds.
+    /// bounds. Also returns the position, in the passive set, of the column that meets its bound first. `None` if the
+    /// full step keeps all bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
         for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {

@@ -115,8 +115,8 @@ pub(super) fn of_velocities(
 
 /// Returns the amounts of columns: the multipliers of their rows.
 ///
-/// `row_of` gives the row of each column, or `usize::MAX` for the second of an opposite pair that shares one equality.
-/// The amount of that column is the multiplier with the opposite sign.
+/// `row_of` gives the row of each column, or `usize::MAX` for the second column of an opposite pair that shares one
+/// equality. The amount of that column is the multiplier with the opposite sign.
 pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
     let rows = row_of.iter().enumerate();
     rows.map(|(k, row)| match *row {

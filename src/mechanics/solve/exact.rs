@@ -94,10 +94,10 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
 /// Computes the amounts ≥ 0 of least Σ force² that balance the loads; `None` if a few rounds of an active-set method
 /// do not find them.
 ///
-/// It applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the square of a
-/// unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j = g_jᵀy /
-/// p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops the columns with
-/// negative amounts.
+/// The method applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the
+/// square of a unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j
+/// = g_jᵀy / p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops the
+/// columns with negative amounts.
 pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
     let mix = |pair: &[Column]| product(&pair[0].force, &pair[1].force).is_some_and(|p| p != 0.0);

@@ -107,7 +107,7 @@ fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
     openings
 }
 
-/// Ratio test: returns the longest step along a direction until an open row becomes 0; `None` if no row does.
+/// Ratio test: returns the longest step along a direction until an open row becomes 0; `None` if no open row becomes 0.
 fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     let step = |row: &&Row| {
         let (change, now) = (dot(row, direction), dot(row, y));

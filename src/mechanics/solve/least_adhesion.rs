@@ -174,7 +174,7 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: the least Σ adhesion. Returns the optimum, and whether admissible forces had a cost.
+/// Stage 1: computes the least Σ adhesion. Returns the optimum, and whether admissible forces had a cost.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -224,8 +224,8 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
     }
 }
 
-/// Stage 1 for many blocks: without redundant columns. If the kinematic form ends without a status, the static form is
-/// solved.
+/// Stage 1 for many blocks: leaves out redundant columns. If the kinematic form ends without a status, the static form
+/// is solved.
 fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
     // Solve the kinematic form without redundant columns. If it ends without a status, solve the static form.
     let slanted = Slanted::new(&whole.columns);
@@ -246,8 +246,8 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 /// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
 ///
 /// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least force
-/// falls by a tenth while the adhesion grows by a millionth. In this case, the balance of stage 1 is returned. It has
-/// the least adhesion, but not the least force.
+/// decreases by a tenth while the adhesion increases by only a millionth. In this case, the balance of stage 1 is
+/// returned. It has the least adhesion, but not the least force.
 fn later_stages(
     whole: &Face,
     first: &Dual,
@@ -306,7 +306,7 @@ fn later_stages(
     face
 }
 
-/// Stage 2: the face of least force among the balances of least adhesion.
+/// Stage 2: returns the face of least force among the balances of least adhesion.
 ///
 /// `None` if the solver finds no balance with the same sum of adhesion for any of the margins.
 fn least_force_face(

@@ -62,7 +62,7 @@ const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 /// The tolerances that are tried in turn until the solver ends with a status.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
-/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`.
+/// Finds the largest λ ≥ 0 for which admissible forces balance `program.loads + λ·direction`.
 ///
 /// Loads and direction are scaled to a largest entry of 1. With loads of 300, the solver stops for a wall of 420 bricks
 /// after a hundred iterations at λ = 0.48159; with loads of 1 it reaches the optimum λ = 0.48162.
@@ -70,7 +70,7 @@ pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Largest)
 }
 
-/// Finds the λ nearest to 0, positive or negative, for which admissible forces give `program.loads + λ·direction`.
+/// Finds the λ nearest to 0, positive or negative, for which admissible forces balance `program.loads + λ·direction`.
 ///
 /// [`Limit::Never`] means that no λ allows a balance. Otherwise this program has an optimum.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
@@ -93,7 +93,7 @@ impl Extremum {
         }
     }
 
-    /// Computes λ from the multipliers of these rows.
+    /// Computes λ from the multipliers of the last rows of the program; `None` if there are too few multipliers.
     fn factor(self, multipliers: &[f64]) -> Option<f64> {
         match (self, multipliers) {
             (Extremum::Largest, [.., up]) => Some(up.max(0.0)),

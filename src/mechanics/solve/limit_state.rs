@@ -22,7 +22,7 @@ pub struct LimitState {
     pub motion: Vec<f64>,
 }
 
-/// Finds the largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`, and the forces and the
+/// Finds the largest λ ≥ 0 for which admissible forces balance `program.loads + λ·direction`, and the forces and the
 /// mechanism at this λ.
 ///
 /// `None` if λ has no largest value, if no λ allows a balance, or if the solver ends without a result.

@@ -169,9 +169,9 @@ fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
 /// Changes given forces slightly so that blocks balance better, relative to the forces on them; `None` if no change
 /// improves the balance.
 ///
-/// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D that of the rows' scales. Each
-/// round solves the program min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces can balance
-/// keeps its residual v.
+/// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D the diagonal matrix of the scales of
+/// the rows. Each round solves the program min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces
+/// can balance keeps its residual v.
 pub fn rebalance_relative(
     program: &Program,
     amounts: &Amounts,

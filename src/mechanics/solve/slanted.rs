@@ -16,7 +16,7 @@ pub(super) struct Slanted {
 }
 
 impl Slanted {
-    /// Omits every pure normal force that is followed by the two rays of its friction cone.
+    /// Selects the columns, without every pure normal force that is followed by the two rays of its friction cone.
     pub fn new(all: &[Column]) -> Slanted {
         let places: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
         Slanted {

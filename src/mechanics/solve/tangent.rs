@@ -29,7 +29,7 @@ pub struct Tangent {
 }
 
 impl Tangent {
-    /// Solves the program; `None` if it has no loads, or if the solver ends without a status.
+    /// Solves the program of the least residual; `None` if there are no loads, or if the solver ends without a status.
     pub fn new(program: &Program) -> Option<Tangent> {
         let load = match largest(&program.loads) {
             0.0 => return None,
@@ -76,7 +76,7 @@ impl Tangent {
         face.gathered(program).0
     }
 
-    /// Returns the work that the normal forces with full friction do along y, with the contacts of a given program.
+    /// Returns the work along y of the contact forces with full friction, with the contacts of a given program.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {

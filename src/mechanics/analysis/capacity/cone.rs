@@ -94,8 +94,8 @@ enum Cone {
 }
 
 impl Cone {
-    /// Computes the cone as the forces of the probe without loads whose components are at most 1. `None` if there is no
-    /// such direction.
+    /// Computes the cone from the carried forces of the probe without loads. Their components are limited to 1. `None`
+    /// if the set is bounded in every direction.
     fn of(probe: &Probe) -> Option<Cone> {
         let homogeneous = probe.without_loads();
         let reach = Some(1.0);

@@ -9,7 +9,7 @@ use crate::scene::BlockId;
 /// A ray is cut off at this multiple of the size of the set.
 const FAR: f64 = 1e4;
 
-/// Builds the capacity from the samples of its set.
+/// Builds the capacity, with vertices, edges and gap, from the samples of its set.
 pub(super) fn capacity(
     found: cone::Found,
     probe: &Probe,

@@ -27,9 +27,9 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Returns *stable* if `amounts` balance every body. Returns *unstable* if the motion along the unbalanced load
-    /// is a mechanism of one component that no admissible forces can contradict. `left` is minus the unbalanced load,
-    /// three rows for each body, in program units. `None` if neither is proved; then the other routes decide.
+    /// Returns *stable* if `amounts` balance every body. Returns *unstable* if the motion along the unbalanced load is
+    /// a mechanism of one component that no admissible forces can contradict. `left` is minus the unbalanced load,
+    /// three rows for each body, in program units. `None` if neither verdict is proved; then the other routes decide.
     pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.believes(&forces) {

@@ -28,7 +28,7 @@ impl Component<'_> {
         }
     }
 
-    /// Replaces forces that balance by those of least sum, if a more exact solution finds them.
+    /// Replaces the forces of a decision by balancing forces of least sum, if a more exact solution finds them.
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
         // A program that ended without a status was already tried with full precision.
         if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
@@ -72,8 +72,8 @@ impl Component<'_> {
         decision
     }
 
-    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if every body
-    /// balances with it.
+    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if this adhesion
+    /// balances every body.
     fn with_failures_of_the_whole(&self, program: &Program, mut decision: Decision) -> Decision {
         for settings in &self.settings {
             if is_late() {

@@ -9,7 +9,7 @@ use crate::solve::{Amounts, Effort};
 
 /// Returns forces in newtons that balance a component, with their proof. `None` if the forces do not balance it.
 ///
-/// `program` is that of the component, in any scale.
+/// `program` is the program of the component, in any scale.
 pub(in crate::mechanics::analysis) fn proved_forces(
     assembly: &Assembly,
     program: &Program,

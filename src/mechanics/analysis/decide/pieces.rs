@@ -21,8 +21,9 @@ const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 const MIN_BODIES_PER_PIECE: usize = 8;
 
 impl Component<'_> {
-    /// Returns a motion without the solver's errors, and its proof. Bodies that move nearly together move exactly
-    /// together in it. Its fastest point has speed 1. `None` if there are too many pieces or the proof is too weak.
+    /// Returns a motion without the solver's errors, and its proof. Bodies that move nearly together in `motion` move
+    /// exactly together in the result. The fastest point has speed 1. `None` if there are too many pieces or the proof
+    /// is too weak.
     pub(super) fn prove_motion_in_pieces(
         &self,
         motion: &[Motion],
@@ -71,8 +72,8 @@ impl Component<'_> {
     }
 }
 
-/// Returns the number of the piece of each body; `None` for bodies that rest with the ground. Two bodies in contact
-/// are in one piece if their velocities differ by at most `tolerance`.
+/// Returns the index of the piece of each body; `None` for bodies that rest with the ground. Two bodies in contact are
+/// in one piece if their velocities differ by at most `tolerance`.
 fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();

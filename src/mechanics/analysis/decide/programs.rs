@@ -65,7 +65,8 @@ impl Progress {
 }
 
 impl Component<'_> {
-    /// Tries the strategies in order, until a proof is strong enough.
+    /// Tries the strategies in order until a proof is strong enough, and returns the decision. It is undecided if no
+    /// proof is.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
         let strategies =
@@ -93,7 +94,7 @@ impl Component<'_> {
     }
 
     /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall on their own.
-    /// `None` if neither holds.
+    /// `None` if neither is proved.
     fn decide_by_forces(
         &self,
         program: &Program,

@@ -27,7 +27,7 @@ struct Acting {
 }
 
 impl ProofCache {
-    /// Adds forces on an assembly to the cache.
+    /// Adds the forces that balance an assembly to the cache.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
         if self.forces.len() == MAX_KEPT {
             self.forces.remove(0);

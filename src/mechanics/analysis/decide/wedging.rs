@@ -8,9 +8,9 @@ use crate::program::Program;
 use crate::scene::Scene;
 use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
 
-/// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
-/// the proof. The answer is `None` if at least one component could not be decided, and no other is proved to stand
-/// only by wedging.
+/// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and the
+/// proof. The answer is `None` if some component could not be decided and no other component is proved to stand only by
+/// wedging.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,

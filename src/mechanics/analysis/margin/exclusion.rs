@@ -45,7 +45,7 @@ impl Exclusion {
 }
 
 /// Returns the fewest of these arcs of tilts, in degrees, that still cover a full turn, in the order of their
-/// beginnings. Arcs at most `gap` apart count as joined.
+/// beginnings. Two arcs count as joined if the distance between them is at most `gap`.
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
     let ends = |arc: &Exclusion| {
         let [from, to] = [arc.from, arc.to];

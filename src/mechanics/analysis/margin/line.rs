@@ -238,7 +238,8 @@ impl Line<'_> {
         }
     }
 
-    /// Takes a step outward if no value is known at which the component falls. Returns an end if there is no farther value.
+    /// Takes a step outward if no value is known at which the component falls. Returns an end if there is no farther
+    /// value, otherwise `None`.
     fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.reach;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
@@ -263,9 +264,9 @@ impl Line<'_> {
         None
     }
 
-    /// Finds the value nearest to `present` at which the component stands; at `present` itself it falls. `hint` is
-    /// the result of a linear program. The error is the interval if no such value is found: empty if mechanisms
-    /// exclude all values, otherwise undecided.
+    /// Finds the value nearest to `present` at which the component stands; it falls at `present` itself. `hint` is the
+    /// result of a linear program. The error is the interval if no such value is found: empty if mechanisms exclude all
+    /// values, otherwise undecided.
     pub fn nearest(
         &self,
         trial: &mut Trial,

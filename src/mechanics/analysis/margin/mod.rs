@@ -96,8 +96,8 @@ impl ComponentIntervals {
     }
 }
 
-/// Computes the margins of a frame from its components, and the number of changed components that were decided for
-/// them.
+/// Computes the margins of a frame from its components. Also returns the number of changed components that were decided
+/// for them.
 ///
 /// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
 /// 2. Intersect them: a frame stands if all its components stand.
@@ -170,7 +170,7 @@ fn find_fresh_intervals(
     judged
 }
 
-/// Returns the intervals of a frame: the intersections of those of its components.
+/// Returns the intervals of a frame: the intersections of the intervals of its components.
 fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
     let whole =
         |kind: MarginKind, all: Interval, of: fn(&ComponentIntervals) -> &Option<Interval>| {

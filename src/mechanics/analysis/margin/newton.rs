@@ -40,7 +40,8 @@ struct Steps {
 }
 
 impl Steps {
-    /// Narrows the bracket at a value. Returns true if the component falls there; `None` if the program is not solved.
+    /// Narrows the bracket by the verdict at a value. Returns true if the component falls there; `None` if the program
+    /// is not solved.
     fn take(
         &mut self,
         trial: &mut Trial,

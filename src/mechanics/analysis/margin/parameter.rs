@@ -12,8 +12,8 @@ use crate::analysis::Verdict;
 use crate::program::Scale;
 use crate::solve::{Limit, least_grip_limit};
 
-/// Returns all requested intervals of a component. `stands` says whether the component stands at present. `with_tilt`
-/// says whether all components of its frame stand, so that the tilts around 0 are needed.
+/// Returns all requested intervals of a component. `stands` is true if the component stands at present. `with_tilt` is
+/// true if all components of its frame stand, so that the tilts around 0 are needed.
 pub(super) fn intervals(
     trial: &mut Trial,
     stands: bool,

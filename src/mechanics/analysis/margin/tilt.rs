@@ -41,7 +41,7 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
     }
 }
 
-/// Returns the interval of tilts of a component around a tilt at which it stands.
+/// Returns the interval of tilts of a component around the tilt `from`, at which it stands, in degrees.
 pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
         let mut arc = Arc {

@@ -125,12 +125,12 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Returns the verdict on the changed component, and its mechanism if it falls.
+    /// Returns the verdict on the changed component, and its mechanism if it falls (otherwise an empty list).
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judge_at(setting, Place::Anywhere)
     }
 
-    /// Like [`Trial::judge`]. `place` says whether the component is known to be near its limit of stability.
+    /// Like [`Trial::judge`]. `place` tells whether the component is known to be near its limit of stability.
     pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
         self.count();
         decide_verdict(&self.changed(setting), place, &mut self.guesses)
@@ -313,8 +313,8 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     }
 }
 
-/// Interpolates between two sets of forces: `first` at a share of 0, `last` at 1. The result is admissible, because
-/// admissible forces form a convex set.
+/// Interpolates between two sets of forces. The result is `first` at a share of 0, and `last` at a share of 1. The
+/// result is admissible, because admissible forces form a convex set.
 fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);

@@ -19,8 +19,8 @@ pub(super) struct Elimination {
 }
 
 impl Elimination {
-    /// Solves a system for several right-hand sides. Each row has one coefficient for each of the `unknowns`. Each list
-    /// in `sides` has one number for each row.
+    /// Solves a system of equations for several right-hand sides. Each row has `unknowns` coefficients. Each list in
+    /// `sides` has one number for each row.
     pub fn new(rows: &[Vec<f64>], unknowns: usize, sides: &[Vec<f64>]) -> Elimination {
         let mut table: Vec<Vec<f64>> = rows.to_vec();
         for (k, row) in table.iter_mut().enumerate() {

@@ -41,8 +41,8 @@ impl Slope {
         }
     }
 
-    /// Returns the slope of the smaller of two ends that have the same value. If `outward` is negative, it is the slope
-    /// of the larger end.
+    /// Combines the slopes of two ends that have the same value. The result is the slope of the smaller end, or of the
+    /// larger end if `outward` is negative.
     pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
         let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
             return Slope::AtKink;

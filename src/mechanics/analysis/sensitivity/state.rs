@@ -337,7 +337,7 @@ struct Condition {
 }
 
 impl Condition {
-    /// Returns the power along a motion: `with` times the first motion, plus the shares of the others.
+    /// Returns the power along a motion: `with` times the first motion, plus the given shares of the other motions.
     fn power(&self, shares: &[f64], with: f64) -> f64 {
         let change: f64 = self.shares.iter().zip(shares).map(|(a, b)| a * b).sum();
         with * self.first + change

@@ -139,7 +139,8 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     (joints.len() == program.blocks).then_some(joints)
 }
 
-/// Returns the arm of a contact's first point about the centroid of one of its bodies.
+/// Returns the arm of a contact's first point about the centroid of one of its bodies. `None` if the body does not
+/// belong to the contact.
 fn first_arm(contact: &ContactTerm, body: Option<usize>) -> Option<Vector> {
     let sides = [Some(contact.on), contact.from].into_iter().flatten();
     let of_body = |side: &(usize, [Vector; 2])| Some(side.0) == body;

@@ -138,7 +138,7 @@ impl ColumnGroups {
         }
     }
 
-    /// Adds A·amounts to `sum`: one amount for each column, one sum for each row.
+    /// Adds A·amounts to `sum`. `amounts` has one number for each column, `sum` has one number for each row.
     pub fn add_product(&self, amounts: &[f64], sum: &mut [f64]) {
         for (k, range) in self.groups.iter().enumerate() {
             let group = self.group(k);
@@ -158,7 +158,7 @@ impl ColumnGroups {
         }
     }
 
-    /// Computes Aᵀy into `products`, one for each column.
+    /// Writes Aᵀy into `products`, one number for each column.
     pub fn transpose_product(&self, y: &[f64], products: &mut [f64]) {
         for (k, range) in self.groups.iter().enumerate() {
             let group = self.group(k);

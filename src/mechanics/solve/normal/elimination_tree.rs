@@ -114,7 +114,7 @@ impl<'a> OrderedGraph<'a> {
         })
     }
 
-    /// Returns the positions of the entries in the row at a position.
+    /// Returns the positions, in the order of elimination, of the entries in the row at position `k`.
     pub fn row(&self, k: usize) -> impl Iterator<Item = usize> {
         let unknown = self.order[k];
         let of = self.graph.starts[unknown]..self.graph.starts[unknown + 1];

@@ -139,7 +139,7 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
-    /// Performs one Newton step; returns false if it is too short to make progress.
+    /// Performs one Newton step. Returns false if the step is too short to make progress.
     fn step(&mut self, optimality: &Optimality) -> bool {
         let (lp, residuals) = (self.lp, &self.residuals);
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)

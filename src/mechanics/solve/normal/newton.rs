@@ -226,7 +226,7 @@ impl Newton {
         std::mem::swap(&mut self.direction, &mut self.candidate);
     }
 
-    /// Computes a direction into `candidate`, with the factor of this iteration.
+    /// Writes a direction into `candidate`, computed with the factor of this iteration.
     fn solve_candidate(&mut self, system: &System, at: &Iterate, sides: Sides) {
         let side = self.velocity_side(system, at, sides);
         let mut side: Vec<[f64; 1]> = side.into_iter().map(|v| [v]).collect();

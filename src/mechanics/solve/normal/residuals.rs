@@ -48,7 +48,7 @@ pub(super) struct Optimality {
 }
 
 impl Optimality {
-    /// Computes the residuals at an iterate into `residuals`, and returns their sizes.
+    /// Writes the residuals at an iterate into `residuals`, and returns their sizes.
     pub fn evaluate(lp: &LinearProgram, at: &Iterate, residuals: &mut Residuals) -> Optimality {
         // Primal residual: loads·τ − A f − velocity_weight·y.
         residuals.primal.fill(0.0);

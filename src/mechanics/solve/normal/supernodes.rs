@@ -49,8 +49,8 @@ impl Supernodes {
     }
 }
 
-/// Symbolic factorization: the rows of every supernode are the rows of the matrix and those of its children's update
-/// matrices.
+/// Symbolic factorization: computes the rows of every supernode. They are the rows of the matrix and the rows of its
+/// children's update matrices.
 fn symbolic_factor(
     ordered: &OrderedGraph<'_>,
     ranges: &[ColumnRange],

@@ -85,7 +85,8 @@ impl Node {
         }
     }
 
-    /// Returns the first open point. If there is none, the first open face that may transmit force.
+    /// Returns the first open point. If there is none, returns the first open face that may transmit force. `None` if
+    /// there is no such face.
     pub fn first_open(&self, springs: &Springs) -> Option<Branch> {
         let point = self.pressed.iter().position(Option::is_none);
         let face = |k: &usize| self.slides[*k].is_none() && self.may_carry(springs, *k);

@@ -99,7 +99,7 @@ impl Springs<'_> {
         }
     }
 
-    /// Returns the residual loads − Σ force, for each row of the balance.
+    /// Returns the residual loads − Σ force, one number for each row of the equilibrium equations.
     fn unbalanced(&self, rest: &Rest) -> Vec<f64> {
         let mut residual = self.program.loads.clone();
         for (grip, force) in self.grips.iter().zip(&rest.grips) {

@@ -89,7 +89,8 @@ pub(super) struct Attempt {
 }
 
 impl Attempt {
-    /// Returns the forces of this attempt, even if they balance only with adhesion. They are not proved.
+    /// Returns the forces of this attempt, even if they balance only with adhesion. They are not proved. `None` if the
+    /// attempt found no forces.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
         let least_adhesion = self
             .least_adhesion
