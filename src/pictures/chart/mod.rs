@@ -16,12 +16,12 @@ const SIZE: (i32, i32) = (900, 620);
 /// Width and height of histograms and course charts, pixels.
 const SMALL: (i32, i32) = (420, 250);
 
-/// The colour of axes and text. A page that contains the chart can replace it by a colour of its own.
+/// The colour of axes and text. A page that contains the chart can replace this colour by another one.
 pub const INK: &str = "#2D2D32";
 /// The colour of grid lines.
 pub const GRID: &str = "#E1E1E4";
 
-/// Points that belong together, in the order of their line.
+/// A series of points that belong together, in the order of their line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// The name in the legend.
@@ -32,14 +32,14 @@ pub struct Series {
     pub points: Vec<Point>,
 }
 
-/// One point; both coordinates above 0.
+/// A point of a chart. Both coordinates are above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// The value on the horizontal axis.
     pub x: f64,
     /// The value on the vertical axis.
     pub y: f64,
-    /// Whether a cross marks it as wrong.
+    /// Whether a cross marks the point as wrong.
     pub wrong: bool,
 }
 
@@ -56,7 +56,7 @@ pub struct Scatter {
     pub series: Vec<Series>,
     /// The meaning of the crosses, for the legend.
     pub wrong: String,
-    /// The Pareto front: its name in the legend, and its points by rising x. It is drawn as a stair.
+    /// The Pareto front: its name in the legend, and its points by ascending x. It is drawn as a step line.
     pub front: (String, Vec<(f64, f64)>),
 }
 
@@ -132,7 +132,7 @@ pub struct Growing {
     pub name: String,
     /// Whether the line is important.
     pub ours: bool,
-    /// Its points, by rising x.
+    /// The points of the line, by ascending x.
     pub points: Vec<Point>,
 }
 
@@ -157,7 +157,7 @@ pub struct Bars {
     pub x: String,
     /// The name of the vertical axis.
     pub y: String,
-    /// The edges of the bars in rising order, one more than there are bars.
+    /// The edges of the bars in ascending order. There is one more edge than there are bars.
     pub edges: Vec<f64>,
     /// The number of values between two consecutive edges.
     pub counts: Vec<usize>,
@@ -220,7 +220,8 @@ pub struct Course {
     pub y: String,
     /// The short names of the steps.
     pub steps: Vec<String>,
-    /// Each quantity: its name, written at the end of its line, its colour, and its value at each step if it has one.
+    /// The quantities. Each has a name, which is written at the end of its line, a colour, and a value at each step;
+    /// `None` if there is no value at this step.
     pub lines: Vec<(String, [u8; 3], Vec<Option<f64>>)>,
 }
 

@@ -18,7 +18,7 @@ pub(super) use course::course;
 pub(super) use growth::growth;
 pub(super) use scatter::scatter;
 
-/// Picture units per unit of the page.
+/// Number of units of the drawn picture per pixel of the page.
 const FINE: i32 = 10;
 /// The family name that plotters writes for all text. The built-in font is registered under this name.
 const FONT: &str = "sans-serif";

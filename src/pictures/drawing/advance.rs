@@ -10,7 +10,7 @@
 
 use std::sync::LazyLock;
 
-/// The table.
+/// The bytes of the tables of all faces, one after the other.
 static BYTES: &[u8] = include_bytes!("../../../assets/fonts/advances.bin");
 
 /// The table of each face.
@@ -32,7 +32,7 @@ struct Table {
     runs: Vec<Run>,
 }
 
-/// Neighbouring characters.
+/// The widths of characters with consecutive code points.
 struct Run {
     first: u32,
     widths: Vec<u16>,

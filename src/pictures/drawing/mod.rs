@@ -94,7 +94,7 @@ pub struct Drawing {
     pub title: String,
     /// A description in sentences.
     pub description: String,
-    /// Colour of the page, `None` for a transparent one.
+    /// Colour of the page; `None` for a transparent page.
     pub background: Option<Colour>,
     /// The items on the page, the lowest first.
     pub items: Vec<Item>,

@@ -20,41 +20,42 @@ use super::{PagePoint, PageRect};
 
 pub use self::ink::Ink;
 
-/// Largest number of rings that are tried about an anchor. They are half a label's height apart.
+/// Largest number of rings that are tried around an anchor. The distance of two rings is half a label's height.
 const MAX_RINGS: usize = 60;
 /// Positions tried on each ring: every 15°.
 const POSITIONS_PER_RING: usize = 24;
-/// Clear space around a label, pixels. With less space letters seem to touch lines; with much more, crowded figures
-/// would lose labels.
+/// Clear space around a label, pixels. With less space, letters seem to touch lines. With much more space, crowded
+/// figures would lose labels.
 const CLEARANCE: f64 = 1.5;
-/// A label gets a leader line if its nearest point lies farther than this beyond the first ring, pixels.
+/// A label gets a leader line if the distance of its nearest point from the first ring is larger than this, pixels.
 const LEADER_DISTANCE: f64 = 6.0;
-/// Cost of a leader that crosses ink, pixels of distance: a label goes about one line height farther to avoid it.
+/// Cost of a leader that crosses ink, pixels of distance. To avoid such a crossing, a label may be about one line
+/// height farther away.
 const INK_CROSSING_COST: f64 = 14.0;
-/// Cost of a leader that crosses another label, pixels of distance. It is more than any distance on a page, because the
-/// label would look deleted.
+/// Cost of a leader that crosses another label, pixels of distance. The cost is larger than any distance on a page,
+/// because the crossed label would look deleted.
 const LABEL_CROSSING_COST: f64 = 1000.0;
 /// Cost of a position that the caller avoids, pixels of distance.
 const AVOIDED_COST: f64 = 110.0;
-/// Positions whose costs differ by less than this, pixels, are equally good, and the first one tried is taken: rounding
-/// must not decide.
+/// Positions whose costs differ by less than this, pixels, are equally good. The first of them is taken, so that
+/// rounding errors do not decide.
 const COST_TIE: f64 = 1e-3;
-/// After this number of labels without a free position the page is full: the others get their preferred position or
-/// none. A search around an anchor among thousands of arrows takes tens of milliseconds.
+/// After this number of labels without a free position, the page is full. All further labels get their preferred
+/// position or no position. A search around an anchor among thousands of arrows takes tens of milliseconds.
 const MAX_MISSES: usize = 100;
 
 /// A label that needs a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelRequest {
-    /// The point that it names, which is the end of its leader line.
+    /// The point that the label names. The leader line ends at this point.
     pub anchor: PagePoint,
-    /// Radius of the first ring about the anchor, pixels.
+    /// Radius of the first ring around the anchor, pixels.
     pub first_ring: f64,
     /// Width and height of the label, pixels.
     pub size: (f64, f64),
-    /// Centres tried first; a label at one of these needs no leader.
+    /// Centres that are tried first. A label at such a centre needs no leader.
     pub preferred: Vec<PagePoint>,
-    /// Additional clear space that a preferred position should have, pixels; positions that have it come first.
+    /// Additional clear space around a preferred position, pixels. Positions that have this space are tried first.
     pub padding: f64,
     /// Largest distance of the label beyond the first ring, pixels; `None` for preferred positions only.
     pub max_distance: Option<f64>,

@@ -10,9 +10,10 @@ use super::difference::{contrast, lightness};
 
 /// Arrows on a fill brighter than this may get a dark border.
 const BRIGHT_FILL: f64 = 0.6;
-/// Least contrast of letters with their background: WCAG 2 level AA asks for 4.5.
+/// Least contrast of letters with their background. WCAG 2 level AA requires 4.5.
 const MIN_CONTRAST: f64 = 4.55;
-/// An arrow whose lightness L* is lower than that of a bright block by this much is visible with the usual border.
+/// On a bright block, an arrow is visible with the usual border if its lightness L* is lower than that of the block by
+/// at least this value.
 const STANDS_OFF: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
@@ -57,7 +58,7 @@ pub struct Theme {
     pub failure: Colour,
     /// The ground.
     pub ground: Colour,
-    /// Blocks that no amplitude colours.
+    /// Blocks whose colour shows no amplitude.
     pub block: Colour,
     /// Outlines of blocks.
     pub outline: Colour,
@@ -71,7 +72,7 @@ pub struct Theme {
     pub stands: Colour,
     /// The mark of a structure that falls.
     pub falls: Colour,
-    /// The mark of a structure for which neither is proved.
+    /// The mark of a structure for which neither standing nor falling is proved.
     pub undecided: Colour,
     /// Widths of lines and arrows.
     pub widths: Widths,
@@ -92,7 +93,7 @@ pub struct Widths {
     pub disc: f64,
     /// Outline of a large block, pixels; small blocks have thinner outlines.
     pub outline: f64,
-    /// Border of an arrow if blocks are large, pixels; it is thinner if they are small.
+    /// Border of an arrow on large blocks, pixels. The border is thinner on small blocks.
     pub casing: f64,
 }
 

@@ -153,7 +153,7 @@ impl Text {
     }
 }
 
-/// The space at which no line is broken.
+/// The no-break space. Lines are not broken at this space.
 pub const NO_BREAK: char = '\u{a0}';
 
 /// True if the bytes are a font file or a collection of fonts that can be read.

@@ -32,7 +32,7 @@ pub struct WriteError {
     pub why: io::Error,
 }
 
-/// At most this number of links is followed; longer chains are taken to be circular.
+/// Largest number of links that are followed. Longer chains of links count as circular.
 const MAX_LINKS: usize = 40;
 
 /// The temporary files that exist.
@@ -124,9 +124,9 @@ impl Ready {
     }
 }
 
-/// A temporary file that is on the list, and the path that it will get.
+/// A temporary file that is in the list of temporary files, and the path to which it will be renamed.
 struct Beside {
-    /// `None` after it was renamed.
+    /// The file; `None` after it was renamed.
     file: Option<NamedTempFile>,
     target: PathBuf,
 }

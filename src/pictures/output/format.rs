@@ -58,8 +58,8 @@ struct Declaration {
     is_text: bool,
     /// Whether the picture consists of pixels, so that a width in pixels makes sense.
     has_pixels: bool,
-    /// Whether the writer lays out text in the fonts of [`Settings::fonts`]. Otherwise the program that opens the file
-    /// does.
+    /// Whether the writer lays out text in the fonts of [`Settings::fonts`]. If not, the program that opens the file
+    /// lays out the text.
     lays_out_words: bool,
     write: fn(&Drawing, &Settings<'_>) -> Result<Vec<u8>, FormatError>,
 }

@@ -29,7 +29,7 @@ mod tree;
 pub const MM_PER_INCH: f64 = 25.4;
 /// Pixels of a drawing per inch, if no width is given.
 pub const PIXELS_PER_INCH: f64 = 96.0;
-/// The scale of a figure that is laid out for print: text of 12.5 pixels (9.4 points) becomes 7.5 points high.
+/// The scale of a figure that is laid out for print. Text of 12.5 pixels (9.4 points) becomes 7.5 points high.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const IN_PRINT: f64 = 0.8;
 

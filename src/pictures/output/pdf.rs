@@ -148,7 +148,7 @@ pub struct Link {
 /// An entry in the list of bookmarks of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bookmark {
-    /// Its level. A bookmark is part of the last bookmark before it with a lower level.
+    /// The level of the bookmark. A bookmark is part of the last bookmark before it that has a lower level.
     pub level: u8,
     /// Its title.
     pub title: String,

@@ -35,7 +35,7 @@ pub enum Compression {
     /// Small files.
     #[default]
     Small,
-    /// A quarter of the time, and files that are a third larger; for thousands of pictures.
+    /// Takes a quarter of the time of `Small`, and files are a third larger. Suitable for thousands of pictures.
     Quick,
 }
 
@@ -119,9 +119,9 @@ fn per_metre(size: Size) -> Option<u32> {
 /// The pixels of a picture, not compressed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster {
-    /// Pixels across.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height in pixels.
     pub height: u32,
     /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied.
     pub rgba: Vec<[u8; 4]>,

@@ -151,7 +151,7 @@ enum Form<'f> {
     /// As text, in the fonts of this style sheet.
     #[cfg(feature = "embed")]
     Embedded(&'f str),
-    /// As the path data of each line of text, by its number.
+    /// As path data. The map has the path data of each line of text, by the number of the line.
     #[cfg_attr(
         not(feature = "png"),
         expect(dead_code, reason = "only used if text can be laid out")
@@ -159,7 +159,7 @@ enum Form<'f> {
     Outlines(&'f BTreeMap<usize, String>),
 }
 
-/// The face of most text; text in another face names it.
+/// The face of most text. Only text in another face names its face.
 const USUAL: Face = Face::Sans;
 
 fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {

@@ -24,15 +24,16 @@ use crate::geometry::{Bounds, Vector};
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Gap between two parallel arrows, in widths of the wider shaft.
 pub(super) const GAP: f64 = 0.4;
-/// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows of the
-/// frame. It saves time and does not change the result: see `offset_of_least_change`.
+/// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows
+/// of the frame. This order saves time and does not change the result; see `offset_of_least_change`.
 const NEARBY: f64 = 24.0;
-/// An arrow for which none of this number of candidates is free is drawn at its ideal offset: the page is full there.
+/// Largest number of candidates that are tried. If none of them is free, the page is full at this position, and the
+/// arrow is drawn at its ideal offset.
 const MAX_CANDIDATES: usize = 1000;
-/// In frames with more arrows than this no arrows are moved, because nobody can follow a single arrow there.
+/// In frames with more arrows, no arrows are moved, because nobody can follow a single arrow there.
 const MAX_ARROWS: usize = 4000;
 /// Distances from the ideal offset are rounded to this share of a shaft's width. Rounding errors must not decide
-/// between two offsets at equal distance.
+/// between two offsets at the same distance.
 const OFFSET_RESOLUTION: f64 = 1e-6;
 /// Relative tolerance of the least distance, because candidates lie exactly at it.
 const CLEAR_TOL: f64 = 1e-6;

@@ -17,11 +17,11 @@ pub enum ArrowKind {
     Weight,
     /// A load on a block.
     Load,
-    /// Normal and friction force together, from this body.
+    /// The sum of normal and friction force, exerted by this body.
     Contact(BodyId),
-    /// The normal force of an interface, from this body.
+    /// The normal force of an interface, exerted by this body.
     Normal(BodyId),
-    /// The friction force of an interface, from this body.
+    /// The friction force of an interface, exerted by this body.
     Friction(BodyId),
     /// A robot's force.
     Robot(RobotId),
@@ -78,14 +78,15 @@ pub enum Head {
 /// A straight arrow in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceArrow {
-    /// The body the force acts on.
+    /// The body on which the force acts.
     pub on: BodyId,
     /// The point where it begins, metres.
     pub at: Point,
-    /// The vector to scale, metres: from tail to tip, or only the shaft for [`Head::Beyond`].
+    /// The vector of the arrow at the scale of the frame, metres: from tail to tip, or only the shaft for
+    /// [`Head::Beyond`].
     pub vector: Vector,
-    /// The force it shows, N. For one of two arrows of a torque: the torque in N·m, divided by the distance of the two
-    /// arrows in metres.
+    /// The force that the arrow shows, N. For each of the two arrows of a torque, the torque in N·m, divided by the
+    /// distance of the two arrows in metres.
     pub force: Vector,
     /// Its colour.
     pub colour: Colour,
@@ -93,7 +94,7 @@ pub struct ForceArrow {
     pub width: f64,
     /// The position of its head.
     pub head: Head,
-    /// What it shows.
+    /// The kind of force that the arrow shows.
     pub kind: ArrowKind,
 }
 
@@ -122,7 +123,7 @@ pub enum TurnKind {
 /// An arrow along a circle that shows a torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnArrow {
-    /// The body the torque acts on.
+    /// The body on which the torque acts.
     pub on: BodyId,
     /// Its centre, metres.
     pub at: Point,
@@ -134,7 +135,7 @@ pub struct TurnArrow {
     pub colour: Colour,
     /// Width of its shaft, metres.
     pub width: f64,
-    /// What it shows.
+    /// The kind of torque that the arrow shows.
     pub kind: TurnKind,
 }
 

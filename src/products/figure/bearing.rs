@@ -4,7 +4,7 @@ use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 
-/// Forces below this share of the largest force may be solver noise …
+/// Forces below this share of the largest force may be numerical noise of the solver …
 const NOISE: f64 = 1e-6;
 /// … unless they exceed this share of the block's own weight, so that forces on very light blocks count too.
 const SHARE: f64 = 1e-3;
@@ -14,8 +14,8 @@ const SHARE: f64 = 1e-3;
 pub(crate) struct Bearing {
     /// Its normal force, N, above 0.
     pub pressed: f64,
-    /// The distance of its resultant from the middle, as a share of half the length of the safe part. `None` if the
-    /// safe part is a point.
+    /// The distance of the resultant from the middle of the interface, divided by half the length of the safe part.
+    /// `None` if the safe part is a point.
     pub eccentricity: Option<f64>,
     /// The share of the available friction that is used; `None` if no friction is available.
     pub friction: Option<f64>,

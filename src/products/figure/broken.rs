@@ -11,7 +11,7 @@ use crate::drawing::{Camera, Drawing, Face, Group, PagePoint, PageRect, Text};
 use crate::interface::Interfaces;
 use crate::scene::{Problem, Sketch, Spot};
 
-/// Largest number of problems, and of gaps, that are marked and listed; the others are counted.
+/// Largest number of problems, and of gaps, that are marked and listed. All others are only counted.
 const SHOWN: usize = 30;
 /// Width of the page if the options give none, pixels.
 const WIDE: f64 = 900.0;
@@ -20,7 +20,7 @@ const HIGH: f64 = 0.7;
 
 /// An entry of the list below the picture.
 struct ListEntry {
-    /// The number of its mark; `None` if it has none.
+    /// The number of the mark in the picture; `None` for an entry without a mark.
     number: Option<usize>,
     words: String,
 }

@@ -24,7 +24,7 @@ const LAYERS: [(&str, i32); 7] = [
 ];
 const GROUND: &str = "ground";
 const BLOCKS: &str = "blocks";
-/// Version R12 has no outlines with holes.
+/// The layer for holes. Version R12 has no outlines with holes.
 const HOLES: &str = "guide holes";
 const ROBOTS: &str = "robots";
 const NAMES: &str = "guide names";

@@ -3,13 +3,13 @@
 use crate::analysis::Contact;
 use crate::geometry::Vector;
 
-/// A force has changed if it differs by more than this share of the larger of the two. If forces are not unique, the
-/// solver alone causes smaller differences.
+/// A force has changed if the difference exceeds this share of the larger of both forces. If forces are not unique,
+/// smaller differences can come from the solver.
 const CHANGE_TOL: f64 = 0.05;
 /// Forces below this share of the largest force are rounding errors of the solver.
 const NOISE_SHARE: f64 = 1e-6;
 
-/// The force of an interface that two frames have.
+/// The force of an interface that two frames have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ForceChange<'a> {
     /// The interface in the earlier and in the later frame.

@@ -3,7 +3,7 @@
 use crate::scene::{BlockId, Scene};
 use crate::text::{self, nearest};
 
-/// A message lists at most this many blocks.
+/// Largest number of blocks that a message lists.
 const MAX_LISTED_BLOCKS: usize = 12;
 
 /// The name of the free-body diagram, which is a kind of figure without panels.

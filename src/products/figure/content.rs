@@ -21,7 +21,7 @@ use crate::analysis::{Analysis, MarginKind};
 use crate::drawing::Group;
 use crate::geometry::{Bounds, Point};
 
-/// What a kind of figure is called, and what it needs. Every kind has a name, a help and a title.
+/// The name of a kind of figure, and its requirements. Every kind has a name, a help and a title.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct About {
     /// The name on the command line and in settings, in lower case.
@@ -38,15 +38,15 @@ pub(crate) struct About {
     /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
     /// motion.
     pub needs_elementary_mechanisms: bool,
-    /// Whether the arrows of all panels have one scale, whatever the options say.
+    /// Whether the arrows of all panels have one scale, independent of the options.
     pub shares_arrow_scale: bool,
     /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
     /// Whether the forces on each block are drawn. Arrows on one line are then moved apart.
     pub draws_forces: bool,
-    /// Whether arrows may be longer than a unit edge where unit edges are short on the page.
+    /// Whether arrows may be longer than a unit edge if unit edges are short on the page.
     pub stretches_arrows: bool,
-    /// Whether lines run across the blocks, below their names.
+    /// Whether lines cross the blocks below the names of the blocks.
     pub lines_cross_names: bool,
 }
 

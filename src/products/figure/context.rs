@@ -20,7 +20,7 @@ const MIN_UNIT_EDGE: f64 = 8.4;
 /// Figures with fewer blocks than this always have arrows; arrows too short to be visible are counted.
 const MIN_CROWD: usize = 40;
 
-/// If less than this share of the arrows is long enough to be visible, colours show the forces instead.
+/// If the share of visible arrows is smaller than this, colours show the forces and arrows are left out.
 const MIN_VISIBLE_SHARE: f64 = 0.2;
 
 /// The data that all panels of a figure share.
@@ -28,7 +28,7 @@ pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
     /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
-    /// Whether lines run across the blocks, below their names.
+    /// Whether lines cross the blocks below the names of the blocks.
     pub lines_cross_names: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
@@ -40,17 +40,17 @@ pub(crate) struct FigureContext<'a> {
     pub fills: Fills,
     /// The arrows of each frame; they move with displaced blocks.
     pub marks: Vec<Marks>,
-    /// The arrows of each frame with all blocks in their places.
+    /// The arrows of each frame before blocks are displaced.
     pub still: Vec<Marks>,
     /// The paths of the blocks of each frame.
     pub courses: Vec<Course>,
-    /// For each frame the displacement of each block, by its number; empty if all blocks are drawn in their places.
+    /// For each frame, the displacements of the blocks, indexed by block. Empty if no block is displaced.
     pub displaced: Vec<Vec<Option<Displacement>>>,
     /// The line below the verdict of each frame.
     pub statements: Vec<String>,
     /// The extreme lines of thrust of all frames; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
-    /// The number of labels so far that have no position, or only a position inside another block.
+    /// The number of labels until now that have no position, or only a position inside another block.
     pub cramped: Cell<usize>,
 }
 

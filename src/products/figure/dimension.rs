@@ -7,10 +7,10 @@ use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stro
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
-/// Space below a picture for its width, pixels.
+/// Height of the space below a picture for the dimension of its width, pixels.
 pub(crate) const BELOW: f64 = 26.0;
-/// Space on the left for the height of a picture, pixels. The same space on the right keeps the picture in the middle
-/// of its panel.
+/// Width of the space to the left of a picture for the dimension of its height, pixels. The same space on the right
+/// keeps the picture in the middle of its panel.
 pub(crate) const ASIDE: f64 = 58.0;
 /// Half the length of the mark at each end, pixels.
 const TICK: f64 = 4.0;

@@ -27,8 +27,8 @@ pub(crate) use rigid::Displacement;
 
 /// Least displacement of the fastest point, unit edges.
 const MIN_DISPLACEMENT: f64 = 0.35;
-/// Least displacement of the fastest point, as a share of the diagonal of the group. In an arch of many voussoirs a
-/// unit edge is too short to make an open hinge visible.
+/// Least displacement of the fastest point, as a share of the diagonal of the group. In an arch of many voussoirs, a
+/// displacement of a unit edge is too small to make an open hinge visible.
 const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;
@@ -37,10 +37,10 @@ const PLACES: u32 = 8;
 /// Largest number of reductions of the amplitude while blocks overlap, and the smallest factor of one reduction.
 const MAX_REDUCTIONS: u32 = 24;
 const REDUCTION: f64 = 0.6;
-/// Overlaps are not measured if more blocks than this move, because that would take longer than the drawing.
+/// Overlaps are not measured if more blocks move, because this would take longer than the drawing.
 const MAX_TESTED_BLOCKS: usize = 500;
 
-/// The path of every block of a frame from its place to its displaced position.
+/// The path of every block of a frame from its original to its displaced position.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Course {
     groups: Vec<GroupCourse>,

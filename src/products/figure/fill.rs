@@ -19,11 +19,11 @@ pub(crate) enum FillScale {
     Limit(f64),
     /// The largest amplitude in the figure, N.
     Largest(f64),
-    /// The largest stress in the figure, N/m², and the thickness it is for, m.
+    /// The largest stress in the figure, N/m², and the thickness for which it is computed, m.
     Stress(f64, f64),
-    /// All friction available.
+    /// The share of the available friction.
     Friction,
-    /// None: blocks have one plain colour.
+    /// No quantity: blocks have one plain colour.
     Plain,
 }
 

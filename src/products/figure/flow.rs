@@ -38,7 +38,7 @@ const LEAST_WIDTH: f64 = 0.4;
 const MANY_STRANDS: usize = 150;
 /// Length of the longest arrow of a load or a missing force, as a share of the longer side of the structure.
 const LONGEST_ARROW: f64 = 0.1;
-/// Width of the shaft of such an arrow, as a share of the longest one.
+/// Width of the shaft of such an arrow, as a share of the length of the longest arrow.
 const SHAFT: f64 = 0.055;
 
 /// The figure of force flow.

@@ -21,17 +21,18 @@ use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
 /// A line passes through a point if their distance is below this share of the block's size. Forces are accurate to
 /// about 1e-9, so rounding errors are far below it.
 const LENGTH_TOL: f64 = 1e-6;
-/// Forces on a block are in equilibrium up to this share of their sum.
+/// Forces on a block are in equilibrium if the remainder is at most this share of the sum of their magnitudes.
 const BALANCE_TOL: f64 = 1e-6;
 /// A line of action counts as inside the block if it leaves the block by at most this share of its mean thickness.
 const NEARLY_INSIDE: f64 = 0.06;
-/// With more loads than this on a block only their sum is tried. Together with the weight there are up to 4! orders.
+/// If a block has more loads, only the sum of the loads is tried. Together with the weight, there are up to 4! orders
+/// of loads.
 const MAX_ORDERED_LOADS: usize = 3;
 
 /// The origin of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ForceOrigin {
-    /// Another body, through the contact with this index.
+    /// Another body. The index is that of the contact.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
@@ -44,17 +45,17 @@ pub(crate) enum ForceOrigin {
 /// A straight segment of the line of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ThrustSegment {
-    /// The block it runs through.
+    /// The block through which the segment runs.
     pub on: BlockId,
     /// The origin of the force.
     pub origin: ForceOrigin,
-    /// One end.
+    /// The point at which the segment begins.
     pub from: Point,
-    /// The other end.
+    /// The point at which the segment ends.
     pub to: Point,
     /// The force that acts along it, N.
     pub force: Vector,
-    /// Whether it lies on a line of action; otherwise it is schematic.
+    /// True if the segment lies on a line of action; false if it is schematic.
     pub through: bool,
 }
 

@@ -8,22 +8,24 @@ use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// Relative speeds below this share of the largest one between two bodies count as zero. Solver errors are larger in
+/// Relative speeds below this share of the largest relative speed count as zero. Errors of the solver are larger in
 /// motions than in forces.
 const SPEED_TOL: f64 = 2e-3;
 
-/// The relative motion of the two bodies of an interface. They separate if it is neither a hinge nor slips.
+/// The relative motion of the two bodies of an interface. If there is neither a hinge nor a slip, the bodies separate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Joint {
     /// The index of the contact in the frame.
     pub contact: usize,
-    /// The application point of a hinge: this point keeps contact, the other one opens, and nothing slides.
+    /// The application point of a hinge. This point stays in contact, the other application point opens, and nothing
+    /// slides.
     pub hinge: Option<Point>,
-    /// The application point that slides, if only one of the two keeps contact.
+    /// The application point that slides, if only one of both points stays in contact.
     pub touch: Option<Point>,
-    /// The middle of the part that keeps contact.
+    /// The middle of the part that stays in contact.
     pub at: Point,
-    /// Speed of the first body relative to the second along (−n_y, n_x); 0 if it does not slide or loses contact.
+    /// Speed of the first body relative to the second along (−n_y, n_x). It is 0 if the joint does not slide or loses
+    /// contact.
     pub slip: f64,
     /// Speed at which a sliding joint opens; 0 if the motion is along the joint.
     pub lift: f64,

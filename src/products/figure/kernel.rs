@@ -15,7 +15,8 @@ use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
 
-/// A resultant lies outside the safe part if its distance from the middle exceeds this, in half lengths of this part.
+/// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
+/// exceeds this value.
 const BEYOND_KERNEL: f64 = 1.0 + 1e-6;
 /// Width of the line of a safe part, unit edges; its least and its largest width, pixels.
 const STRETCH_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);

@@ -23,11 +23,11 @@ pub enum Kind {
     /// Every force, and every missing force, as an arrow on the block on which it acts.
     #[default]
     Forces,
-    /// The paths of the forces through the blocks, as lines as wide as the forces. In each block they lead from forces
-    /// that enter it to forces that leave it.
+    /// The paths of the forces through the blocks. The lines are as wide as the forces. In each block they lead from
+    /// the forces that enter it to the forces that leave it.
     Flow,
-    /// The mechanism of a frame that falls: dashed outlines of the blocks in their places, the displaced blocks, hinges
-    /// and slips.
+    /// The mechanism of a frame that falls: dashed outlines of the blocks in their original positions, the displaced
+    /// blocks, hinges and slips.
     Mechanism,
     /// The line of thrust through the blocks, from interface to interface.
     Thrust,
@@ -35,17 +35,17 @@ pub enum Kind {
     Kernel,
     /// The used share of the available friction at each interface, and of the limits of each robot.
     Utilisation,
-    /// The forces of every step of a construction, with arrows to one scale in all panels.
+    /// The forces of every step of a construction. The arrows of all panels have the same scale.
     Build,
     /// The external forces on the structure, and their force polygon.
     Polygon,
-    /// The structure in its place, and dashed how it falls just beyond its margin. Gravity is turned, a horizontal load
-    /// is added, or the loads grow.
+    /// The structure in its present position, and with dashed lines how it falls just beyond its margin. Gravity is
+    /// turned, a horizontal load is added, or the loads grow.
     Margin,
     /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its
     /// longest edges.
     Capacity,
-    /// The changes of blocks and forces from one frame to the next, with arrows to one scale in all panels.
+    /// The changes of blocks and forces from one frame to the next. The arrows of all panels have the same scale.
     Compare,
 }
 

@@ -6,13 +6,13 @@ use crate::drawing::{Face, text};
 
 /// Largest margin around a figure, pixels.
 pub(crate) const MAX_MARGIN: f64 = 36.0;
-/// Largest gap between columns: pixels, and share of the width of a page with a given width.
+/// Largest gap between columns, pixels; and as a share of the width of a page with a given width.
 const MAX_GAP: (f64, f64) = (44.0, 0.05);
 /// Largest width of a row of panels, pixels.
 const MAX_ROW_WIDTH: f64 = 1028.0;
 /// Least width of a panel, so that captions have space, pixels.
 const MIN_PANEL_WIDTH: f64 = 240.0;
-/// Least width of one of many panels, if wider ones would make the figure longer than a page, pixels.
+/// Least width of a panel if there are many panels, pixels. With wider panels the figure would be longer than a page.
 const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
 /// Largest number of columns, unless the options set another number.
 const MAX_COLUMNS: usize = 8;
@@ -20,7 +20,7 @@ const MAX_COLUMNS: usize = 8;
 const MAX_PAGE_RATIO: f64 = 1.2;
 /// A page narrower than this, pixels (110 mm), is a column of print.
 pub(crate) const PRINT_COLUMN: f64 = 520.0;
-/// The largest ratio of a column of print.
+/// Largest ratio of height to width in a column of print.
 const MAX_COLUMN_RATIO: f64 = 2.2;
 /// Height of the verdict and its text below a panel, pixels.
 const VERDICT_HEIGHT: f64 = 64.0;
@@ -29,7 +29,7 @@ const MAX_UNIT_EDGE: f64 = 72.0;
 /// Shortest unit edge, pixels, if fewer columns can achieve it.
 const MIN_UNIT_EDGE: f64 = 30.0;
 
-/// What has to fit on a page.
+/// The part of a figure that has to fit on a page.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fit {
     /// The whole figure, if possible.

@@ -13,12 +13,13 @@ use crate::scene::Scene;
 /// A resultant acts at the edge if its distance from an end of the joint is below this share of the joint's length.
 const AT_EDGE: f64 = 0.01;
 
-/// How near a joint is to its limit.
+/// The distance of a joint from its limit.
 struct Nearness<'a> {
     contact: &'a Contact,
     /// The used share of the available friction; 0 if no friction is available.
     friction: f64,
-    /// The distance of the resultant from the middle, as a share of the distance to the edge; 0 for a corner.
+    /// The distance of the resultant from the middle, as a share of the distance from the middle to the edge; 0 for a
+    /// corner.
     edge: f64,
 }
 
@@ -65,7 +66,7 @@ pub(crate) fn reached<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<&'a Co
 /// Shares whose relative difference is below this count as equal.
 const SAME_SHARE: f64 = 1e-6;
 
-/// A joint with a smaller share than this is not named, because it would be shown as 0 % or be noise.
+/// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
 /// Returns the joints to mark: all joints at their limit. If there are none, returns the joint nearest to its limit, if

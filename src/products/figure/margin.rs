@@ -29,7 +29,7 @@ use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
 /// Length of the arrow of gravity, as a share of the diagonal of the structure.
 const GRAVITY_LENGTH: f64 = 0.16;
-/// Its distance from the structure, as a share of this diagonal.
+/// Distance of the arrow of gravity from the structure, as a share of the diagonal of the structure.
 const GRAVITY_DISTANCE: f64 = 0.12;
 
 /// The figure of a margin.

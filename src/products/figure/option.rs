@@ -52,11 +52,11 @@ pub enum Fill {
     Stress,
     /// The largest used share of the available friction on one of its interfaces.
     Friction,
-    /// None: blocks have one plain colour.
+    /// No quantity: blocks have one plain colour.
     None,
-    /// The rule of the thesis, in its colours. A held block shows the used share of its robot's limits. Any other block
-    /// shows its amplitude as a share of the smallest limit of all robots. If no robot has a limit, it is a share of
-    /// the largest amplitude.
+    /// The rule of the thesis, in its colours. A block that a robot holds shows the used share of the limits of this
+    /// robot. Any other block shows its amplitude as a share of the smallest limit of all robots. If no robot has a
+    /// limit, the amplitude is shown as a share of the largest amplitude.
     Source,
 }
 
@@ -64,8 +64,8 @@ pub enum Fill {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Corners {
-    /// With at most three interfaces the forces at both ends of each, with more one force for each. Forces that are
-    /// zero are left out.
+    /// For at most three interfaces, the forces at both ends of each interface. For more interfaces, one force for
+    /// each. Forces that are zero are left out.
     #[default]
     Few,
     /// Every unknown of the program at every end with its name, even if it is zero. Arrows then only name forces.
@@ -106,10 +106,10 @@ pub struct Options {
     pub scale_bar: bool,
     /// Whether dimension lines show the width and height of all blocks of a frame.
     pub dimensions: bool,
-    /// Whether [`Kind::Thrust`](super::Kind::Thrust) has its force polygon next to it: a load line, a pole, and a ray for
-    /// each joint.
+    /// Whether [`Kind::Thrust`](super::Kind::Thrust) shows the force polygon next to the structure: a load line, a
+    /// pole, and a ray for each joint.
     pub with_polygon: bool,
-    /// The block to whose surroundings the picture is limited; `None` for the whole structure.
+    /// The block in the centre of a zoomed picture, which shows only its surroundings. `None` for the whole structure.
     pub zoom: Option<BlockId>,
     /// Whether blocks and robots have labels with their names, in frames with at most 60 blocks.
     pub labels: bool,

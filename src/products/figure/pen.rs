@@ -20,7 +20,7 @@ pub(crate) const DOT_RADIUS: f64 = 2.8;
 /// Radius of the dot of a missing force that is too small for an arrow, pixels.
 pub(crate) const MISSING_RADIUS: f64 = 1.6;
 
-/// If a unit edge is shorter than this, pixels, single arrows cannot be read, and small signs on them are left out.
+/// If a unit edge is shorter than this, pixels, single arrows cannot be read, and small signs on arrows are left out.
 pub(crate) const MIN_READABLE_UNIT_EDGE: f64 = 20.0;
 /// Opacity of the fill of a displaced block.
 pub(crate) const DISPLACED_OPACITY: f64 = 0.38;
@@ -64,10 +64,10 @@ pub(crate) struct Pen<'a> {
     /// The frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
-    /// The position of each block in the placing order, by its index; `None` for a block that is not placed.
+    /// The position of each block in the placing order, indexed by block; `None` for a block that is not placed.
     places: Vec<Option<usize>>,
-    /// The displacement of each block, by its index; `None` for a block in its place. May be shorter than the list of
-    /// blocks.
+    /// The displacements of the blocks, indexed by block; `None` for a block that is not displaced. The list may be
+    /// shorter than the number of blocks.
     displaced: &'a [Option<Displacement>],
     /// Width of an outline, pixels.
     pub line: f64,

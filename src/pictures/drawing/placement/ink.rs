@@ -10,7 +10,7 @@ use super::{Placed, corners};
 use crate::drawing::arrow::head_size;
 use crate::drawing::{PagePoint, PageRect};
 
-/// Convex pieces that labels must keep clear of.
+/// Convex pieces that labels must not cover.
 #[derive(Clone, Debug, Default)]
 pub struct Ink {
     pieces: Vec<Piece>,
@@ -24,7 +24,7 @@ pub struct Ink {
 
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Whether it is a label or a leader of a label. Other leaders should not cross it.
+    /// Whether the piece is a label or a leader of a label. Other leaders should not cross such a piece.
     is_label: bool,
     /// The range of its corners and sides.
     first: usize,
@@ -203,8 +203,8 @@ impl Ink {
     }
 }
 
-/// Pieces that overlap by less than this, pixels, only touch. It is far above rounding, which must not decide a position,
-/// and far below anything visible.
+/// Pieces that overlap by less than this, pixels, only touch. The tolerance is far above rounding errors, which must
+/// not decide a position, and far below any visible overlap.
 const TOUCH_TOL: f64 = 1e-3;
 
 /// A side of a convex piece, and the projection of the piece onto its normal.
@@ -298,7 +298,7 @@ struct Grid {
     lists: Vec<Vec<Entry>>,
 }
 
-/// A piece in a cell, and the first column and row of its own cells.
+/// A piece in a cell. `left` and `top` are the first column and row that the piece touches.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     number: usize,

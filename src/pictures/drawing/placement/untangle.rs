@@ -7,7 +7,8 @@ use super::ink::separated;
 use super::{CLEARANCE, Ink, LabelRequest, Placed, centred, corners, within};
 use crate::drawing::{PagePoint, PageRect};
 
-/// Rounds over all pairs. The second rarely changes anything; the limit keeps crowded figures fast.
+/// Largest number of rounds over all pairs. The second round rarely changes anything; the limit keeps crowded figures
+/// fast.
 const MAX_ROUNDS: usize = 4;
 
 /// Exchanges the positions of labels as long as this reduces the number of crossings. Returns whether any label moved.

@@ -5,7 +5,7 @@ use super::super::ramp;
 use super::{Sizes, Theme, Widths};
 
 impl Theme {
-    /// The names of the themes, the default first: [`Theme::named`] knows each of them.
+    /// The names of the themes, the default first. [`Theme::named`] accepts each of them.
     pub const NAMES: [&str; 4] = ["thesis", "paper", "colourblind", "dark"];
 
     /// Returns the built-in theme with this name; `None` for a name that is not in [`Theme::NAMES`].

@@ -8,14 +8,15 @@ use super::patch::Patch;
 pub(super) const UNCHANGED: u8 = 0;
 /// Largest number of other indices.
 const MAX_COLOURS: usize = 255;
-/// If there are more colours, this number of the most frequent ones is kept exactly: fills and lines.
+/// If there are more colours, this number of the most frequent colours is kept exactly. These are usually fills and
+/// lines.
 const EXACT_COLOURS: usize = 96;
-/// The others are grouped by the leading bits of each channel; fewer bits than this are compared.
+/// All other colours are grouped by the leading bits of each channel. Fewer than this number of bits are compared.
 const BITS: u32 = 7;
 
 /// The colours of an animation.
 pub(super) struct Palette {
-    /// In the order of their indices, from 1.
+    /// The colours in the order of their indices, which begin at 1.
     colours: Vec<[u8; 3]>,
     numbers: BTreeMap<[u8; 3], u8>,
 }

@@ -5,15 +5,15 @@ use super::super::png::{PngError, Raster};
 /// A rectangle of new pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Patch {
-    /// Distance of its left edge from that of the picture, pixels.
+    /// Distance of the left edge of the patch from the left edge of the picture, pixels.
     pub x: u32,
-    /// Distance of its upper edge from that of the picture, pixels.
+    /// Distance of the upper edge of the patch from the upper edge of the picture, pixels.
     pub y: u32,
-    /// Pixels across.
+    /// Width of the patch in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height of the patch in pixels.
     pub height: u32,
-    /// Row by row: the new colour, and whether it differs from the old one.
+    /// The pixels row by row: the new colour of a pixel, and whether it differs from the old colour.
     pub pixels: Vec<([u8; 4], bool)>,
     /// The time for which the picture is shown, hundredths of a second.
     pub hundredths: u16,

@@ -4,8 +4,8 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::{Compression, PngError};
 
-/// The filter type "none" of a row. Filters store differences of neighbouring pixels. That helps photographs, but makes
-/// files of figures larger and costs time.
+/// The filter type "none" of a row. Filters store differences of neighbouring pixels. This makes files of photographs
+/// smaller, but files of figures larger, and it takes time.
 const NO_FILTER: u8 = 0;
 
 /// Writes a picture as PNG. `per_metre` is its resolution in pixels per metre.

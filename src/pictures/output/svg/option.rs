@@ -27,8 +27,8 @@ pub struct Options {
     pub words: Words,
     /// The fonts for text that is embedded or written as outlines.
     pub fonts: Fonts,
-    /// The prefix of the ids of all elements, of letters and digits; for `None` a hash of the drawing. If a page
-    /// contains the same drawing twice, each copy needs a prefix of its own.
+    /// The prefix of the ids of all elements. It consists of letters and digits. For `None`, the prefix is a hash of
+    /// the drawing and the options. If a page contains the same drawing twice, each copy needs a different prefix.
     pub mark: Option<String>,
 }
 

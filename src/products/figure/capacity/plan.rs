@@ -4,15 +4,15 @@ use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
 use crate::figure::view;
 use crate::geometry::{Bounds, Point, Vector};
 
-/// The polygon reaches at most this far from its point, as a share of the size of the structure.
+/// Largest distance of the polygon from its point, as a share of the size of the structure.
 const REACH: f64 = 0.42;
-/// A polygon that is smaller than this share of its farthest force is drawn apart, in a scale of its own.
+/// A polygon that is smaller than this share of its largest force is drawn apart from its point, at a separate scale.
 const SMALL: f64 = 0.25;
 /// Size of a polygon that is drawn apart, as a share of the size of the structure.
 const APART: f64 = 0.4;
-/// Gap between the structure and what is drawn next to it, as a share of the size of the structure.
+/// Gap between the structure and the items next to it, as a share of the size of the structure.
 const GAP: f64 = 0.1;
-/// Forces without end are cut off at this multiple of the largest force of a vertex.
+/// Unbounded sets of forces are cut off at this multiple of the largest force of a vertex.
 const CUT: f64 = 1.7;
 /// The largest number of small pictures.
 const MOST_PICTURES: usize = 4;
@@ -20,17 +20,17 @@ const MOST_PICTURES: usize = 4;
 const SMALLER: (f64, f64) = (0.36, 0.21);
 /// A structure wider than this multiple of its height has its small pictures below it.
 const WIDE: f64 = 1.5;
-/// No small pictures are drawn of structures with more blocks.
+/// Structures with more blocks have no small pictures.
 const MOST_BLOCKS: usize = 300;
-/// The number of corners of the circle at which forces without end are cut off.
+/// The number of corners of the circle at which unbounded sets are cut off.
 const ROUND: usize = 48;
 
-/// The polygon of a frame, and what belongs to it.
+/// The positions of the polygon of a frame, its edges and its small pictures.
 pub(super) struct Plan<'a> {
     pub capacity: &'a LoadCapacity,
     /// The point at which the force acts.
     pub point: Point,
-    /// Where the force 0 is drawn: the point, unless the polygon is drawn apart.
+    /// The position at which the force 0 is drawn: the point, unless the polygon is drawn apart.
     pub zero: Point,
     /// Whether the polygon is drawn apart.
     pub is_apart: bool,
@@ -45,10 +45,10 @@ pub(super) struct Plan<'a> {
 /// A drawn edge.
 pub(super) struct Side {
     pub ends: [Point; 2],
-    /// Whether the edge has no end there.
+    /// For each end, whether the edge is unbounded in this direction.
     pub is_open: [bool; 2],
     pub outward: Vector,
-    /// Its number in the figure, from 1, if it has a small picture.
+    /// The number of the edge in the figure, from 1; `None` if the edge has no small picture.
     pub number: Option<usize>,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct Side {
 pub(super) struct Small {
     pub number: usize,
     pub mechanism: Vec<Motion>,
-    /// The direction in which the point begins to move.
+    /// The direction in which the loaded point begins to move.
     pub outward: Vector,
     /// The shown part of the scene, and the corner and the scale at which it is drawn.
     pub view: Bounds,
@@ -307,7 +307,7 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
     ring
 }
 
-/// Sets without end are taken to this multiple of the circle at which they are cut off.
+/// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
 const FAR: f64 = 1e3;
 
 /// Returns the part of a polygon in which normal · F ≤ limit.

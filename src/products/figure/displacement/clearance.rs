@@ -4,7 +4,7 @@ use super::rigid::Displacement;
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// Largest allowed overlap of two bodies, as a share of the area of the smaller one. An overlap of 1 % would be
+/// Largest allowed overlap of two bodies, as a share of the area of the smaller body. An overlap of 1 % would be
 /// visible.
 const MAX_OVERLAP: f64 = 0.004;
 

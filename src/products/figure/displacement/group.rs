@@ -7,7 +7,7 @@ use crate::analysis::{Analysis, Motion};
 use crate::scene::{BlockId, BodyId};
 
 /// A block is at rest if its fastest point is slower than this share of the fastest point of all blocks. Slower motions
-/// are solver noise or not visible.
+/// are numerical noise of the solver or not visible.
 const REST_TOL: f64 = 1e-3;
 
 /// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to one body if there is no

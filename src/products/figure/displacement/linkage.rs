@@ -14,12 +14,13 @@ use crate::analysis::{Analysis, Motion};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// With more bodies than this joints are not closed, because that would take longer than the drawing.
+/// Joints are not closed if there are more bodies, because this would take longer than the drawing.
 const MAX_BODIES: usize = 40;
 const MAX_STEPS: usize = 12;
 /// Tolerance of closed joints, as a share of the length of the frame.
 const CLOSED: f64 = 1e-7;
-/// If a correction is larger than this share of the path, the joints cannot all be closed, and none is closed.
+/// If a correction is larger than this share of the path, the joints cannot all be closed. In this case no joint is
+/// closed.
 const MAX_CORRECTION: f64 = 1.0;
 /// Regularization for redundant equations, relative to the largest diagonal entry.
 const RIDGE: f64 = 1e-10;
@@ -29,13 +30,14 @@ const RIDGE: f64 = 1e-10;
 enum Condition {
     /// A point is the same on both bodies: two equations.
     Hinge(Point),
-    /// A point of the first body stays on a line of the second, through this point and across this normal.
+    /// A point of the first body stays on a line of the second body. The line passes through this point; the vector is
+    /// its normal.
     OnLine(Point, Vector),
     /// The two bodies turn by the same angle.
     Parallel,
 }
 
-/// A condition between two bodies; `None` for one at rest.
+/// A condition between two bodies. A body at rest is `None`.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     bodies: [Option<usize>; 2],

@@ -7,11 +7,11 @@ use crate::geometry::{Point, Polygon, Vector, cross};
 
 /// Tolerance of the distance between a line and a point, as a share of the block's size.
 const LENGTH_TOL: f64 = 1e-6;
-/// Corners of the path lie at most this far outside the block, as a share of the square root of its area.
+/// Largest distance of corners of the path outside the block, as a share of the square root of the block's area.
 const NEAR: f64 = 0.15;
 /// The sine of the angle below which two lines of action are parallel.
 const PARALLEL: f64 = 1e-6;
-/// With more loads than this, including the weight, no path is sought.
+/// Largest number of loads, including the weight, for which a path is searched.
 const MAX_ORDERED: usize = 4;
 
 /// A force with a point of its line of action.
@@ -63,9 +63,9 @@ pub(super) fn path(
 
 struct Search<'a> {
     polygon: &'a Polygon,
-    /// How far outside the block a corner may lie, metres.
+    /// Largest distance of a corner outside the block, metres.
     near: f64,
-    /// By how much a line may miss a point, metres.
+    /// Largest distance at which a line still meets a point, metres.
     miss: f64,
     second: Pressed,
     loads: &'a [Pressed],

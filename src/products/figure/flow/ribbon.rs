@@ -3,7 +3,7 @@
 use crate::drawing::{Camera, Outline};
 use crate::geometry::{Point, Vector, quarter_turn};
 
-/// At a corner a band is at most this many times as wide as on either side.
+/// Largest width of a band at a corner, as a multiple of its width before and after the corner.
 const LONGEST_MITRE: f64 = 1.6;
 
 /// Returns the outline of a band along `axis` on the page. `widths` has the full width at each point of the axis, in

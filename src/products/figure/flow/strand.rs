@@ -12,8 +12,8 @@ use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 
-/// If the component along gravity is below this share of a force, its component across gravity decides whether it
-/// enters or leaves.
+/// If the component of a force along gravity is below this share of the force, the component across gravity decides
+/// whether the force enters or leaves the block.
 const ACROSS: f64 = 1e-6;
 /// Number of segments of a schematic curve.
 const PIECES: usize = 12;
@@ -23,7 +23,7 @@ const STRAIGHT: f64 = 0.2;
 /// The origin of a force on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Origin {
-    /// Another body, through the contact with this index.
+    /// Another body. The index is that of the contact.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
@@ -31,7 +31,7 @@ pub(crate) enum Origin {
     Load,
     /// The weight of the block.
     Weight,
-    /// The missing force of the failure with this index.
+    /// A missing force. The index is that of the failure.
     Missing(usize),
 }
 
@@ -45,12 +45,12 @@ pub(crate) struct Acting {
     pub force: Vector,
 }
 
-/// What a strand shows.
+/// The kind of force that a strand shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StrandKind {
-    /// Force that the block passes on.
+    /// Force that the block transmits.
     Carried,
-    /// The weight of the block, on its way to the forces that carry it.
+    /// The weight of the block, on the path to the forces that carry it.
     Weight,
     /// Force from or to a point where a force is missing.
     Missing,
@@ -59,16 +59,17 @@ pub(crate) enum StrandKind {
 /// A line of force through a block.
 #[derive(Clone, Debug)]
 pub(crate) struct Strand {
-    /// The block it runs through.
+    /// The block through which the strand runs.
     pub on: BlockId,
     pub kind: StrandKind,
     pub from: Origin,
     pub to: Origin,
-    /// Its axis, metres, from where the force enters to where it leaves.
+    /// The axis of the strand, metres, from the point where the force enters the block to the point where it leaves.
     pub axis: Vec<Point>,
-    /// Its width at each point of the axis, N. A point that occurs twice has the widths on both sides.
+    /// The width of the strand at each point of the axis, N. A point that occurs twice has two widths, before and after
+    /// a step.
     pub widths: Vec<f64>,
-    /// Whether it runs along true lines of action; otherwise it is schematic.
+    /// True if the strand runs along true lines of action; false if it is schematic.
     pub exact: bool,
 }
 

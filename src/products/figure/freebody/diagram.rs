@@ -20,7 +20,7 @@ const FRICTION_LENGTH: f64 = 42.0;
 /// Length and width of the arrow of a unit normal ŝ, pixels.
 const UNIT_NORMAL_LENGTH: f64 = 30.0;
 const UNIT_NORMAL_WIDTH: f64 = 1.2;
-/// Friction arrows of one interface reach at most this far towards each other, as a share of its length.
+/// Largest length of friction arrows of one interface towards each other, as a share of the length of the interface.
 const FRICTION_REACH: f64 = 0.30;
 /// Radius of a torque arrow, pixels.
 const TURN_RADIUS: f64 = 24.0;
@@ -74,7 +74,7 @@ pub(super) fn arrows(
     arrows
 }
 
-/// What all arrows of a diagram depend on.
+/// The data that all arrows of a diagram need.
 struct Diagram<'a> {
     analysis: &'a Analysis,
     block: BlockId,
@@ -82,7 +82,7 @@ struct Diagram<'a> {
     camera: &'a Camera,
     options: &'a Options,
     detail: Detail,
-    /// Whether arrows name forces and their lengths show no amounts.
+    /// Whether arrows only name forces, so that their lengths do not show magnitudes.
     naming: bool,
     /// See [`length_factor`].
     shorter: f64,

@@ -10,7 +10,8 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::scene::format::UnitsEntry;
 use crate::scene::{BlockId, BodyId};
 
-/// With at most this many interfaces the forces at both ends of each are drawn, unless the options say otherwise.
+/// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
+/// select another level of detail.
 const MAX_INTERFACES_BY_CORNER: usize = 3;
 /// Forces below this share of the largest are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
@@ -58,9 +59,9 @@ impl Force {
 /// The level of detail of the forces of interfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// Normal and friction force at each corner, each with its own name: for a block with one interface.
+    /// Normal and friction force at each corner, each with a separate name. Used for a block with one interface.
     Parts,
-    /// One force at each corner: for a block with few interfaces.
+    /// One force at each corner. Used for a block with few interfaces.
     Corners,
     /// One force for each interface.
     Resultants,

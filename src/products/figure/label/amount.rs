@@ -8,9 +8,10 @@ use crate::drawing::placement::LabelRequest;
 use crate::drawing::{Colour, Face, PagePoint, text};
 use crate::scene::BodyId;
 
-/// Largest number of magnitudes of loads and missing forces in such frames, approximately.
+/// Approximate largest number of magnitudes of loads and missing forces in frames with many blocks.
 const MAX_WRITTEN: usize = 16;
-/// Forces that differ by less than this share count as equal: ten times the tolerance of a proof of equilibrium.
+/// Forces whose relative difference is below this count as equal. The value is ten times the tolerance of a proof of
+/// equilibrium.
 pub(crate) const SAME_FORCE: f64 = 1e-6;
 
 /// A text at a point of a picture.

@@ -26,11 +26,11 @@ pub(super) struct Label {
     pub size: f64,
     pub class: &'static str,
     pub request: LabelRequest,
-    /// The colour of its arrow; `None` for plain text.
+    /// The colour of the arrow to which the label belongs; `None` for plain text.
     pub colour: Option<Colour>,
-    /// Whether the text below the frame mentions it. Then it is drawn in any case.
+    /// Whether the text below the frame mentions the label. Such a label is always drawn.
     pub named: bool,
-    /// The block that it names. Inside another block it would seem to name that block.
+    /// The block that the label names. Inside another block, the label would seem to name that block.
     pub of: Option<BlockId>,
 }
 

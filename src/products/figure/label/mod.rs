@@ -31,7 +31,7 @@ use crate::drawing::{Group, PageRect};
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
-/// In frames with more blocks than this only blocks that the text mentions are labelled.
+/// In frames with more blocks, only blocks that the text mentions have labels.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
 /// If a unit edge is at least this long, pixels, names may be at any distance from their blocks …
 const ROOMY_UNIT_EDGE: f64 = 26.0;
@@ -40,8 +40,8 @@ const FEW_BLOCKS: usize = 12;
 /// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
 const MAX_DISTANCE: f64 = 8.0;
 
-/// A name outside its block has a leader if another block's centroid is close: at most at this multiple of the distance
-/// to its own block's centroid.
+/// A name outside its block has a leader if the centroid of another block is close. This is so if its distance is at
+/// most this multiple of the distance to the centroid of the named block.
 const AMBIGUITY_RATIO: f64 = 1.5;
 
 /// The class of the group of a frame's labels. The description of the group counts labels without a position.

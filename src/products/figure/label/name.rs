@@ -17,7 +17,7 @@ const DISTANCE_STEP: f64 = 1e-3;
 const INSET: f64 = 4.0;
 /// Length of a block's edge for the font size of its name, as a share of the square root of its area.
 const EDGE_SHARE: f64 = 0.6;
-/// The name of a block whose edge is longer than this, in unit edges, has a font size of its own.
+/// If the edge of a block is longer than this, in unit edges, its name has a larger font size.
 const LARGE_BLOCK: f64 = 3.0;
 
 /// Returns the font size of a block's name, pixels. `edge` is the length of an edge of the block in pixels.

@@ -17,9 +17,9 @@ use crate::scene::format::UnitsEntry;
 const MAX_LISTED_ROBOTS: usize = 16;
 /// The arrow of a torque has a least length, so that its direction is visible.
 const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
-/// With more blocks the legend shows the colours only.
+/// Largest number of blocks that the legend names. With more blocks, it shows only the colours.
 const MAX_NAMED_BLOCKS: usize = 6;
-/// With a longer name, characters, the legend shows the colours only.
+/// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.
 const MAX_NAME_LENGTH: usize = 12;
 
 /// Returns the entries for all signs that occur in a figure of forces. `unit` is the unit edge in pixels.
@@ -66,7 +66,7 @@ struct DrawnArrows<'a> {
     context: &'a FigureContext<'a>,
     /// Pixels per metre.
     scale: f64,
-    /// Whether arrows in general are too small, so that colours show the forces instead.
+    /// Whether arrows in general are too small. Then colours show the forces, and arrows are left out.
     too_small: bool,
 }
 

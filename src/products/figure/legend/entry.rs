@@ -11,7 +11,7 @@ const MISSING: &str = "missing force, without which it falls";
 pub(crate) enum Entry {
     /// Arrow colours, each with the name of its block.
     Blocks(Vec<(Colour, String)>),
-    /// The arrow colours alone, if there are too many blocks to list.
+    /// Only the arrow colours, if there are too many blocks to list.
     Colours(Vec<Colour>),
     /// The disc of a robot: its colour and its name.
     Robot(Colour, String),
@@ -30,7 +30,8 @@ pub(crate) enum Entry {
     Metres(f64, String),
     /// A note, such as on labels that are left out.
     Note(String),
-    /// A sign: the function that draws it from the middle of its left end, its width in pixels, and its meaning.
+    /// A sign: the function that draws it, its width in pixels, and its meaning. The function gets the middle of the
+    /// left edge.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
 

@@ -8,10 +8,10 @@ use crate::drawing::Colour;
 use crate::geometry::{Point, Vector};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// Forces below this share of the largest are not drawn, because they may be solver errors. Forces are accurate to
-/// about 1e-9.
+/// Forces below this share of the largest force are not drawn, because they may be errors of the solver. Forces are
+/// accurate to about 1e-9.
 pub(super) const FORCE_TOL: f64 = 1e-6;
-/// In [`Normalisation::Drawn`] arrows shorter than this, unit edges, have a thinner shaft and head.
+/// In [`Normalisation::Drawn`], arrows shorter than this, unit edges, have a thinner shaft and a smaller head.
 const FULL_WIDTH_LENGTH: f64 = 0.35;
 /// Least width of a shaft, as a share of the full width. With the full width, arrows of small forces would only be
 /// heads.

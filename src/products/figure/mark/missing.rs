@@ -9,8 +9,9 @@ use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Least length of the arrow of the largest missing force, unit edges. If it is shorter at the scale of the other
-/// forces, missing forces have a scale of their own. The second number is the least length of any of them.
+/// Least length of the arrow of the largest missing force, unit edges. If this arrow is shorter at the scale of the
+/// other forces, missing forces have a separate scale. The second number is the least length of the arrow of any
+/// missing force.
 const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
 /// The thesis draws the missing forces on a block at this share of the scale of that block.
 const SOURCE_FAILURE_SCALE: f64 = 0.4;
@@ -19,7 +20,7 @@ const SOURCE_FAILURE_SCALE: f64 = 0.4;
 enum MissingScale {
     /// The largest missing force of the frame, N.
     Largest(f64),
-    /// The largest single unknown or weight on each block, by its index, N: the scale of the thesis.
+    /// The largest single unknown or weight on each block, N, indexed by block. The thesis uses this scale.
     OfBlocks(Vec<f64>),
 }
 

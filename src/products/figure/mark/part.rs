@@ -8,7 +8,7 @@ use crate::scene::BodyId;
 
 /// A force of an interface on its first body.
 pub(super) struct Part {
-    /// The kind of its arrow, given the other body.
+    /// Returns the kind of the arrow for the other body.
     pub kind: fn(BodyId) -> ArrowKind,
     /// The force, N.
     pub force: Vector,
