@@ -1,4 +1,4 @@
-//! Route 5: verdicts that depend on small gaps and overlaps become undecided.
+//! Route 5: makes verdicts undecided if they depend on small gaps and overlaps.
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may
 //! have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:

@@ -1,4 +1,4 @@
-//! [`Key`]: identifies equal components of different frames, so that each is decided only once.
+//! [`Key`]: identifies equal components of different frames, so that each component is decided only once.
 
 use crate::assembly::Assembly;
 use crate::scene::{BlockId, RobotId};

@@ -1,4 +1,4 @@
-//! A lower bound of the sum of forces that balance an assembly, by weak duality; computed from the geometry.
+//! Computes a lower bound of the sum of forces that balance an assembly, by weak duality and from the geometry.
 //!
 //! If forces balance the loads, contacts and grips absorb the power P of the loads along every motion. A contact force
 //! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its

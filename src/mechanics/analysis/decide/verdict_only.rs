@@ -1,4 +1,5 @@
-//! Computes only the verdict of a component. Margins need it for many similar components, most of them near their limit.
+//! Computes only the verdict of a component. Margins need this verdict for many similar components, most of them near
+//! their limit.
 
 use super::programs::Decision;
 use super::{Component, Place, ProofCache};

@@ -1,5 +1,5 @@
-//! [`Margins`]: the values of friction, tilt, loads, kernel and robot limits at which a frame stands, and how far it is from
-//! their ends.
+//! [`Margins`]: the values of friction, tilt, loads, kernel and robot limits at which a frame stands, and how far the
+//! frame is from the ends of these ranges.
 //!
 //! The balance equations are linear in the forces, in a factor on loads and in a horizontal fraction of the weights.
 //! The bounds on forces are linear in a robot's limit. More friction and a smaller kernel only add admissible forces.

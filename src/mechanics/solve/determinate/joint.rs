@@ -1,4 +1,4 @@
-//! [`Joint`]: the contacts of a tree of blocks, from the ground outwards.
+//! [`Joint`]: a contact of a tree of blocks. The contacts are listed from the ground outwards.
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};

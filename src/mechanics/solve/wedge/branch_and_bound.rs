@@ -1,4 +1,5 @@
-//! Branch and bound over the patterns of pressing and sliding. It proves that the springs come to rest in no pattern.
+//! Branch and bound over the patterns of pressing and sliding. It proves that the springs come to rest in no pattern,
+//! or finds a rest.
 //!
 //! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
 //! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance,

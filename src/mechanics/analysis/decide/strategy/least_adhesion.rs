@@ -1,5 +1,6 @@
-//! Least adhesion: the smallest forces by which contacts or robots would have to exceed their limits. The optimum is the
-//! physical residual. Near the limit it separates zero from nearly zero better than the status of a solver.
+//! Least adhesion: the smallest forces by which contacts or robots would have to exceed their limits. The optimum is
+//! the physical residual. Near the limit, it distinguishes zero from almost zero better than the status of a solver
+//! does.
 
 use super::Attempt;
 use crate::program::Program;

@@ -1,4 +1,4 @@
-//! Least force: admissible forces with the least sum that balance, or a motion that no forces can stop. This one
+//! Least force: admissible forces of least sum that balance the loads, or a motion that no forces can stop. This one
 //! program decides nearly every component, and figures show its forces.
 
 use super::Attempt;
