@@ -12,7 +12,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest rectangle around some points; `None` if there are no points.
+    /// Returns the smallest rectangle around some points; `None` if there are no points.
     pub fn from_points(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         points.into_iter().fold(None, |bounds: Option<Bounds>, p| {
             let b = bounds.unwrap_or(Bounds { min: p, max: p });
@@ -23,7 +23,7 @@ impl Bounds {
         })
     }
 
-    /// The smallest rectangle that contains both rectangles.
+    /// Returns the smallest rectangle that contains both rectangles.
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds {
             min: self.min.inf(&other.min),
@@ -31,7 +31,7 @@ impl Bounds {
         }
     }
 
-    /// The rectangle extended by `margin` metres on every side.
+    /// Returns the rectangle extended by `margin` metres on every side.
     pub fn grown(self, margin: f64) -> Bounds {
         let m = Vector::new(margin, margin);
         Bounds {
@@ -40,17 +40,17 @@ impl Bounds {
         }
     }
 
-    /// Length of the diagonal in metres.
+    /// Returns the length of the diagonal in metres.
     pub fn diagonal(self) -> f64 {
         (self.max - self.min).norm()
     }
 
-    /// Width in metres.
+    /// Returns the width in metres.
     pub fn width(self) -> f64 {
         self.max.x - self.min.x
     }
 
-    /// Height in metres.
+    /// Returns the height in metres.
     pub fn height(self) -> f64 {
         self.max.y - self.min.y
     }

@@ -27,7 +27,7 @@ pub(crate) struct Aabb<const D: usize = 2> {
 }
 
 impl Aabb {
-    /// The box extended by `margin` metres on each side.
+    /// Returns the box extended by `margin` metres on each side.
     pub(crate) fn grown(self, margin: f64) -> Aabb {
         Aabb {
             min: self.min.map(|min| min - margin),
@@ -59,7 +59,7 @@ impl<const D: usize> Aabb<D> {
         (0..D).all(|d| self.min[d] <= other.max[d] && self.max[d] >= other.min[d])
     }
 
-    /// The smallest box that contains both boxes.
+    /// Returns the smallest box that contains both boxes.
     fn union(&self, other: &Aabb<D>) -> Aabb<D> {
         Aabb {
             min: std::array::from_fn(|d| self.min[d].min(other.min[d])),
@@ -67,7 +67,8 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Twice the box's centre in coordinate `d`. Only the order of boxes uses it, so the factor of 2 does not matter.
+    /// Returns twice the coordinate `d` of the box's centre. The value is only used to order boxes, so the factor 2 has
+    /// no effect.
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
@@ -200,7 +201,7 @@ fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     })
 }
 
-/// Twice the range of the boxes' centres in each coordinate.
+/// Returns twice the range of the boxes' centres in each coordinate.
 fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     let (mut min, mut max) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for (bounds, _) in order {
@@ -258,7 +259,7 @@ impl<T, const D: usize> BoxIndex<T, D> {
         BoxIndex::Sorted(SortedBoxes::new(items, bounds))
     }
 
-    /// All items with their boxes. Callers must not rely on their order.
+    /// Returns all items with their boxes. Callers must not rely on the order of the items.
     pub(crate) fn all(&self) -> impl Iterator<Item = (&Aabb<D>, &T)> {
         let (sorted, tree) = self.variants();
         let sorted = sorted.into_iter().flat_map(|list| &list.entries);
@@ -267,7 +268,7 @@ impl<T, const D: usize> BoxIndex<T, D> {
             .chain(tree.map(|(bounds, item)| (bounds, item)))
     }
 
-    /// The items whose boxes intersect `query`. Callers must not rely on their order.
+    /// Returns the items whose boxes intersect `query`. Callers must not rely on the order of the items.
     pub(crate) fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
         let (sorted, tree) = self.variants();
         let sorted = sorted.into_iter();

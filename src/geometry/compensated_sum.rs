@@ -29,7 +29,7 @@ impl CompensatedSum {
         self.error += a.mul_add(b, -product);
     }
 
-    /// The sum, rounded to an `f64`.
+    /// Returns the sum, rounded to an `f64`.
     pub fn value(self) -> f64 {
         self.rounded + self.error
     }

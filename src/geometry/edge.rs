@@ -12,23 +12,23 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The vector from the start to the end, metres.
+    /// Returns the vector from the start to the end, in metres.
     pub fn vector(&self) -> Vector {
         self.to - self.from
     }
 
-    /// Length in metres.
+    /// Returns the length in metres.
     pub fn length(&self) -> f64 {
         self.vector().norm()
     }
 
-    /// The unit normal that points out of the material.
+    /// Returns the unit normal that points out of the material.
     pub fn outward(&self) -> Vector {
         let d = self.vector().normalize();
         Vector::new(d.y, -d.x)
     }
 
-    /// The smallest axis-parallel box around the edge.
+    /// Returns the smallest axis-parallel box around the edge.
     pub(crate) fn bounds(&self) -> Aabb {
         let (a, b) = (self.from, self.to);
         Aabb {
@@ -38,7 +38,7 @@ impl Edge {
     }
 }
 
-/// The sides of a closed ring of corners, in their order; the last side leads back to the first corner.
+/// Returns the sides of a closed ring of corners, in their order. The last side leads back to the first corner.
 pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
     // A comparison is faster than a remainder, and reading a scene spends much of its time in this loop.
     let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };

@@ -46,7 +46,7 @@ pub(crate) type Node = (i64, i64);
 pub(crate) type LatticeEdge = (Node, Node);
 
 impl Cell {
-    /// The nodes at the cell's corners, anticlockwise.
+    /// Returns the nodes at the cell's corners, anticlockwise.
     pub fn corners(self) -> Vec<(i64, i64)> {
         let (x, y) = (self.x, self.y);
         match self.shape {
@@ -56,7 +56,7 @@ impl Cell {
         }
     }
 
-    /// The cell moved by whole lattice steps.
+    /// Returns the cell moved by whole lattice steps.
     pub fn moved(self, by: (i64, i64)) -> Cell {
         Cell {
             x: self.x + by.0,
@@ -65,7 +65,7 @@ impl Cell {
         }
     }
 
-    /// The cell rotated anticlockwise about node (0, 0) by `steps` of 60° (triangles) or 90° (squares).
+    /// Returns the cell rotated anticlockwise about node (0, 0) by `steps` of 60° (triangles) or 90° (squares).
     pub fn turned(self, steps: i64) -> Cell {
         let kind = if self.shape == CellShape::Square {
             LatticeKind::Square
@@ -109,7 +109,7 @@ impl Cell {
         unreachable!("a lattice triangle has a horizontal edge")
     }
 
-    /// The cell's edges, anticlockwise.
+    /// Returns the cell's edges, anticlockwise.
     pub(crate) fn edges(self) -> impl Iterator<Item = LatticeEdge> {
         let corners = self.corners();
         let n = corners.len();
@@ -117,7 +117,7 @@ impl Cell {
     }
 }
 
-/// A node rotated anticlockwise about node (0, 0) by `steps` of 60° (triangular lattice) or 90° (square lattice).
+/// Rotates a node anticlockwise about node (0, 0) by `steps` of 60° (triangular lattice) or 90° (square lattice).
 pub(crate) fn turned(kind: LatticeKind, node: (i64, i64), steps: i64) -> (i64, i64) {
     let (mut x, mut y) = node;
     match kind {
@@ -145,7 +145,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// The position of lattice coordinates, in metres. The coordinates need not be integers.
+    /// Returns the position, in metres, of a point given in lattice coordinates. The coordinates need not be integers.
     ///
     /// ```
     /// use drystone::internals::geometry::{Lattice, LatticeKind};
@@ -165,12 +165,12 @@ impl Lattice {
         }
     }
 
-    /// The position of a node, in metres.
+    /// Returns the position of a node, in metres.
     pub(crate) fn node(&self, node: Node) -> Point {
         self.point(node.0 as f64, node.1 as f64)
     }
 
-    /// Area of one cell in square metres.
+    /// Returns the area of one cell in square metres.
     pub fn cell_area(&self) -> f64 {
         let square = self.side * self.side;
         match self.kind {
@@ -179,7 +179,7 @@ impl Lattice {
         }
     }
 
-    /// Centroid of one cell, in metres.
+    /// Returns the centroid of one cell, in metres.
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let corners = cell.corners();
         let sum = corners
@@ -247,7 +247,7 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
     Some(rings)
 }
 
-/// The direction in which the path a → b → c turns: 1 for left, 0 for straight on, −1 for right.
+/// Returns the direction in which the path a → b → c turns: 1 for left, 0 for straight on, −1 for right.
 fn turn(a: Node, b: Node, c: Node) -> i64 {
     ((b.0 - a.0) * (c.1 - b.1) - (b.1 - a.1) * (c.0 - b.0)).signum()
 }
@@ -264,7 +264,7 @@ fn without_collinear_nodes(ring: &[Node]) -> Vec<Node> {
         .collect()
 }
 
-/// Twice the area of a ring in lattice coordinates, positive if it runs anticlockwise.
+/// Returns twice the area of a ring in lattice coordinates, positive if the ring runs anticlockwise.
 fn doubled_area(ring: &[Node]) -> i64 {
     let n = ring.len();
     (0..n)

@@ -34,7 +34,7 @@ pub type Point = nalgebra::Point2<f64>;
 /// A displacement in metres, a direction, or a force in newtons.
 pub type Vector = nalgebra::Vector2<f64>;
 
-/// The plane's cross product `a_x b_y − a_y b_x`: the moment of force `b` with arm `a`, anticlockwise positive.
+/// Returns the plane's cross product `a_x b_y − a_y b_x`: the moment of force `b` with arm `a`, anticlockwise positive.
 ///
 /// ```
 /// use drystone::internals::geometry::{Vector, cross};
@@ -44,7 +44,7 @@ pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The vector rotated anticlockwise by 90°: `(−v_y, v_x)`.
+/// Returns the vector rotated anticlockwise by 90°: `(−v_y, v_x)`.
 pub fn quarter_turn(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }

@@ -82,37 +82,38 @@ impl Polygon {
         Ok(Polygon { rings })
     }
 
-    /// A polygon from rings that are known to be valid: outline anticlockwise, holes clockwise, without crossings.
+    /// Makes a polygon from rings that are known to be valid: outline anticlockwise, holes clockwise, without
+    /// crossings.
     pub(crate) fn from_valid_rings(rings: Vec<Vec<Point>>) -> Polygon {
         Polygon { rings }
     }
 
-    /// The corners of the outline, anticlockwise; the first corner is not repeated at the end.
+    /// Returns the corners of the outline, anticlockwise. The first corner is not repeated at the end.
     pub fn outline(&self) -> &[Point] {
         &self.rings[0]
     }
 
-    /// The corners of each hole, clockwise.
+    /// Returns the corners of each hole, clockwise.
     pub fn holes(&self) -> &[Vec<Point>] {
         &self.rings[1..]
     }
 
-    /// The outline, followed by the holes.
+    /// Returns the rings: the outline, then the holes.
     pub fn rings(&self) -> &[Vec<Point>] {
         &self.rings
     }
 
-    /// Every side of the outline and of the holes, with the material on its left.
+    /// Returns every side of the outline and of the holes. The material is on the left of each side.
     pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
         self.rings.iter().flat_map(|ring| ring_edges(ring))
     }
 
-    /// Area in square metres, without the holes.
+    /// Returns the area in square metres, without the holes.
     pub fn area(&self) -> f64 {
         self.rings.iter().map(|ring| signed_area(ring)).sum()
     }
 
-    /// Centroid of the area.
+    /// Returns the centroid of the area.
     pub fn centroid(&self) -> Point {
         // Coordinates relative to a corner: for a block far from the origin, products of absolute coordinates cancel.
         let base = self.rings[0][0];
@@ -127,7 +128,7 @@ impl Polygon {
         base + moment / (3.0 * doubled_area)
     }
 
-    /// The smallest axis-parallel rectangle around the outline.
+    /// Returns the smallest axis-parallel rectangle around the outline.
     pub fn bounds(&self) -> Bounds {
         let first = self.rings[0][0];
         self.rings[0].iter().fold(
@@ -162,7 +163,7 @@ impl Polygon {
             })
     }
 
-    /// The polygon rotated anticlockwise by `degrees` about the origin and then moved by `by` metres.
+    /// Returns the polygon rotated anticlockwise by `degrees` about the origin and then moved by `by` metres.
     pub fn placed(mut self, degrees: f64, by: Vector) -> Polygon {
         let (sin, cos) = sin_cos_degrees(degrees);
         for p in self.rings.iter_mut().flatten() {
@@ -172,7 +173,7 @@ impl Polygon {
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact at multiples of 90°.
+/// Returns sine and cosine of an angle in degrees. Both are exact at multiples of 90°.
 pub(crate) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turned = degrees.rem_euclid(360.0);
     if turned == 0.0 {
@@ -303,7 +304,7 @@ impl DroppedCorners {
     }
 }
 
-/// Area of a ring in square metres by the shoelace formula, positive if it runs anticlockwise.
+/// Returns the area of a ring in square metres by the shoelace formula, positive if the ring runs anticlockwise.
 fn signed_area(ring: &[Point]) -> f64 {
     let base = ring[0];
     ring_edges(ring)

@@ -48,7 +48,7 @@ impl Tolerance {
         Tolerance::from_gap(Self::GAP_PER_EXTENT * extent)
     }
 
-    /// The tolerance with which edges touch if their distance is at most `gap` metres.
+    /// Returns the tolerance with which edges touch if their distance is at most `gap` metres.
     pub fn from_gap(gap: f64) -> Tolerance {
         Tolerance {
             gap,

@@ -161,8 +161,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     is_reliable.then_some(bound)
 }
 
-/// The largest |n·point| / Σ |n·gᵢ| over all normals n that can bound the zonotope. No generator gᵢ may be longer than
-/// 1.
+/// Returns the largest |n·point| / Σ |n·gᵢ| over all normals n that can bound the zonotope. The lengths of all
+/// generators gᵢ must be at most 1.
 fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
     let by_length = |a: &Vec3, b: &Vec3| norm(*a).total_cmp(&norm(*b));
     let Some(longest) = generators.iter().copied().max_by(by_length) else {
@@ -285,7 +285,7 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
 /// Directions are sorted into this many cells along each edge of a face of a cube.
 const CELLS_PER_SIDE: usize = 6;
 
-/// The number of the cell in which a direction lies; opposite directions have the same cell.
+/// Returns the number of the cell in which a direction lies. Opposite directions have the same cell.
 fn direction_cell(g: Vec3) -> usize {
     let axis = (0..3)
         .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))
@@ -297,7 +297,7 @@ fn direction_cell(g: Vec3) -> usize {
     (axis * CELLS_PER_SIDE + place(1)) * CELLS_PER_SIDE + place(2)
 }
 
-/// The sum of two generators. The second one is reversed if the angle between them exceeds 90°.
+/// Returns the sum of two generators. The second generator is reversed if the angle between them exceeds 90°.
 fn aligned_sum(a: Vec3, b: Vec3) -> Vec3 {
     let sign = if dot(a, b) < 0.0 { -1.0 } else { 1.0 };
     [a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2]]

@@ -11,8 +11,8 @@ pub use spelling::nearest;
 /// The character that replaces each control character and each character that changes the reading direction.
 pub const HIDDEN: char = '\u{fffd}';
 
-/// A 64-bit hash of some bytes (FNV-1a), the same on every machine and in every version of Rust. It detects accidental
-/// differences, but it is not secure: two texts with the same hash can be constructed.
+/// Returns a 64-bit hash of some bytes (FNV-1a). The hash is the same on every machine and in every version of Rust. It
+/// detects accidental differences, but it is not secure: two texts with the same hash can be constructed.
 ///
 /// ```
 /// use drystone::internals::text::hash;

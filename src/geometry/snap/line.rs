@@ -58,7 +58,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// The distance of a point from the line, metres.
+    /// Returns the distance of a point from the line, in metres.
     fn distance(&self, at: Point) -> f64 {
         self.normal.dot(&(at - self.through)).abs()
     }
@@ -275,7 +275,7 @@ fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Ve
     normal * (normal.dot(&pull) / trace)
 }
 
-/// The representative of the group that contains `i` (union-find).
+/// Returns the representative of the group that contains `i` (union-find).
 fn root(group: &[usize], mut i: usize) -> usize {
     while group[i] != i {
         i = group[i];

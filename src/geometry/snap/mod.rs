@@ -45,7 +45,7 @@ pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
     Polygon::new(outline, rings.collect())
 }
 
-/// Signed area of a ring in square metres, positive if the ring runs anticlockwise.
+/// Returns the signed area of a ring in square metres, positive if the ring runs anticlockwise.
 pub(crate) fn area(ring: &[Corner]) -> f64 {
     let Some(base) = ring.first() else { return 0.0 };
     let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
@@ -283,7 +283,7 @@ fn nodes_near_sides<'s>(
     found
 }
 
-/// The sides of all bodies, with the nodes at their ends.
+/// Returns the sides of all bodies, with the nodes at their ends.
 fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     let mut sides = Vec::with_capacity(bodies.iter().flatten().map(Vec::len).sum());
     for (body, rings) in bodies.iter().enumerate() {

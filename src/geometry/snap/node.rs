@@ -101,12 +101,12 @@ impl Nodes {
         }
     }
 
-    /// The bodies with a corner at a node, each once, in ascending order.
+    /// Returns the bodies with a corner at a node, each once, in ascending order.
     pub(super) fn bodies(&self, node: &Node) -> &[usize] {
         &self.bodies[node.bodies.clone()]
     }
 
-    /// The index in `all` of the node of a corner.
+    /// Returns the index in `all` of the node of a corner.
     pub(super) fn number(&self, body: usize, ring: usize, corner: usize) -> usize {
         self.of_corner[self.first_corner[self.first_ring[body] + ring] + corner]
     }
@@ -121,7 +121,7 @@ struct Clusters {
 }
 
 impl Clusters {
-    /// The corners of the cluster that contains the corner `of`, beginning with `of`.
+    /// Returns the corners of the cluster that contains the corner `of`, beginning with `of`.
     fn members(&self, of: usize) -> impl Iterator<Item = usize> + '_ {
         let following = move |k: &usize| Some(self.next[*k]).filter(|next| *next != of);
         std::iter::successors(Some(of), following)

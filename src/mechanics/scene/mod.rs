@@ -150,12 +150,13 @@ impl Scene {
         self.thickness
     }
 
-    /// The safety kernel, 0 to 1: each application point is moved inward by half this fraction of the contact's length.
+    /// Returns the safety kernel, from 0 to 1. Each application point is moved inward by half this fraction of the
+    /// contact's length.
     pub fn kernel(&self) -> f64 {
         self.kernel
     }
 
-    /// The lattice of the scene, if it has one.
+    /// Returns the lattice of the scene; `None` if the scene has no lattice.
     pub fn lattice(&self) -> Option<Lattice> {
         self.lattice
     }
@@ -175,38 +176,39 @@ impl Scene {
         &self.healed
     }
 
-    /// Pairs of bodies with an overlap so small that they may have been meant to touch. Empty if the scene gives a
-    /// tolerance.
+    /// Returns pairs of bodies with an overlap so small that they may have been meant to touch. The list is empty if
+    /// the scene gives a tolerance.
     pub fn penetrations(&self) -> &[Penetration] {
         &self.penetrations
     }
 
-    /// The parts of the ground.
+    /// Returns the parts of the ground.
     pub fn ground(&self) -> &[Ground] {
         &self.ground
     }
 
-    /// The blocks, in the file's order.
+    /// Returns the blocks, in the file's order.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// The robots, in the file's order.
+    /// Returns the robots, in the file's order.
     pub fn robots(&self) -> &[Robot] {
         &self.robots
     }
 
-    /// Loads on blocks.
+    /// Returns the loads on blocks.
     pub fn loads(&self) -> &[Load] {
         &self.loads
     }
 
-    /// Materials, in the file's order.
+    /// Returns the materials, in the file's order.
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
+    /// Returns the friction coefficients between pairs of materials. The materials are given by their numbers in
+    /// [`Scene::materials`].
     pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
         &self.friction_pairs
     }
@@ -236,7 +238,7 @@ impl Scene {
         &self.notes
     }
 
-    /// The body with this id.
+    /// Returns the body with this id.
     pub fn body(&self, id: BodyId) -> &Body {
         match id {
             BodyId::Ground(i) => &self.ground[i].body,
@@ -244,7 +246,7 @@ impl Scene {
         }
     }
 
-    /// The name of a body in results: a block's id, or `"ground"` for every part of the ground.
+    /// Returns the name of a body in results: a block's id, or `"ground"` for every part of the ground.
     pub fn name(&self, id: BodyId) -> &str {
         match id {
             BodyId::Ground(_) => "ground",
@@ -265,7 +267,7 @@ impl Scene {
         a.friction.min(b.friction)
     }
 
-    /// The direction of gravity as a unit vector; zero if there is no gravity.
+    /// Returns the direction of gravity as a unit vector; zero if there is no gravity.
     pub fn down(&self) -> Vector {
         let g = self.gravity.norm();
         if g > 0.0 {

@@ -43,17 +43,17 @@ impl<'f> Names<'f> {
         }
     }
 
-    /// The name with this number.
+    /// Returns the name with this number.
     pub(super) fn name(&self, number: usize) -> &'f str {
         self.list[number]
     }
 
-    /// The number of a name; `None` if the name is unknown.
+    /// Returns the number of a name; `None` if the name is unknown.
     pub(super) fn get(&self, name: &str) -> Option<usize> {
         self.numbers.get(name).copied()
     }
 
-    /// The number of a name that is a value. Reports an unknown name.
+    /// Returns the number of a name that is a value. Reports an unknown name and returns `None`.
     pub(super) fn find(
         &self,
         findings: &mut Findings,
@@ -65,7 +65,7 @@ impl<'f> Names<'f> {
         })
     }
 
-    /// The number of a name that is a key. Reports an unknown name.
+    /// Returns the number of a name that is a key. Reports an unknown name and returns `None`.
     pub(super) fn find_key(
         &self,
         findings: &mut Findings,

@@ -46,7 +46,7 @@ pub struct Note {
 }
 
 impl NoteCode {
-    /// The note code that is written as this word; `None` if there is no such code.
+    /// Returns the note code with this word; `None` if there is no such code.
     pub fn named(word: &str) -> Option<NoteCode> {
         NoteCode::ALL.iter().copied().find(|c| c.word() == word)
     }
@@ -331,7 +331,8 @@ fn in_degrees(angle: f64) -> Option<f64> {
     (fits && !in_hundredths).then_some(15.0 * count)
 }
 
-/// The distance of a point from an outline, in metres; `None` if the point is inside, or outside by at most `gap`.
+/// Returns the distance of a point from an outline, in metres. `None` if the point is inside, or outside by at most
+/// `gap`.
 fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
     let point = Point::new(at[0], at[1]);
     if polygon.contains(point) {

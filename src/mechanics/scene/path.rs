@@ -36,12 +36,12 @@ impl Path {
 }
 
 impl<'a> Trail<'a> {
-    /// The path of the value of a key in this object.
+    /// Returns the path of the value of a key in this object.
     pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
         Trail::Key(self, name)
     }
 
-    /// The path of an entry inside this list.
+    /// Returns the path of an entry of this list. `number` is counted from 0.
     pub(super) fn index(&'a self, number: usize) -> Trail<'a> {
         Trail::Index(self, number)
     }
@@ -51,7 +51,7 @@ impl<'a> Trail<'a> {
         matches!(self, Trail::Key(_, key) if *key == name)
     }
 
-    /// The path as an owned value.
+    /// Returns the path as an owned value.
     pub(super) fn path(&self) -> Path {
         let mut segments = Vec::new();
         let mut here = self;

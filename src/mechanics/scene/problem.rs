@@ -150,7 +150,7 @@ impl Wording {
         }
     }
 
-    /// The message, and the remedy or hint.
+    /// Returns the message, and the remedy or hint.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
     }

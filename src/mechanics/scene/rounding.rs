@@ -199,7 +199,7 @@ impl Digits {
     }
 }
 
-/// The power 10⁻ᵏ.
+/// Returns the power 10⁻ᵏ.
 fn power(k: usize) -> f64 {
     libm::pow(10.0, -(k as f64))
 }

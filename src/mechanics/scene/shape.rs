@@ -21,7 +21,7 @@ const DOWN: CellShape = CellShape::Down;
 /// The names of the built-in shapes.
 pub const BUILT_IN: [&str; 6] = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
 
-/// The cells of a built-in shape about its origin.
+/// Returns the cells of a built-in shape about its origin.
 ///
 /// `None` for any other name.
 ///

@@ -74,7 +74,7 @@ impl Sketch {
         sketch
     }
 
-    /// The body with this id; `None` if it cannot be drawn.
+    /// Returns the body with this id; `None` if the body cannot be drawn.
     pub fn body(&self, id: BodyId) -> Option<&SketchedBody> {
         self.bodies.iter().find(|body| body.id == id)
     }
@@ -101,7 +101,8 @@ impl Sketch {
     }
 }
 
-/// The body that contains the value at a path such as `blocks[3].polygon[1]`. `None` if the path is not in a body.
+/// Returns the id of the body that contains the value at a path such as `blocks[3].polygon[1]`. `None` if the path is
+/// not in a body.
 fn body_of(path: &str) -> Option<BodyId> {
     let (list, rest) = path.split_once('[')?;
     let number = rest.split_once(']')?.0.parse().ok()?;

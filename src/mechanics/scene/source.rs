@@ -45,7 +45,7 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// The line and column of a byte, counted from 1. The column counts characters.
+    /// Returns the line and column of a byte, counted from 1. The column counts characters.
     pub(super) fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.line(byte);
         let start = self.lines[line - 1];
@@ -53,12 +53,12 @@ impl<'t> Source<'t> {
         (line, before.chars().count() + 1)
     }
 
-    /// The line of a byte, counted from 1.
+    /// Returns the line of a byte, counted from 1.
     pub(super) fn line(&self, byte: usize) -> usize {
         self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
-    /// The position of the first byte of each entry of a top-level list.
+    /// Returns the position of the first byte of each entry of a top-level list.
     pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
         let items = self.tree.as_ref().and_then(|tree| {
             let NodeKind::Object(top) = &tree.root.kind else {

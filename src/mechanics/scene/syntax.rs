@@ -89,8 +89,8 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usiz
     (here, wording)
 }
 
-/// The range of the first line that a version control system wrote to mark a conflict. A line of seven equal signs
-/// alone is not such a mark.
+/// Returns the range of the first line that a version control system wrote to mark a conflict. A line of seven equal
+/// signs alone is not such a mark.
 fn conflict(text: &str) -> Option<Range<usize>> {
     let is_mark = |line: &&str| line.starts_with(['<', '>']) && crate::text::is_conflict_mark(line);
     let line = text.lines().find(is_mark)?;
@@ -98,7 +98,7 @@ fn conflict(text: &str) -> Option<Range<usize>> {
     Some(start..start + line.len())
 }
 
-/// The first line that looks like YAML, TOML or XML, and the name of that format.
+/// Returns the first line that looks like YAML, TOML or XML, and the name of that format.
 fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     let line = text
         .split('\n')
@@ -136,7 +136,7 @@ fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     found.map(|range| (range, format))
 }
 
-/// The message for a word or number that another language would accept, such as `None` or `NaN`.
+/// Makes the message about a word or number that another language would accept, such as `None` or `NaN`.
 fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {
@@ -158,7 +158,7 @@ fn known_token(found: &str) -> Option<Wording> {
     (digits && !sound).then(|| problem::text::odd_number(found))
 }
 
-/// The range of the word or number around a byte.
+/// Returns the range of the word or number around a byte.
 fn token(text: &str, byte: usize) -> Range<usize> {
     let part = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
     let length = |all: &mut dyn Iterator<Item = char>| all.map(char::len_utf8).sum::<usize>();

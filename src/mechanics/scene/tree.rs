@@ -25,12 +25,12 @@ pub(super) struct Tree<'t> {
 }
 
 impl<'t> Tree<'t> {
-    /// The entries of a list.
+    /// Returns the entries of a list.
     pub(super) fn items(&self, list: &List) -> &[Node<'t>] {
         &self.items[list.0.clone()]
     }
 
-    /// The entries of an object, in the order of the text. A key may occur twice.
+    /// Returns the entries of an object, in the order of the text. A key may occur twice.
     pub(super) fn entries(&self, object: &Object) -> &[Entry<'t>] {
         &self.entries[object.0.clone()]
     }
@@ -41,7 +41,7 @@ impl<'t> Tree<'t> {
 pub(super) struct List(Range<usize>);
 
 impl List {
-    /// The number of entries.
+    /// Returns the number of entries.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }

@@ -235,7 +235,7 @@ impl Session {
         Ok(self.update_verdict())
     }
 
-    /// The verdict on the placed blocks.
+    /// Returns the verdict on the placed blocks.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }

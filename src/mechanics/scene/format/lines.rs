@@ -14,8 +14,8 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// A formatter that writes one line for each entry of the outermost object, and of the objects inside it down to
-    /// `depth` levels.
+    /// Makes a formatter that writes one line for each entry of the outermost object, and of the objects inside it down
+    /// to `depth` levels.
     pub(crate) fn new(depth: usize) -> Lines {
         Lines {
             depth,

@@ -3,7 +3,7 @@
 use super::SceneFile;
 use schemars::generate::SchemaSettings;
 
-/// The JSON Schema (draft 2020-12) of a scene file. Editors use it to complete and check a scene.
+/// Returns the JSON Schema (draft 2020-12) of a scene file. Editors use it to complete and check a scene.
 ///
 /// ```
 /// assert!(drystone::scene::format::schema().contains("\"title\": \"drystone scene\""));

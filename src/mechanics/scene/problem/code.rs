@@ -14,14 +14,14 @@ macro_rules! codes {
             /// Every code, in the order of the documentation.
             pub const ALL: &'static [$name] = &[$($name::$variant),*];
 
-            /// The fixed word of the code, as in JSON.
+            /// Returns the fixed word of the code, as in JSON.
             pub fn word(self) -> &'static str {
                 match self {
                     $($name::$variant => $word,)*
                 }
             }
 
-            /// The meaning of the code, as a phrase.
+            /// Returns the meaning of the code as a phrase.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $($name::$variant => $meaning,)*

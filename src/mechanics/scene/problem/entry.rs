@@ -76,7 +76,7 @@ pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     )
 }
 
-/// A small number as a word.
+/// Writes a small number as a word, and a larger number in digits.
 fn count(n: usize) -> String {
     match n {
         0 => "none".into(),
@@ -153,7 +153,7 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
     )
 }
 
-/// The message about a key that occurs twice in an object built in code.
+/// Makes the message about a key that occurs twice in an object built in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
     say(
         Code::DuplicateKey,

@@ -53,7 +53,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// The entries of a list.
+    /// Returns the entries of a list.
     pub(super) fn items(&self, list: &List) -> &'s [Node<'t>] {
         let tree = self.source.tree.as_ref();
         tree.map_or(&[], |tree| tree.items(list))
@@ -103,7 +103,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// The value as it is written in the file.
+    /// Returns the text of a value as written in the file.
     pub(super) fn written(&self, node: &Node<'_>) -> &'t str {
         &self.source.text[node.range.clone()]
     }

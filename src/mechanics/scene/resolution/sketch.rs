@@ -125,8 +125,8 @@ impl Resolution<'_> {
             .collect()
     }
 
-    /// The corners of one cell, in the units of the file. `None` if the scene has no lattice or the cell's coordinates
-    /// are not allowed.
+    /// Returns the corners of one cell, in the units of the file. `None` if the scene has no lattice or the cell's
+    /// coordinates are not allowed.
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
         let (x, y, half) = match cell {

@@ -35,7 +35,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// The error for a text that ends within a string.
+    /// Makes the error for a text that ends within a string.
     fn cut(&self, quote: usize) -> SyntaxError {
         SyntaxError {
             at: self.at,

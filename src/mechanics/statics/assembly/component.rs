@@ -3,7 +3,7 @@
 use super::{Assembly, AssemblyContact, AssemblyGrip};
 
 impl Assembly {
-    /// The connected components of the assembly, in the order of their first bodies.
+    /// Returns the connected components of the assembly, in the order of their first bodies.
     ///
     /// Two bodies are in one component if a chain of contacts connects them without passing through the ground. All
     /// components keep the length L of the whole assembly, so that torques have the same weight in each of them.
@@ -68,7 +68,7 @@ impl DisjointSets {
         }
     }
 
-    /// The least member of the set that contains a number.
+    /// Returns the least member of the set that contains a number.
     pub fn find(&mut self, mut number: usize) -> usize {
         while self.parent[number] != number {
             self.parent[number] = self.parent[self.parent[number]];

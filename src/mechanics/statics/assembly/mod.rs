@@ -56,7 +56,7 @@ impl LoadVector {
         moment: 0.0,
     };
 
-    /// The sum of two load vectors about the same centroid.
+    /// Returns the sum of two load vectors about the same centroid.
     pub fn plus(self, other: LoadVector) -> LoadVector {
         LoadVector {
             force: self.force + other.force,
@@ -64,7 +64,7 @@ impl LoadVector {
         }
     }
 
-    /// The load vector times a factor.
+    /// Returns the load vector multiplied by a factor.
     pub fn times(self, factor: f64) -> LoadVector {
         LoadVector {
             force: self.force * factor,
@@ -127,12 +127,12 @@ pub struct AssemblyContact {
 }
 
 impl AssemblyContact {
-    /// The unit tangent (−n_y, n_x): friction on the first body is positive in this direction.
+    /// Returns the unit tangent (−n_y, n_x). Friction on the first body is positive in this direction.
     pub fn tangent(&self) -> Vector {
         quarter_turn(self.normal)
     }
 
-    /// The number of application points at which forces act: 2 for an edge, 1 for a corner.
+    /// Returns the number of application points at which forces act: 2 for an edge, 1 for a corner.
     pub fn points_in_use(&self) -> usize {
         match self.kind {
             ContactKind::Edge => 2,
@@ -182,8 +182,8 @@ impl Assembly {
         }
     }
 
-    /// For each block of the scene, the index of its body, or `None` if it is not placed; `blocks` is the number of
-    /// blocks.
+    /// Returns one entry for each of the `blocks` blocks of the scene: the index of its body, or `None` if it is not
+    /// placed.
     pub fn body_of_block(&self, blocks: usize) -> Vec<Option<usize>> {
         let mut body_of_block = vec![None; blocks];
         for (number, body) in self.bodies.iter().enumerate() {
@@ -224,7 +224,7 @@ pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> Loa
     }
 }
 
-/// The characteristic length L of a frame in metres: the median length of its edge interfaces.
+/// Returns the characteristic length L of a frame in metres: the median length of its edge interfaces.
 ///
 /// Without edge interfaces it is the median square root of the placed blocks' areas. It depends only on the placed
 /// blocks, so the result of a step does not change with later steps.
@@ -236,7 +236,7 @@ fn characteristic_length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]
         .unwrap_or(1.0)
 }
 
-/// The lower median of a list; `None` for an empty list.
+/// Returns the lower median of a list; `None` for an empty list.
 fn median(mut list: Vec<f64>) -> Option<f64> {
     list.sort_by(f64::total_cmp);
     list.get(list.len().saturating_sub(1) / 2).copied()

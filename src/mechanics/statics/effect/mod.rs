@@ -60,7 +60,7 @@ pub enum EffectName {
 }
 
 impl EffectName {
-    /// The name of the effect in results.
+    /// Returns the name of the effect in results.
     pub fn word(self) -> &'static str {
         match self {
             EffectName::Weight => "weight",
@@ -78,7 +78,7 @@ impl EffectName {
         }
     }
 
-    /// A short explanation of the effect for users.
+    /// Returns a short explanation of the effect for users.
     pub fn meaning(self) -> &'static str {
         match self {
             EffectName::Weight => "gravity acts on each block at its centroid",
@@ -234,7 +234,7 @@ pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
     (assembly.with_summed_loads(), reports)
 }
 
-/// A number with a noun, such as `1 block` or `2 blocks`.
+/// Writes a number with a noun, such as `1 block` or `2 blocks`.
 fn counted(n: usize, noun: &str) -> String {
     if n == 1 {
         format!("1 {noun}")

@@ -29,7 +29,7 @@ pub(super) struct CommonStretch {
 }
 
 impl CommonStretch {
-    /// The common stretch of the edges `a` and `b`, which run in opposite directions.
+    /// Returns the common stretch of the edges `a` and `b`, which run in opposite directions.
     pub(super) fn new(a: Edge, b: Edge) -> CommonStretch {
         let along = (a.vector() - b.vector()).normalize();
         let mut stretch = CommonStretch {
@@ -59,8 +59,8 @@ impl CommonStretch {
         Vector::new(self.along.y, -self.along.x)
     }
 
-    /// The distance, in metres, by which the edge `e` lies outside the start of the first edge, at coordinate `s` along
-    /// the stretch.
+    /// Returns the distance, in metres, of the edge `e` from the line of the first edge, at the coordinate `s` along
+    /// the stretch. It is positive outside the first body.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
         let (h0, h1) = (
@@ -71,7 +71,7 @@ impl CommonStretch {
         h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
     }
 
-    /// The gap between the two edges at coordinate `s`, metres; negative if they overlap there.
+    /// Returns the gap between the two edges at the coordinate `s`, in metres; negative if they overlap there.
     fn gap(&self, s: f64) -> f64 {
         self.height(self.b, s) - self.height(self.a, s)
     }
@@ -87,7 +87,7 @@ impl CommonStretch {
         self.gap(self.start).min(self.gap(self.end))
     }
 
-    /// The point halfway between the two edges at coordinate `s`.
+    /// Returns the point halfway between the two edges at the coordinate `s`.
     pub(super) fn middle(&self, s: f64) -> Point {
         let height = (self.height(self.a, s) + self.height(self.b, s)) / 2.0;
         self.a.from + self.along * s + self.outward() * height

@@ -39,7 +39,7 @@ impl Tip {
         cross(self.before, self.after) > 0.0
     }
 
-    /// The unit vector along the bisector of the corner, which points into the material.
+    /// Returns the unit vector along the bisector of the corner. The vector points into the material.
     fn inward(&self) -> Vector {
         let along = (self.before.normalize() + self.after.normalize()).normalize();
         Vector::new(-along.y, along.x)
@@ -117,7 +117,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     found
 }
 
-/// All corners of a scene, each with the side that begins at it.
+/// Returns all corners of a scene, each with the side that begins at the corner.
 fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
     let mut places = Vec::new();
     for body in bodies(scene) {
@@ -163,7 +163,7 @@ fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
         .then(|| other.side.outward())
 }
 
-/// The distance of a point from a segment; the segment may be a point.
+/// Returns the distance of a point from a segment. The two ends of the segment may be equal.
 fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
     let along = ends[1] - ends[0];
     let square = along.norm_squared();

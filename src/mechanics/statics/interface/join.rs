@@ -87,8 +87,8 @@ impl StretchGrid {
         grid
     }
 
-    /// The grid cell of a point. If `reach` is 0, all points of a quadrant have the same cell, which is slow but
-    /// correct.
+    /// Returns the grid cell of a point. If `reach` is 0, all points of a quadrant have the same cell. The search is
+    /// then slow but correct.
     fn cell(&self, p: Point) -> GridCell {
         let number = |x: f64| (x / self.reach).floor() as i64;
         (number(p.x), number(p.y))

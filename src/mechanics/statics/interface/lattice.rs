@@ -108,7 +108,7 @@ fn joined(
     found
 }
 
-/// The interface along the edges from the node `begin` to the node `end`.
+/// Makes the interface along the edges from the node `begin` to the node `end`.
 ///
 /// The first body lies to the left of this direction, so the normal into it is the direction rotated anticlockwise by
 /// 90°.

@@ -47,17 +47,17 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// The unit tangent (−n_y, n_x): friction on the first body is positive in this direction.
+    /// Returns the unit tangent (−n_y, n_x). Friction on the first body is positive in this direction.
     pub fn tangent(&self) -> Vector {
         quarter_turn(self.normal)
     }
 
-    /// Length of the stretch in metres, 0 for a corner.
+    /// Returns the length of the stretch in metres; 0 for a corner.
     pub fn length(&self) -> f64 {
         (self.ends[1] - self.ends[0]).norm()
     }
 
-    /// The middle of the stretch.
+    /// Returns the middle of the stretch.
     pub fn middle(&self) -> Point {
         nalgebra::center(&self.ends[0], &self.ends[1])
     }
@@ -81,7 +81,7 @@ impl Interface {
     }
 }
 
-/// The ends of a stretch, each moved inward by `kernel`/2 of its length.
+/// Returns the ends of a stretch, each moved inward by `kernel`/2 of its length.
 pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
     let inward = (ends[1] - ends[0]) * (kernel / 2.0);
     [ends[0] + inward, ends[1] - inward]
@@ -223,7 +223,7 @@ impl Interfaces {
     }
 }
 
-/// All bodies of a scene, the parts of the ground first.
+/// Returns all bodies of a scene, the parts of the ground first.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
     ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))))

@@ -32,7 +32,7 @@ impl Notices {
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
-    /// The notices as sentences for users, at most one of each kind.
+    /// Returns the notices as sentences for users, at most one of each kind.
     pub(super) fn into_sentences(self, tolerance: Tolerance) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.short_count > 0 {

@@ -31,7 +31,7 @@ impl OpenStretch {
         OpenStretch { narrow, wide, at }
     }
 
-    /// The widest gap along the stretch, metres.
+    /// Returns the widest gap along the stretch, in metres.
     pub(super) fn distance(&self) -> f64 {
         self.wide.1
     }

@@ -84,7 +84,7 @@ pub(super) fn pinned_gaps(
     pinned.collect()
 }
 
-/// The body of an interface that is not `body`.
+/// Returns the body of an interface that is not `body`.
 fn other_body(interface: &Interface, body: BodyId) -> BodyId {
     let [a, b] = interface.bodies;
     if a == body { b } else { a }
