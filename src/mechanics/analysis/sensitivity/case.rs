@@ -118,7 +118,7 @@ impl Case<'_> {
     }
 }
 
-/// Returns a load as [force x, force y, moment about `origin`].
+/// Returns a load as force x, force y, and moment about `origin`.
 pub(super) fn load_at(
     load: &LoadVector,
     centroid: crate::geometry::Point,

@@ -32,7 +32,8 @@ impl Slope {
         }
     }
 
-    /// Returns the derivatives [if the number decreases, if it increases]; `None` if they were not computed.
+    /// Returns two derivatives: the first if the number decreases, the second if it increases. `None` if they were not
+    /// computed.
     pub fn both(self) -> Option<[f64; 2]> {
         match self {
             Slope::Unique(slope) => Some([slope; 2]),
