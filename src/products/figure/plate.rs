@@ -15,7 +15,7 @@ pub(crate) struct Panel {
     pub of: usize,
     /// The index of the frame in this analysis.
     pub frame: usize,
-    /// The caption below it.
+    /// The caption below the panel.
     pub caption: &'static str,
 }
 

@@ -208,9 +208,10 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     polygon
 }
 
-/// Reactions are drawn next to the actions if they are nearer to them than this share of the polygon's size.
+/// If the distance of reactions from actions is smaller than this share of the polygon's size, reactions are drawn next
+/// to the actions.
 const OVERLAP_SHARE: f64 = 0.03;
-/// The distance at which they are then drawn, as a share of the polygon's size.
+/// Distance of reactions that are drawn next to the actions, as a share of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
 
 /// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale relative to the arrows on the

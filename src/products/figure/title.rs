@@ -4,9 +4,9 @@ use crate::drawing::{Face, Theme, text};
 
 /// If a title has more lines than this, a smaller font size is used.
 const MAX_FULL_SIZE_LINES: usize = 3;
-/// The font sizes that are tried, as shares of the full size; none is smaller than that of a caption.
+/// The font sizes that are tried, as shares of the full size. No size is smaller than the size of a caption.
 const SIZE_STEPS: [f64; 3] = [1.0, 0.85, 0.7];
-/// Longer titles are cut.
+/// Largest number of lines of a title. Longer titles are cut.
 const MAX_LINES: usize = 5;
 
 /// The face of titles.

@@ -8,9 +8,9 @@ use crate::scene::{BlockId, Frame, Scene};
 /// The width of ground shown beyond the blocks, as a share of the structure's diagonal; at least one unit edge is
 /// shown.
 const GROUND_BEYOND: f64 = 0.12;
-/// A piece of ground near the structure is not cut if neither side is longer than this, unit edges.
+/// A piece of ground near the structure is not cut if both its width and its height are at most this, unit edges.
 const WHOLE_GROUND: f64 = 3.0;
-/// A zoomed view reaches this far beyond its block, as a share of the block's larger side.
+/// Distance from a block to the edge of its zoomed view, as a share of the block's larger side.
 const ZOOM_REACH: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;

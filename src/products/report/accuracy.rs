@@ -20,7 +20,7 @@ use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
 use crate::wording::verdict::plain;
 
-/// Smaller errors are shown as this: the unit roundoff of f64 is 1.1e-16, so they are rounding.
+/// Smaller errors are shown as this value. They are rounding errors, because the unit roundoff of f64 is 1.1e-16.
 const MIN_SHOWN_ERROR: f64 = 1e-16;
 /// Larger errors, and runs without an error, are drawn at this value.
 const MAX_SHOWN_ERROR: f64 = 1.0;

@@ -26,7 +26,7 @@ use crate::output::svg;
 use crate::scene::{BlockId, Scene};
 use crate::text;
 
-/// The first word of a block for drystone.
+/// The first word after the fence of a code block that drystone draws.
 const WORD: &str = "drystone";
 
 /// All problems of a book.

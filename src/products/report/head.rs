@@ -22,7 +22,7 @@ pub(super) struct Head<'r> {
     pub refused: &'r [Refused],
     /// The rows of the table of all scenes.
     pub rows: Vec<&'r Row>,
-    /// Whether each scene is a comparison of two.
+    /// Whether each scene is a comparison of two scenes.
     pub compares: bool,
     /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
     pub dark: Option<bool>,

@@ -95,7 +95,7 @@ fn code(words: &str) -> String {
 struct Writer {
     out: String,
     files: Vec<OutputFile>,
-    /// The beginning of the file names of the figures.
+    /// The prefix of the file names of the figures.
     place: String,
 }
 

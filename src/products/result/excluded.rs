@@ -7,10 +7,10 @@ use super::{Motion, Number};
 use crate::analysis::{Exclusion, Interval, Intervals};
 use crate::scene::Scene;
 
-/// What excludes all values of a parameter; `None` is left out: its interval is not empty.
+/// The motions that exclude all values of a parameter. `None` if its interval is not empty; the key is then left out.
 type Reasons<'a> = Option<Vec<Reason<'a>>>;
 
-/// What excludes all values of each parameter whose interval is empty.
+/// For each parameter whose interval is empty, the motions that exclude all its values.
 #[derive(Serialize)]
 pub(super) struct Excluded<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,7 +37,7 @@ struct Limits<'a> {
     torque: Reasons<'a>,
 }
 
-/// Values at which the frame falls by one motion; `null` at an end: no limit.
+/// An interval of values at which the frame falls by one motion. An end that is `null` has no limit.
 #[derive(Serialize)]
 struct Reason<'a> {
     from: Option<Number>,

@@ -15,9 +15,9 @@ pub struct Key {
     pub path: &'static str,
     /// The type of its value.
     pub kind: Type,
-    /// Its unit; empty if it has none.
+    /// The unit of the value; empty if it has no unit.
     pub unit: &'static str,
-    /// When the key is present; empty for always.
+    /// The condition under which the key is present; empty if it is always present.
     pub when: &'static str,
     /// Its meaning.
     pub meaning: &'static str,
@@ -40,7 +40,8 @@ const fn key(
 }
 
 const ASKED: &str = "with `--margins`";
-/// Present only if this margin was requested; without names all are.
+/// The condition for keys that are only present if this margin was requested. A request without names requests all
+/// margins.
 const NAMED: &str = "where requested";
 
 /// Every key of a result, in the order in which a result has them.

@@ -11,7 +11,7 @@ use crate::analysis::{Analysis, Verdict};
 use crate::text;
 use name::{NAMES, Name};
 
-/// The place of a scene in the input of a batch.
+/// The position of a scene in the input of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The file, as given.
@@ -46,9 +46,9 @@ impl fmt::Display for Origin {
     }
 }
 
-/// The selected fields of a result: keys of the result of [`to_json`], joined by dots, such as `frames.proof.power`.
-/// A key below a list selects this key of every entry. `verdict` (the worst verdict of all frames) and `all` are
-/// fields too.
+/// The selected fields of a result. Fields are the keys of the result of [`to_json`], joined by dots, such as
+/// `frames.proof.power`. A key below a list selects this key of every entry. `verdict` (the worst verdict of all
+/// frames) and `all` are also fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {
     chosen: Vec<Vec<&'static str>>,

@@ -65,9 +65,9 @@ pub use crate::wording::verdict::word;
 /// Whether a result contains solving times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timing {
-    /// `solve.seconds` and `solve.stages` are present, and differ from run to run.
+    /// `solve.seconds` and `solve.stages` are present. They differ from run to run.
     Included,
-    /// `solve.seconds` and `solve.stages` are absent: the same scene gives the same bytes.
+    /// `solve.seconds` and `solve.stages` are absent. The same scene then gives the same bytes.
     LeftOut,
 }
 
@@ -182,7 +182,7 @@ struct Frame<'a> {
     total_force_bound: Option<Number>,
     total_sticking: Number,
     weight: Number,
-    /// Only on request.
+    /// Only present on request.
     #[serde(skip_serializing_if = "Option::is_none")]
     blocks: Option<Vec<Block<'a>>>,
     interfaces: Vec<Interface<'a>>,

@@ -60,7 +60,7 @@ struct Weight<'a> {
 
 #[derive(Serialize)]
 struct Friction<'a> {
-    /// The index of its interface in `interfaces`, from 0.
+    /// The index of the interface in `interfaces`, from 0.
     interface: usize,
     bodies: [&'a str; 2],
     #[serde(flatten)]
@@ -69,7 +69,7 @@ struct Friction<'a> {
 
 #[derive(Serialize)]
 struct Load<'a> {
-    /// Its index in the scene, from 0.
+    /// The index of the load in the scene, from 0.
     load: usize,
     block: &'a str,
     at: Pair,
@@ -91,7 +91,7 @@ type Two = Derivative<Pair>;
 #[serde(untagged)]
 enum Value<T> {
     Unique(T),
-    /// Backward and forward.
+    /// The backward and the forward derivative.
     Sides([T; 2]),
     AtKink(&'static str),
     /// The corner cannot move.

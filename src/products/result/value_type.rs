@@ -17,7 +17,7 @@ pub enum Type {
     Count,
     /// A whole number from 1, or `null` if there is no text.
     Place,
-    /// A whole number from 0, or `null` if there is none.
+    /// A whole number from 0, or `null` if there is no such index.
     Index,
     /// A number; `null` if it could not be computed, which happens only in undecided frames.
     Number,

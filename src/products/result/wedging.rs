@@ -11,7 +11,7 @@ use crate::scene::Scene;
 
 #[derive(Serialize)]
 pub(super) struct Wedging<'a> {
-    /// The interfaces that must press.
+    /// The interfaces at which a normal force must act.
     must_press: Vec<Face<'a>>,
     /// The least sum of normal forces, N.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -33,7 +33,7 @@ struct Case {
 
 #[derive(Serialize)]
 struct PointCase {
-    /// The index of its interface in `interfaces`, from 0.
+    /// The index of the interface in `interfaces`, from 0.
     interface: usize,
     /// The index of the application point, 0 or 1.
     point: usize,
@@ -42,15 +42,16 @@ struct PointCase {
 
 #[derive(Serialize)]
 struct FaceCase {
-    /// Its index in `interfaces`, from 0.
+    /// The index of the interface in `interfaces`, from 0.
     interface: usize,
-    /// `forth` along (−n_y, n_x) of the normal n, `back` against it, or `sticks`.
+    /// The direction of sliding: `forth` along (−n_y, n_x) of the normal n, `back` opposite to it, or `sticks` without
+    /// sliding.
     slides: &'static str,
 }
 
 #[derive(Serialize)]
 struct Face<'a> {
-    /// Its number in `interfaces`, from 0.
+    /// The index of the interface in `interfaces`, from 0.
     interface: usize,
     bodies: [&'a str; 2],
 }

@@ -65,7 +65,7 @@ pub struct Discovered {
     pub jobs: Vec<Job>,
     /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program itself failed.
+    /// Scenes on which the program failed because of an error in the program.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
@@ -145,7 +145,7 @@ struct Search {
     candidates: Vec<(PathBuf, PathBuf)>,
     /// Possible references.
     others: Vec<PathBuf>,
-    /// Settings that were read already, by file; `None` stands for the default settings.
+    /// Settings that have already been read, by file. The key `None` is for the default settings.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
     errors: Vec<DiscoveryError>,
 }

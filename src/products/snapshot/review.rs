@@ -17,9 +17,9 @@ use crate::text::{line, shell};
 
 const STYLE: &str = include_str!("../../../assets/snapshot/review.css");
 const SCRIPT: &str = include_str!("../../../assets/snapshot/review.js");
-/// Longer lists of changes are collapsed: the pictures show most of them.
+/// Longer lists of changes are collapsed, because the pictures show most of these changes.
 const MAX_OPEN_CHANGES: usize = 12;
-/// The page lists at most this many changes of one file and counts the rest.
+/// Largest number of changes of one file that the page lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 60;
 
 /// Writes the review page of a check. `folders` are the arguments of the command line; the commands on the page

@@ -21,12 +21,13 @@ pub const SETTINGS_FILE: &str = "drystone-snapshots.toml";
 pub struct Settings {
     /// The layers to compare.
     pub layers: Vec<Layer>,
-    /// The kinds of figures. The first is stored as `name.svg`, each other as `name.KIND.svg`.
+    /// The kinds of figures. The first kind is stored as `name.svg`, every other kind as `name.KIND.svg`.
     pub kinds: Vec<Kind>,
-    /// The names of the themes. The first is stored as `name.png`, each other as `name.THEME.png`. SVG uses the first only.
+    /// The names of the themes. The first theme is stored as `name.png`, every other theme as `name.THEME.png`. Only
+    /// the first theme is stored as SVG.
     pub themes: Vec<String>,
-    /// The widths of pictures in pixels. The first is stored as `name.png`, another as `name.w320.png`. If the list is empty,
-    /// a picture has one pixel per unit of the drawing.
+    /// The widths of pictures in pixels. The first width is stored as `name.png`, every other width as, for example,
+    /// `name.w320.png`. If the list is empty, a picture has one pixel per unit of the drawing.
     pub widths: Vec<u32>,
     /// The significant digits of forces, relative to the largest load.
     pub digits: usize,

@@ -66,9 +66,9 @@ pub struct FolderLock {
 /// The access of a run to the files in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// It reads references; others may read at the same time.
+    /// The run reads references. Other runs may read them at the same time.
     Read,
-    /// It writes references; no other run may use the folder.
+    /// The run writes references. No other run may use the folder at the same time.
     Write,
 }
 

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// high + low, |low| ≤ half a unit in the last place of high.
+/// The number high + low, with |low| ≤ half a unit in the last place of high.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Double {
     high: f64,

@@ -11,7 +11,7 @@ use crate::solve::{
     least_adhesion_in, solve,
 };
 
-/// Sticking below this share of the largest sticking is a rounding error of the solver, not a failure.
+/// If adhesion is below this share of the largest adhesion, it is a rounding error of the solver and not a failure.
 const MIN_FAILURE_SHARE: f64 = 1e-6;
 
 /// A solution method.
@@ -21,7 +21,7 @@ pub enum Method {
     Source(u8),
     /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are unknowns.
     ForceForm,
-    /// The kinematic dual alone; velocities are unknowns.
+    /// Only the kinematic dual program. Its unknowns are velocities.
     Kinematic,
     /// The dual, then the unique forces on its optimal face.
     Unique,

@@ -32,8 +32,8 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 /// The default tolerance of an analysis.
 pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
 
-/// A falling frame that needs less sticking than this, relative to the heaviest load, may be called stable: it is within the
-/// documented tolerance of the proofs.
+/// If a falling frame needs less adhesion than this, relative to the heaviest load, a method may call it stable. This
+/// is within the documented tolerance of the proofs.
 const BAND: f64 = 10.0 * Proof::IMBALANCE_TOL;
 
 /// The results of a study.
@@ -61,22 +61,23 @@ pub struct Case {
 pub struct Truth {
     /// The exact verdict, without a tolerance; `Undecided` if it could not be certified.
     pub verdict: Verdict,
-    /// The least total force if it stands, the least total sticking if it falls, in N.
+    /// The least total force if the frame stands; the least total adhesion if it falls; in N.
     pub total: Option<f64>,
-    /// The largest resultant of the unique forces in N, if it stands.
+    /// The largest resultant of the unique forces in N, if the frame stands.
     pub largest: Option<f64>,
     /// The largest possible relative error of `total`.
     pub gap: f64,
-    /// Whether it falls by so little that it may be called stable within the documented tolerance.
+    /// Whether the frame falls, but needs so little adhesion that it may be called stable within the documented
+    /// tolerance.
     pub within_band: bool,
 }
 
 /// The comparison of a verdict with the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// It is correct, or within the documented tolerance.
+    /// The verdict is correct, or wrong only within the documented tolerance.
     Right,
-    /// It is wrong.
+    /// The verdict is wrong.
     Wrong,
     /// The method gave no verdict.
     Undecided,
@@ -84,7 +85,7 @@ pub enum Mark {
     Unknown,
 }
 
-/// One method at one tolerance on one frame.
+/// The result of one method at one tolerance for one frame.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The method.
@@ -97,9 +98,9 @@ pub struct Run {
     pub outcome: Outcome,
     /// The comparison of the verdict with the reference.
     pub mark: Mark,
-    /// The relative error of the total force, or of the total sticking if it falls.
+    /// The relative error of the total force, or of the total adhesion if the frame falls.
     pub total_error: Option<f64>,
-    /// The relative error of the largest single force, if it stands.
+    /// The relative error of the largest single force, if the frame stands.
     pub largest_error: Option<f64>,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Optimum {
     pub value: Double,
     /// The largest possible relative error of the value.
     pub gap: f64,
-    /// Columns with amounts on the optimal face that are not at their limit.
+    /// The columns with amounts above 0 on the optimal face that are not at their limit.
     pub face: Vec<usize>,
     /// Whether a robot is at its limit.
     pub limited: bool,
@@ -40,10 +40,10 @@ pub(super) const EXACT: f64 = 1e-13;
 const TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
 /// A column belongs to the face if its amount times one of these factors exceeds its reduced cost.
 const MARGINS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
-/// Steps of iterative refinement. The factorisation has 32 digits, so one step is enough for most faces. The others help
-/// ill-conditioned ones.
+/// Number of steps of iterative refinement. The factorisation has 32 digits, so one step is enough for most faces.
+/// Further steps help ill-conditioned faces.
 const REFINEMENTS: usize = 4;
-/// An amount this close to its limit, relatively, is at its limit.
+/// An amount is at its limit if its relative distance from the limit is at most this.
 const AT_LIMIT: f64 = 1e-6;
 /// The smallest weight of a column in the refinement, relative to the largest amount.
 const MIN_WEIGHT: f64 = 1e-12;
@@ -96,13 +96,13 @@ struct Guess<'a> {
 
 /// The refined solution on a face.
 struct Refined {
-    /// Columns at their limit, and the other columns of the face.
+    /// The columns at their limit, and the other columns of the face.
     limited: Vec<usize>,
     face: Vec<usize>,
-    /// Amounts of the face, and velocities.
+    /// The amounts of the columns of the face, and the velocities.
     x: Vec<Double>,
     y: Vec<Double>,
-    /// The unbalanced rest of the loads.
+    /// The part of the loads that the forces do not balance.
     rest: Vec<Double>,
     /// The largest load or amount: the scale of forces.
     largest: f64,

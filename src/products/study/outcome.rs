@@ -9,19 +9,20 @@ use crate::solve::{Amounts, Effort};
 pub struct Outcome {
     /// The verdict.
     pub verdict: Verdict,
-    /// The total force if it stands, the total sticking if it falls, in N.
+    /// The total force if the frame stands, the total adhesion if it falls, in N.
     pub total: Option<f64>,
     /// The largest resultant of a contact or grip, in N.
     pub largest: Option<f64>,
     /// The number of failures.
     pub points: usize,
-    /// The largest imbalance if it stands. For levels it is relative to the forces on a block, otherwise to the heaviest load.
+    /// The largest imbalance if the frame stands. For levels it is relative to the forces on a block, otherwise to the
+    /// heaviest load.
     pub imbalance: Option<f64>,
-    /// The largest violation of the motion relative to its power, if it falls and a motion is proved.
+    /// The largest violation of the motion relative to its power, if the frame falls and a motion is proved.
     pub violation: Option<f64>,
     /// The number of interior-point iterations.
     pub iterations: usize,
-    /// The solving time in s, if the method measures it itself.
+    /// The solving time in s; `None` if the method does not measure it.
     pub(super) seconds: Option<f64>,
 }
 

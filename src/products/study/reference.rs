@@ -18,9 +18,10 @@ use crate::solve::{Conditioning, Effort, Status, dual};
 
 /// Largest relative gap of a certificate whose value counts as known to twelve digits.
 const MAX_GAP: f64 = 1e-12;
-/// A motion is a proof if its power is this many times its largest violation: far above the rounding of the solver.
+/// A motion is a proof if its power is at least this multiple of its largest violation. The factor is far above the
+/// rounding errors of the solver.
 const MIN_POWER_OVER_VIOLATION: f64 = 1e6;
-/// Below this power, relative to the largest velocity, a motion may be rounding.
+/// If the power of a motion is below this, relative to the largest velocity, it may be a rounding error.
 const MIN_POWER: f64 = 1e-9;
 
 /// The true solution of one program, in its scaled numbers.
@@ -28,9 +29,9 @@ const MIN_POWER: f64 = 1e-9;
 pub struct Reference {
     /// The exact verdict, without a tolerance; `Undecided` if nothing could be certified.
     pub verdict: Verdict,
-    /// The least total force if it stands; the least total sticking if it falls and adhesion could hold it.
+    /// The least total force if the part stands; the least total adhesion if it falls and adhesion could hold it.
     pub total: Option<f64>,
-    /// The largest resultant of the unique forces, if it stands.
+    /// The largest resultant of the unique forces, if the part stands.
     pub largest: Option<f64>,
     /// The largest possible relative error of `total`: the duality gap, plus the residuals of both solutions.
     pub gap: f64,

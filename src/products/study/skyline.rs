@@ -6,13 +6,14 @@
 
 use super::double::Double;
 
-/// A pivot below this share of the diagonal counts as zero. A dependent row leaves the rounding of its
-/// entries, some 1e-31 of the diagonal; 1e-22 is far above that and far below the pivots of independent rows.
+/// A pivot below this share of the diagonal counts as zero. The pivot of a dependent row is the rounding error of its
+/// entries, about 1e-31 of the diagonal. The value 1e-22 is far above this error and far below the pivots of
+/// independent rows.
 const ZERO_PIVOT: f64 = 1e-22;
 
 /// A factorised matrix.
 pub(super) struct Skyline {
-    /// The first column of each row.
+    /// The column of the first entry of each row.
     first: Vec<usize>,
     /// The rows of L, from their first columns to the diagonal.
     rows: Vec<Vec<Double>>,

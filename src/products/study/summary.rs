@@ -4,7 +4,7 @@ use super::{Mark, Method, Run, Study};
 use crate::analysis::Accuracy;
 use crate::solve::TOLERANCE;
 
-/// One method at one tolerance over all frames.
+/// The results of one method at one tolerance over all frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// The method.
@@ -15,7 +15,7 @@ pub struct Summary {
     pub time: f64,
     /// The largest relative error of the total among frames with the right verdict.
     pub total_error: Option<f64>,
-    /// The median of the same errors.
+    /// The median of these relative errors.
     pub median_error: Option<f64>,
     /// The largest relative error of the largest single force.
     pub largest_error: Option<f64>,
@@ -27,7 +27,8 @@ pub struct Summary {
     pub frames: usize,
     /// The median of the iterations.
     pub iterations: usize,
-    /// Whether it is on the Pareto front: it has no wrong verdict, and no other such line is faster and more accurate.
+    /// Whether the line is on the Pareto front: it has no wrong verdict, and no other line without a wrong verdict is
+    /// faster and more accurate.
     pub best: bool,
 }
 

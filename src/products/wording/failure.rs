@@ -6,7 +6,7 @@ use super::number::{self, NO_BREAK, digits, listed, place, quantity};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::scene::{BlockId, BodyId, Scene, Unit};
 
-/// At most this many unsupported blocks are named; the rest is counted.
+/// Largest number of unsupported blocks that are named. All further blocks are only counted.
 const MAX_LISTED_BLOCKS: usize = 6;
 
 /// Returns the magnitude of the missing force (N) or torque (N·m).

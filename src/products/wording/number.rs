@@ -119,7 +119,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// Ratios of at least this count as 100 %: the difference is a rounding error of the solver.
+/// Ratios of at least this value count as 100 %, because the difference is a rounding error of the solver.
 pub const FULL: f64 = 1.0 - 1e-6;
 
 /// Writes a number and a noun: `1 hinge`, `2 hinges`.

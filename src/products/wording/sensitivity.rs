@@ -10,14 +10,14 @@ use crate::scene::{BlockId, Scene};
 
 /// A length that changes, as a fraction of the median interface.
 const SHARE_OF_LENGTH: f64 = 1.0 / 50.0;
-/// The part by which a weight changes.
+/// The share of a weight by which the weight changes.
 const SHARE_OF_WEIGHT: f64 = 0.1;
-/// The step of a friction coefficient.
+/// The amount by which a friction coefficient changes.
 const FRICTION_STEP: f64 = 0.05;
 /// Changes with a smaller effect, relative to the value, are not listed.
 const NO_EFFECT: f64 = 1e-6;
 
-/// What is changed.
+/// The quantity that is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// A corner, by its index in [`EndSensitivity::corners`], along a unit vector.
@@ -35,13 +35,13 @@ pub enum Target {
 /// A change that makes the structure stronger, and its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// What is changed.
+    /// The quantity that is changed.
     pub target: Target,
-    /// What is done, with its amount: `moving corner 3 of block v4 by 10 mm up`.
+    /// The change in words, with its amount: `moving corner 3 of block v4 by 10 mm up`.
     pub words: String,
-    /// By how much: metres, newtons, or a coefficient.
+    /// The amount of the change: metres, newtons, or a coefficient.
     pub amount: f64,
-    /// The value of the margin afterwards, to first order.
+    /// The value of the margin after the change, to first order.
     pub after: f64,
 }
 

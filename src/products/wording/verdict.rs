@@ -6,9 +6,9 @@ use crate::analysis::{FrameAnalysis, Verdict};
 use crate::scene::Scene;
 use crate::scene::Unit;
 
-/// A sentence names at most this many failures and counts the rest.
+/// Largest number of failures that a sentence names. All further failures are only counted.
 const MAX_FAILURES_IN_SENTENCE: usize = 4;
-/// The line below a figure has less space, and names at most this many.
+/// Largest number of failures that the line below a figure names. This line has less space.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
 /// Returns the word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Text for people uses `plain`

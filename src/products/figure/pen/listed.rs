@@ -5,7 +5,7 @@ use super::Pen;
 use crate::drawing::{Group, Outline, Path, Stroke};
 use crate::geometry::{Point, Vector};
 
-/// Length of a normal in unit edges. The friction cone is as long.
+/// Length of a normal in unit edges. The friction cone has the same length.
 const NORMAL: f64 = 0.75;
 /// Length of the head of a normal, as a share of the normal.
 const HEAD: f64 = 0.18;

@@ -16,7 +16,7 @@ use super::option::Options;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
-/// Space for names around a panel if names need it: on both sides, and above and below, pixels.
+/// Space around a panel for names that need it, pixels: on both sides, and above and below.
 const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
 
 /// Draws a figure with a panel of this content for each frame.
@@ -139,7 +139,8 @@ pub(crate) struct Strip<'a> {
     pub layout: Layout,
     /// Captions of the frames, instead of their letters and titles.
     pub captions: Option<&'a [String]>,
-    /// Whether every panel shows the part of the scene that all panels need together, as in an animation.
+    /// Whether every panel shows the same part of the scene, which is large enough for all panels. An animation needs
+    /// this.
     pub alike: bool,
 }
 

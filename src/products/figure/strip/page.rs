@@ -13,7 +13,7 @@ use crate::geometry::{Bounds, Point};
 const MAX_DESCRIBED_FRAMES: usize = 30;
 /// Least width of a page without its margins, pixels, so that short words do not need several lines.
 const MIN_INNER_WIDTH: f64 = 300.0;
-/// The legend makes a page at most this wide, pixels; longer entries are broken.
+/// Largest width of a page that the legend requires, pixels. Longer entries are broken into lines.
 const MAX_LEGEND_WIDTH: f64 = 640.0;
 /// Gap between rows of panels, pixels.
 const ROW_GAP: f64 = 30.0;
@@ -115,7 +115,7 @@ struct PageWriter<'a> {
     gaps: Gaps,
     /// Width of the page without its margins, pixels.
     inner: f64,
-    /// The position below everything that is written, pixels.
+    /// The y coordinate below all parts that are already written, pixels.
     y: f64,
     items: Vec<Item>,
 }

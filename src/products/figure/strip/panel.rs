@@ -14,20 +14,20 @@ use crate::geometry::Bounds;
 const CAPTION_LINE: f64 = 22.0 / 17.0;
 /// Height of a line of the text below a verdict, as a multiple of its font size.
 const REASON_LINE: f64 = 1.36;
-/// Longer reasons are cut with an ellipsis.
+/// Largest number of lines of a reason. Longer reasons end in "…".
 const MAX_REASON_LINES: usize = 12;
 /// Gap between the mark of a verdict and its text, pixels.
 const MARK_GAP: f64 = 6.0;
 /// Gap between the text of a verdict and the scale of arrows, pixels.
 const SCALE_GAP: f64 = 22.0;
 
-/// Where a panel is drawn, and what it shows.
+/// The position of a panel, and the content for which it has space.
 pub(super) struct Place {
     /// Its upper left corner.
     pub at: PagePoint,
     /// The part of the scene that its picture shows, metres.
     pub view: Bounds,
-    /// The number of lines for which there is space below the picture for its caption.
+    /// The number of caption lines for which there is space below the picture.
     pub captions: usize,
 }
 

@@ -9,7 +9,7 @@ use super::Strip;
 use crate::drawing::{Face, text};
 use crate::geometry::Bounds;
 
-/// Longer captions are cut with an ellipsis.
+/// Largest number of lines of a caption. Longer captions end in "…".
 const MAX_CAPTION_LINES: usize = 8;
 
 impl Strip<'_> {

@@ -8,18 +8,19 @@ use super::super::bearing::bearings;
 
 /// A chain has at least this many blocks.
 const MIN_BLOCKS: usize = 3;
-/// The largest number of chains that are drawn: those of the greatest thrust.
+/// Largest number of chains that are drawn. If there are more, those with the greatest thrust are drawn.
 const MAX_CHAINS: usize = 3;
-/// The rays of a chain with less thrust than this share of its largest force lie nearly on the load line.
+/// A chain whose thrust is below this share of its largest force is not drawn. Its rays would nearly lie on the load
+/// line.
 const MIN_THRUST: f64 = 0.15;
 
-/// Blocks one after the other from left to right, each pressed in two joints only.
+/// A sequence of blocks from left to right. Forces press on each block in exactly two joints.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chain {
     pub blocks: Vec<BlockId>,
-    /// The contacts before, between and after the blocks, by number.
+    /// The indices of the contacts before, between and after the blocks.
     pub joints: Vec<usize>,
-    /// The force in each joint on the body after it, N.
+    /// The force in each joint on the body that follows the joint, N.
     pub forces: Vec<Vector>,
 }
 

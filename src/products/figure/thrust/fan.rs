@@ -17,10 +17,10 @@ use crate::scene::Unit;
 
 /// Width of the fans, as a share of the structure's width.
 const WIDTH: f64 = 0.42;
-/// Height of the fans, as a share of the structure's height, and the gap between two of them.
+/// Height of the fans, as a share of the structure's height; and the gap between two fans.
 const HEIGHT: (f64, f64) = (0.8, 0.2);
-/// A structure higher than wide counts as this many times as wide as high, and the other way round, so that its fan is
-/// not a sliver.
+/// For the size of a fan, the width and the height of the structure count as at least this share of the larger of both.
+/// Otherwise the fan of a high or wide structure would be too narrow.
 const LEAST_SIDE: f64 = 0.7;
 /// Space to the left of the pole and to the right of the load line, as a share of the structure's larger side.
 const SPACE: (f64, f64) = (0.1, 0.12);
@@ -29,11 +29,12 @@ const LEAST_WIDTH: f64 = 0.34;
 /// Size of the numbers and of the amounts, pixels.
 const NUMBER_SIZE: f64 = 9.5;
 const AMOUNT_SIZE: f64 = 11.5;
-/// What the weight and the loads of a block leave of its balance is a robot's force if it exceeds this share.
+/// If the weight and the loads of a block do not balance the forces of its joints, the rest is a robot's force. This
+/// holds if the rest exceeds this share.
 const ROBOT_TOL: f64 = 1e-6;
 /// Width of the load line, pixels.
 const LOAD_WIDTH: f64 = 1.8;
-/// Numbers on the load line are at least this far apart, pixels.
+/// Least distance of numbers on the load line, pixels.
 const NUMBER_GAP: f64 = 9.0;
 
 /// A fan of a chain in the scene.
@@ -42,14 +43,14 @@ struct Fan {
     pole: Point,
     /// The ends of the rays.
     vertices: Vec<Point>,
-    /// Length of a newton, metres.
+    /// Metres per newton.
     metres: f64,
 }
 
 /// The fans of a frame.
 pub(crate) struct Fans {
     fans: Vec<Fan>,
-    /// Newtons that are a metre long.
+    /// Newtons per metre.
     newtons_per_metre: f64,
     /// The box around the fans and their labels, metres.
     pub bounds: Bounds,

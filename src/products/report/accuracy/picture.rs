@@ -20,11 +20,11 @@ const TIMES: (f64, f64) = (220.0, 350.0);
 const ERRORS: (f64, f64) = (395.0, 550.0);
 /// Positions of the first and the last column of wrong verdicts.
 const WRONG: (f64, f64) = (600.0, 730.0);
-/// The same of verdicts that are undecided.
+/// Positions of the first and the last column of undecided verdicts.
 const UNDECIDED: (f64, f64) = (764.0, 894.0);
-/// Sizes of names and numbers, and of what explains them, pixels.
+/// Font size of names and numbers, and of explanations, pixels.
 const SIZES: (f64, f64) = (15.0, 13.0);
-/// Smaller errors are shown as this: they are rounding of f64.
+/// Smaller errors are shown as this value, because they are rounding errors of f64.
 const LEAST: f64 = 1e-16;
 
 /// Draws a summary as SVG, with text as outlines. `frames` is the number of frames of the study.

@@ -9,12 +9,12 @@ use crate::scene::{BlockId, BodyId, Load, Scene};
 use crate::text::line;
 use crate::wording::failure::named;
 
-/// If there are more reactions than this, they are added up for each part of the ground.
+/// Largest number of single reactions. More reactions are added up for each part of the ground.
 const MAX_REACTIONS: usize = 8;
-/// If there are more loads than this, they are added up.
+/// Largest number of single loads. More loads are added up.
 const MAX_LOADS: usize = 6;
 
-/// Torques below this many metres times the force are rounding errors of the solver.
+/// Torques below this length (metres) times the force are rounding errors of the solver.
 const TORQUE_TOL: f64 = 1e-9;
 
 /// A force in a table of forces.
@@ -23,9 +23,9 @@ struct Force {
     /// The point where it acts; `None` for a sum of forces.
     at: Option<Point>,
     force: Vector,
-    /// What it has besides the moment of the force, N·m.
+    /// The torque that acts in addition to the force, N·m.
     torque: f64,
-    /// The moment about the point of reference, N·m, anticlockwise positive.
+    /// The moment of force and torque about the point of reference, N·m, anticlockwise positive.
     moment: f64,
 }
 

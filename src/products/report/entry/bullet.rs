@@ -7,11 +7,11 @@ use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, state
 /// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BarEnd {
-    /// The parameter itself begins or ends here.
+    /// The values of the parameter itself begin or end here.
     Domain,
     /// The structure falls beyond this end.
     Edge,
-    /// No verdict confirms where the interval ends; the end lies farther out.
+    /// No verdict confirms where the interval ends. The true end may lie farther outside.
     Unconfirmed,
     /// The structure stands at every value beyond this end.
     Open,
@@ -22,21 +22,21 @@ pub enum BarEnd {
 pub struct MarginBar {
     /// The parameter that varies.
     pub name: String,
-    /// The values at which it stands, and the present value, in words.
+    /// The values at which the structure stands, and the present value, in words.
     pub words: String,
     /// The ends of the scale.
     pub scale: (f64, f64),
-    /// The lowest and highest value at which it stands; `None` if it stands at no value.
+    /// The lowest and the highest value at which the structure stands; `None` if it does not stand at any value.
     pub safe: Option<(f64, f64)>,
     /// How the ends of `safe` are drawn.
     pub ends: (BarEnd, BarEnd),
-    /// The least and the largest present value; `None` if there is none or it is infinite.
+    /// The least and the largest present value; `None` if there is no present value or if it is infinite.
     pub now: Option<(f64, f64)>,
-    /// Whether the present value is inside the interval.
+    /// The position of the present value: inside the interval, outside, or unknown.
     pub position: Position,
     /// Whether this is the factor on the loads.
     pub is_load_factor: bool,
-    /// The relative distance to the nearest end: 0 at the end, 1 if there is no end.
+    /// The relative distance of the present value from the nearest end: 0 at the end, 1 if there is no end.
     pub reserve: f64,
 }
 
@@ -49,7 +49,7 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
 pub(super) const SHAPES: &str = "A bar covers the values at which it stands: it falls beyond a stroke (dashed: not confirmed) \
                                  and stands beyond an arrow. Present value: disc inside, cross outside, ring undecided.";
 
-/// The scale ends at this factor times the largest absolute value that is shown.
+/// The scale ends at this multiple of the largest absolute value that is shown.
 const BEYOND: f64 = 1.25;
 
 impl MarginBar {

@@ -5,20 +5,20 @@ use super::{MarginBar, Thumbnail};
 /// A table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// The caption; empty where a heading above it suffices.
+    /// The caption; empty if the heading above the table is sufficient.
     pub caption: String,
-    /// The column heads, and whether the column contains numbers.
+    /// The column heads. The flag is true if the column contains numbers.
     pub heads: Vec<(String, bool)>,
     /// The rows.
     pub lines: Vec<Line>,
-    /// Whether the last row is the sum of the others.
+    /// Whether the last row is the sum of the other rows.
     pub has_sum: bool,
 }
 
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The id of the mark in the figure that belongs to this row: `i3`, `r0`, `f2`; empty for none.
+    /// The id of the mark in the figure that belongs to this row: `i3`, `r0`, `f2`. Empty for a row without a mark.
     pub mark: String,
     /// The cells.
     pub cells: Vec<TableCell>,
@@ -29,13 +29,13 @@ pub struct Line {
 pub struct TableCell {
     /// Its text.
     pub words: String,
-    /// A margin that is drawn as a bar; its text is then the description of the bar.
+    /// A margin that is drawn as a bar. The text of the cell then describes the bar.
     pub bar: Option<MarginBar>,
     /// A small picture.
     pub picture: Option<Thumbnail>,
-    /// The scene that the text leads to, counted from 1.
+    /// The number of the scene to which the text links, from 1.
     pub scene: Option<usize>,
-    /// Whether it is emphasised.
+    /// Whether the text is emphasised.
     pub strong: bool,
 }
 

@@ -7,7 +7,7 @@ use crate::scene::{BlockId, Limits, Scene};
 use crate::text::line;
 use crate::wording::number::{amount, counted, digits, place, tenths};
 
-/// A table lists at most this many loads, robots or pairs of materials.
+/// Largest number of loads, robots or pairs of materials in a table.
 const MAX_ROWS: usize = 12;
 
 /// The lowest and the highest of some values.

@@ -11,27 +11,27 @@ use crate::text::line;
 use crate::wording::failure;
 use crate::wording::number::percent;
 
-/// A sheet lists at most this many joints.
+/// Largest number of joints that a sheet lists.
 const MAX_JOINTS: usize = 12;
 /// Forces below this share of the largest force are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 /// Cells with at least this utilisation are emphasised.
 const NEARLY_USED: f64 = 0.8;
-/// Figures of frames with more joints than this have no hover targets: the page would become too large.
+/// Figures of frames with more joints have no hover targets, because the page would become too large.
 const MAX_HOVER_TARGETS: usize = 3000;
 
 /// A joint that carries force, with its utilisation.
 struct Used {
-    /// The number of the contact in the frame.
+    /// The index of the contact in the frame.
     contact: usize,
-    /// The distance of the resultant from the middle, m, and that distance relative to the largest one allowed.
+    /// The distance of the resultant from the middle, m, and this distance divided by the largest allowed distance.
     /// `None` for a corner.
     off_middle: Option<(f64, f64)>,
-    /// The larger one of the utilisations for opening and sliding, 0 … 1.
+    /// The larger of the utilisations for opening and for sliding, 0 … 1.
     share: f64,
 }
 
-/// The joints of a frame that carry force, the most used first.
+/// The joints of a frame that carry force, sorted by utilisation, the highest first.
 pub(super) struct Ranking<'a> {
     scene: &'a Scene,
     found: &'a FrameAnalysis,

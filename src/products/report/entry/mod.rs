@@ -45,7 +45,7 @@ pub struct ReportOptions {
     pub dark: Option<Theme>,
     /// The name of the theme if the user chose one; the commands in the report repeat it.
     pub theme_name: Option<String>,
-    /// Whether it reports solving times.
+    /// Whether the report contains solving times.
     pub timing: Timing,
     /// Whether an appendix lists all other results.
     pub full: bool,
@@ -81,9 +81,9 @@ pub struct Entry {
     pub details: Vec<String>,
     /// Its content.
     pub sections: Vec<Section>,
-    /// The program and the scene that the result comes from, in one line.
+    /// The program and the scene from which the result comes, in one line.
     pub origin: String,
-    /// Commands that draw its figures again: the purpose and the command.
+    /// Commands that draw the figures again. Each has a purpose and a command.
     pub commands: Vec<(String, String)>,
     /// The scene file for copying: the same values, with escaped characters.
     pub source: String,

@@ -46,11 +46,11 @@ pub struct Badge {
 pub struct Section {
     /// The letter of the step; empty for a scene of one step and for the whole scene.
     pub letter: String,
-    /// The heading; empty where the heading of the scene suffices.
+    /// The heading; empty if the heading of the scene is sufficient.
     pub title: String,
     /// The verdict of the step.
     pub verdict: Verdict,
-    /// Whether it begins a page in print.
+    /// Whether the section begins on a new page in print.
     pub begins_page: bool,
     /// Its content.
     pub parts: Vec<SheetPart>,
@@ -76,7 +76,7 @@ pub struct Chart {
     pub caption: String,
     /// The SVG.
     pub svg: String,
-    /// Whether it takes the whole width of a page.
+    /// Whether the chart takes the whole width of a page.
     pub wide: bool,
 }
 

@@ -15,7 +15,8 @@ use crate::wording::verdict::plain;
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL: (f64, f64) = (96.0, 60.0);
-/// A thumbnail shows at most this many blocks, evenly chosen: more would not be distinguishable.
+/// Largest number of blocks in a thumbnail. If there are more, some are chosen evenly, because a reader could not
+/// distinguish all of them.
 const MAX_THUMBNAIL_BLOCKS: usize = 400;
 
 /// A summary of a scene.
@@ -33,19 +34,19 @@ pub struct Row {
     pub before: Option<Verdict>,
     /// The number of steps that stand, and the number of steps.
     pub stand: (usize, usize),
-    /// The number of blocks that its steps place.
+    /// The number of different blocks that the steps place.
     pub blocks: usize,
-    /// The most important margin of the governing step as a sentence; empty if none was computed.
+    /// The most important margin of the governing step as a sentence; empty if no margin was computed.
     pub headline: String,
     /// The relative distance to the end of this margin, 0 … 1. It is −1 for a falling scene without a margin of
     /// loads, and 2 if no margin was computed.
     pub reserve: f64,
-    /// The largest share of the available friction that an interface uses, among the steps that stand. `None` if no step
-    /// stands: the forces of a falling step include the missing forces.
+    /// The largest used share of the available friction of an interface, among the steps that stand. `None` if no step
+    /// stands, because the forces of a falling step include the missing forces.
     pub friction: Option<f64>,
     /// The largest force of an interface or robot in N, among the steps that stand; `None` if no step stands.
     pub largest: Option<f64>,
-    /// The units in which its forces are written.
+    /// The units in which the forces are written.
     pub units: UnitsEntry,
     /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps stand.
     pub fails: String,

@@ -18,7 +18,7 @@ use crate::wording::number::letter;
 use crate::wording::verdict::plain;
 use crate::wording::{proof, verdict};
 
-/// Width of a figure, in pixels: half a page, so that its labels are legible in print and on a phone.
+/// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
 const WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
 const HEIGHT: f64 = 300.0;

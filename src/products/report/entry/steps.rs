@@ -11,7 +11,7 @@ use crate::text::line;
 use crate::wording::number::letter;
 use crate::wording::verdict::plain;
 
-/// Besides the governing step, at most this many steps that do not stand are drawn.
+/// Largest number of steps that do not stand and are drawn in addition to the governing step.
 const MAX_FALLING: usize = 4;
 
 /// Makes the sections of a report on a scene.

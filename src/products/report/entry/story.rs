@@ -9,9 +9,9 @@ use crate::wording::failure::{shortened, unsupported_phrase};
 use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 use crate::wording::number::{counted, listed, place, three, three_down, three_up};
 
-/// A sentence names at most this many joints or blocks.
+/// Largest number of joints or blocks that a sentence names.
 const MAX_NAMED: usize = 4;
-/// Speeds below this share of the largest one are rounding of the solver.
+/// Speeds below this share of the largest speed are rounding errors of the solver.
 const MOTION_TOL: f64 = 2e-3;
 
 /// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,

@@ -12,11 +12,11 @@ const RADIUS: f64 = 11.0;
 /// A part of a scene that a table row describes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoverTarget {
-    /// The id, the same as of the row.
+    /// The id of the target, which is also the id of the table row.
     pub mark: String,
     /// A description with its numbers.
     pub words: String,
-    /// The ends of an interface, or a point twice, in metres.
+    /// The two ends of an interface, or the same point twice, in metres.
     pub ends: [Point; 2],
 }
 

@@ -7,7 +7,7 @@ use crate::wording::margin::Position;
 
 /// Width and height of a bar.
 const BAR: (f64, f64) = (220.0, 20.0);
-/// The scale ends this far from the bar's ends: marks and arrows there stay inside.
+/// Distance of the ends of the scale from the ends of the bar. Marks and arrows at these ends stay inside the bar.
 const INSET: f64 = 7.0;
 
 /// Draws a bar from the lower to the upper end of the interval, on a scale. The shapes are clear without colours. An

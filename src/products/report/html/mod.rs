@@ -22,7 +22,7 @@ use crate::wording::verdict::plain;
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
-/// If there are at most this many scenes, all are open from the beginning.
+/// Largest number of scenes for which all scenes are unfolded when the page opens.
 const OPEN: usize = 12;
 
 /// Writes one page with all scenes. `bodies` has the HTML of each scene from [`section`].

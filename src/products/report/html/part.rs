@@ -12,7 +12,7 @@ use crate::report::entry::{
 };
 use crate::wording::verdict::plain;
 
-/// Tables with more rows are folded.
+/// Largest number of rows of a table that is not folded.
 const LONG: usize = 24;
 
 /// Writes a scene as a part of a page that can be unfolded. `number` counts from 1.

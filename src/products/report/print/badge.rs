@@ -19,7 +19,7 @@ const BAR_HEIGHT: f64 = 22.0;
 /// Font size of the headline.
 const HEADLINE: f64 = 14.0;
 
-/// The texts of a badge, made legible.
+/// The texts of a badge. Code points replace characters that the fonts do not have.
 struct Words {
     headline: Option<String>,
     /// The headline margin in words.

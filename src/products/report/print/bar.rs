@@ -8,7 +8,7 @@ use crate::wording::margin::Position;
 
 /// Height of a bar.
 pub(super) const HEIGHT: f64 = 16.0;
-/// The scale ends this far from the bar's ends.
+/// Distance of the ends of the scale from the ends of the bar.
 const INSET: f64 = 6.0;
 const SAFE: u32 = 0x002e_8b62;
 const FALLS: u32 = 0x009c_1515;
@@ -24,12 +24,12 @@ pub(super) fn draw(flow: &mut Flow, bar: &MarginBar, at: PagePoint, wide: f64) {
     flow.close(Role::Artifact);
 }
 
-/// A bar at its place on the page.
+/// A bar at its position on the page.
 struct BarPlace<'b> {
     bar: &'b MarginBar,
-    /// Its upper left corner.
+    /// The upper left corner of the bar.
     at: PagePoint,
-    /// Its width, pixels.
+    /// The width of the bar, pixels.
     wide: f64,
 }
 

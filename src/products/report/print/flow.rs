@@ -37,15 +37,15 @@ pub(super) struct Flow {
     /// The number of the current page.
     current: usize,
     pub y: f64,
-    /// The left end and the width of the column.
+    /// The left edge and the width of the column.
     pub left: f64,
     pub room: f64,
-    /// The number of tables so far.
+    /// The number of tables until now.
     pub tables: usize,
     pub theme: Theme,
     fonts: Fonts,
     foot: String,
-    /// Items of the group that is not closed yet.
+    /// The items since the last closed group.
     open: Vec<Item>,
 }
 

@@ -25,9 +25,9 @@ pub(super) struct Page {
     figures: Vec<(Drawing, PagePoint, f64)>,
     /// Charts and small pictures as SVG, with their descriptions.
     charts: Vec<(String, String, PagePoint, f64)>,
-    /// Links: their place, the scene to which they lead, counted from 1, and their text.
+    /// Links. Each has its area, the number of the scene to which it leads, from 1, and its text.
     links: Vec<(PageRect, usize, String)>,
-    /// Headings for the list of bookmarks: level, title, height on the page.
+    /// Headings for the list of bookmarks. Each has its level, its title and its position from the top of the page.
     bookmarks: Vec<(u8, String, f64)>,
     /// The line at the foot of the page.
     foot: String,

@@ -7,15 +7,15 @@ use crate::drawing::{Anchor, Face, PagePoint, PageRect};
 use crate::output::pdf::Role;
 use crate::report::entry::{Grid, TableCell, Thumbnail};
 
-/// A table up to this share of a page stays on one page.
+/// A table that is at most this share of a page high stays on one page.
 const UNBROKEN_SHARE: f64 = 0.3;
 /// Width of a bar in a table.
 const BAR: f64 = 160.0;
 /// Width and height of a small picture in a table.
 const PICTURE: (f64, f64) = (64.0, 40.0);
-/// A column is made wider by at most this where a table is narrower than its page.
+/// Largest additional width of a column if a table is narrower than its page.
 const MAX_SPREAD: f64 = 45.0;
-/// A small picture is drawn for this width.
+/// The width for which a small picture is drawn, pixels.
 const PICTURE_WIDTH: f64 = 96.0;
 
 /// The layout of a table.

@@ -16,10 +16,10 @@ use shape::Movement;
 use tree::Element;
 pub use tree::SvgParseError;
 
-/// Tolerance for positions, in pixels: two values rounded to 0.01 that stand for the same number differ by at most 0.01,
-/// and sums of two of them by 0.02.
+/// Tolerance for positions, in pixels. Two values of the same number, rounded to 0.01, differ by at most 0.01. Sums of
+/// two such values differ by at most 0.02.
 const POSITION_TOL: f64 = 0.025;
-/// A change that at least this many elements share is reported once.
+/// If at least this many elements share a change, it is reported once.
 const MIN_GROUPED: usize = 4;
 
 /// A change of one element.

@@ -5,7 +5,7 @@ use roxmltree::{Document, Node};
 /// The largest nesting depth; deeper files could overflow the stack.
 const MAX_DEPTH: usize = 200;
 
-/// Why a text is not SVG.
+/// The reason why a text is not SVG.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SvgParseError {
     /// The file is empty.
@@ -27,7 +27,7 @@ pub enum SvgParseError {
 pub(super) struct Element {
     /// The tag: `g`, `path`, `text`.
     pub tag: String,
-    /// Its class; empty for none.
+    /// The class of the element; empty if it has no class.
     pub class: String,
     /// The text of its `<title>`, or its `aria-label`.
     pub title: String,

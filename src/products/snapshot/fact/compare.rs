@@ -10,15 +10,15 @@ use super::{Fact, Facts, Section, Value};
 pub struct Change {
     /// A description on one line.
     pub words: String,
-    /// The weight for sorting: what changed in the scene itself, which causes the rest; then verdicts, falling blocks,
-    /// objects that appear or vanish, failures, and numbers. The weight of a number is its change in units of its last
-    /// digit.
+    /// The weight for sorting. Changes of the scene itself have the largest weight, because they cause the other
+    /// changes. Then come verdicts, falling blocks, objects that appear or vanish, failures, and numbers. The weight of
+    /// a number is its change in units of its last digit.
     weight: f64,
 }
 
 /// The kind of a fact that says that a block falls.
 const FALLING: &str = "falling";
-/// More blocks than this that begin or stop to fall share one line.
+/// If more blocks begin or stop to fall, they share one line.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
 /// Added to the weight of a change of the scene: a block, gravity, the kernel, the title.

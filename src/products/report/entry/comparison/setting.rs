@@ -10,16 +10,16 @@ use crate::text::line;
 use crate::wording::failure::shortened;
 use crate::wording::number::{amount, digits, listed, place};
 
-/// A sentence names at most this many differences.
+/// Largest number of differences that a sentence names.
 const MOST_NAMED: usize = 4;
 
-/// The inputs of one frame: name, value in words, and the number of the block on which it acts.
+/// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts.
 type Given = Vec<(String, String, Option<usize>)>;
 
 /// The inputs that differ, apart from the blocks.
 pub(super) struct Settings {
     lines: Vec<[String; 3]>,
-    /// The numbers of the blocks whose loads or robots differ, in the first and in the second frame.
+    /// The indices of the blocks whose loads or robots differ, in the first and in the second frame.
     pub blocks: [Vec<usize>; 2],
 }
 

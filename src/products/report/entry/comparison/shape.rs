@@ -13,15 +13,15 @@ use crate::wording::number::{amount, digits, listed, place};
 
 /// A block counts as moved if its centroid moved by more than this times the largest coordinate of both scenes.
 const MOVED: f64 = 1e-6;
-/// A sentence names at most this many blocks.
+/// Largest number of blocks that a sentence names.
 const MOST_NAMED: usize = 6;
 
-/// How the blocks of two frames differ.
+/// The differences between the blocks of two frames.
 #[derive(Default)]
 pub(super) struct Shapes {
-    /// Numbers of blocks of the first frame that are missing or different in the second.
+    /// Indices of blocks of the first frame that are missing or different in the second frame.
     pub gone_or_changed: Vec<usize>,
-    /// Numbers of blocks of the second frame that are missing or different in the first.
+    /// Indices of blocks of the second frame that are missing or different in the first frame.
     pub new_or_changed: Vec<usize>,
     gone: Vec<String>,
     new: Vec<String>,
