@@ -166,9 +166,9 @@ pub struct Bars {
 }
 
 impl Bars {
-    /// Counts values in about ten bars with round edges. The edges reach from 0 to `most`, or to the largest value for
-    /// `None`. There are no bars if this end is not above 0. A value on the edge between two bars belongs to the higher
-    /// bar. Values at or above the last edge belong to the last bar.
+    /// Counts values in about ten bars with round edges. The first edge is 0. The last edge is at least `most`; if
+    /// `most` is `None`, it is at least the largest value. There are no bars if this end is not above 0. A value on the
+    /// edge between two bars belongs to the higher bar. Values at or above the last edge belong to the last bar.
     ///
     /// ```
     /// use drystone::internals::chart::Bars;

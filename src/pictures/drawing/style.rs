@@ -194,8 +194,8 @@ impl Theme {
         block.mixed(towards, share)
     }
 
-    /// Returns the colour of text on the background `below`. It is a shade of `of`, or of `below` for `None`. Its
-    /// [contrast] with the background is at least 4.5.
+    /// Returns the colour of text on the background `below`. The colour is a shade of `of`; if `of` is `None`, it is a
+    /// shade of `below`. The [contrast] of text and background is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
         let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE

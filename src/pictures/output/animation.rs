@@ -1,4 +1,4 @@
-//! Writes animated PNG and GIF files. Their pictures are shown one after the other and repeat without end.
+//! Writes animated PNG and GIF files. Their pictures are shown one after the other, and the sequence repeats endlessly.
 //!
 //! A picture is stored as the part that differs from the picture before it. If every pixel is opaque, all pictures
 //! share one palette, and files of both formats are about equally large.
@@ -23,8 +23,8 @@ pub struct Step {
     pub seconds: f64,
 }
 
-/// Writes steps of one size as an animated PNG that repeats without end. A program that cannot show animated PNG shows
-/// the first step.
+/// Writes pictures of the same size as an animated PNG that repeats endlessly. A program that cannot show animated PNG
+/// shows the first picture.
 ///
 /// # Errors
 /// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render). [`PngError::Encode`] if there
@@ -82,7 +82,7 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
     Ok(bytes)
 }
 
-/// Writes steps of one size as a GIF that repeats without end, in at most 255 colours.
+/// Writes pictures of the same size as a GIF that repeats endlessly, with at most 255 colours.
 ///
 /// # Errors
 /// As [`apng`]; also [`PngError::Encode`] for pictures with transparent pixels and for a side above 65 535 pixels.

@@ -38,7 +38,8 @@ const MAX_LINKS: usize = 40;
 /// The temporary files that exist.
 static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Writes several files or none of them. All are written under temporary names before the first one is renamed.
+/// Writes all files, or no file if one of them cannot be written. All files are first written under temporary names,
+/// and then renamed.
 ///
 /// # Errors
 /// The first file that could not be written. In this case nothing has changed, unless the system refuses to rename a
@@ -77,7 +78,7 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {
-        // The file may already be deleted. No caller can handle an error here, so it is ignored.
+        // The file may already be deleted. No caller can handle an error here, so the error is ignored.
         let _ = fs::remove_file(path);
     }
     beside

@@ -157,7 +157,7 @@ impl Marks {
         let least = LEAST_SEEN / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
-        // The torque arrow of a load has a least length, so it is always visible.
+        // The torque arrow of a load has a least length, so this arrow is always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
         // Forces in N and torques in N·m have the same scale.

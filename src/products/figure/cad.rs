@@ -33,8 +33,8 @@ const MECHANISM: &str = "guide mechanism";
 /// The height of letters relative to the unit edge of the scene.
 const LETTER_SHARE: f64 = 0.15;
 
-/// Writes a frame as DXF: ground, blocks with their names, grips of robots, the line of thrust if the frame stands, and the
-/// displaced blocks if it falls. Coordinates are in metres with y up.
+/// Writes a frame as DXF. The drawing has the ground, blocks with their names, and grips of robots. If the frame
+/// stands, it has the line of thrust; if the frame falls, the displaced blocks. Coordinates are in metres with y up.
 ///
 /// `frame` is the index of the frame, from 0; the text is empty if there is no such frame.
 ///

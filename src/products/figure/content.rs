@@ -70,8 +70,8 @@ pub(crate) trait PanelContent: Sync {
         &[]
     }
 
-    /// Returns the force, in N, whose arrow is one unit edge long if each panel has its own scale; 0 for a kind without
-    /// arrows.
+    /// Returns the force, in N, whose arrow is one unit edge long. The value is used if each panel has its own scale.
+    /// It is 0 for a kind without arrows.
     fn largest_force(&self, _of: FrameSource<'_>) -> f64 {
         0.0
     }
@@ -109,8 +109,8 @@ pub(crate) trait PanelContent: Sync {
 }
 
 impl<'a> FigureContext<'a> {
-    /// Computes the context of a figure with this content. The order matters: first the scale of the arrows, then the
-    /// arrows, the box of each frame, and the line below each verdict.
+    /// Computes the context of a figure with this content. The order matters, because each step uses the results before
+    /// it: the scale of the arrows, the arrows, the box of each frame, and the line below each verdict.
     pub fn new(
         analysis: &'a Analysis,
         options: &'a Options,

@@ -1,5 +1,5 @@
-//! [`FigureContext`]: the data that all panels of a figure share: the unit edge, the view, the colours and the arrows of
-//! each frame. `content.rs` computes it.
+//! [`FigureContext`]: the data that all panels of a figure share, such as the unit edge, the view, the colours and the
+//! arrows of each frame. The code in `content.rs` computes this data.
 
 use core::cell::{Cell, OnceCell};
 

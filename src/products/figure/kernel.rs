@@ -242,8 +242,8 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// Returns the colour and the outline of the mark of a resultant: a disc inside the safe part, a diamond at its end, a
-/// red diamond outside.
+/// Returns the colour and the outline of the mark of a resultant. The mark is a disc inside the safe part, a diamond at
+/// its end, and a red diamond outside.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;

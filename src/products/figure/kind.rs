@@ -1,4 +1,4 @@
-//! [`Kind`]: lists the kinds of figures. Each kind is a type in a file of its own.
+//! [`Kind`]: lists the kinds of figures. Each kind is a separate type in a separate file.
 
 use super::capacity::CarriedForces;
 use super::compare::Comparison;

@@ -57,7 +57,7 @@ fn nearness<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
     pressed.filter_map(near).collect()
 }
 
-/// Returns the joints of a frame that are at their limit. There are none if the frame does not stand.
+/// Returns the joints of a frame that are at their limit. The list is empty if the frame does not stand.
 pub(crate) fn reached<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<&'a Contact> {
     let all = nearness(scene, found).into_iter();
     all.filter(Nearness::reached).map(|n| n.contact).collect()
@@ -69,8 +69,8 @@ const SAME_SHARE: f64 = 1e-6;
 /// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// Returns the joints to mark: all joints at their limit. If there are none, returns the joint nearest to its limit, if
-/// the figure names this joint.
+/// Returns the joints to mark: all joints at their limit. If no joint is at its limit, returns the joint nearest to its
+/// limit, if the figure names this joint.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);
@@ -119,9 +119,9 @@ fn names_nearest(context: &FigureContext<'_>) -> bool {
     context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
 }
 
-/// Describes the joints at their limit. If there are none, describes the joint nearest to its limit. Empty if every
-/// joint is far from its limit. Also empty for printed or zoomed figures and for several frames, whose panels have no
-/// space for the sentence.
+/// Describes the joints at their limit. If no joint is at its limit, describes the joint nearest to its limit. Empty if
+/// every joint is far from its limit. Also empty for printed or zoomed figures and for several frames, whose panels
+/// have no space for the sentence.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);

@@ -222,7 +222,7 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
         Toward::HorizontalLoad => quarter_turn(down) * edge,
         Toward::LoadFactor => return None,
     };
-    // If the arrow points to the right, move it to the left, so that it does not touch the structure.
+    // If the arrow points to the right, move it to the left, so that the arrow does not touch the structure.
     let beyond = (down.x.max(there.x)).max(0.0);
     let left = structure.min.x
         - GRAVITY_DISTANCE * diagonal

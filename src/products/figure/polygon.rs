@@ -34,7 +34,7 @@ const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
 /// missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
-/// True if a force acts on the structure from outside, so that it is a side of the polygon.
+/// True if a force acts on the structure from outside. Such a force is a side of the polygon.
 fn outside(arrow: &ForceArrow) -> bool {
     !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
 }

@@ -111,8 +111,8 @@ pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layou
     written(&result, layout)
 }
 
-/// Like [`to_json`], with the placed blocks of each frame as `frames[].blocks`, and with the path of the scene file if
-/// there is one.
+/// Like [`to_json`], with the placed blocks of each frame under the key `frames[].blocks`. If `file` is given, the
+/// result also has the path of the scene file.
 pub fn to_json_with_blocks(
     file: Option<&str>,
     analysis: &Analysis,

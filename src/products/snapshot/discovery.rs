@@ -363,8 +363,8 @@ impl Search {
     }
 }
 
-/// True if a file is a scene, or a damaged one: it has the key `"drystone"`, or it is not valid JSON and looks like a
-/// scene.
+/// True if a file is a scene or a damaged scene. A scene has the key `"drystone"`. A damaged scene is not valid JSON,
+/// but looks like a scene.
 fn looks_like_scene(bytes: &[u8]) -> bool {
     let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
     if has(b"\"drystone\"") {

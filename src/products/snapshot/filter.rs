@@ -4,13 +4,13 @@ use super::setting::matches_pattern;
 
 /// The filter of `--only`.
 pub(super) enum Filter<'f> {
-    /// Everything.
+    /// All names.
     All,
     /// The scene with this name, and its references.
     Exactly(&'f str),
     /// Names that match a pattern with `*`.
     Pattern(&'f str),
-    /// Names that contain this.
+    /// Names that contain this text.
     Containing(&'f str),
 }
 

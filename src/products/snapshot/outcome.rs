@@ -8,7 +8,7 @@ use super::store;
 use crate::output::file::WriteError;
 use crate::scene::{Problem, SceneError};
 
-/// A message lists at most this many changes of one file and counts the rest.
+/// Largest number of changes of one file that a message lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 12;
 
 /// Returns the folders of the files, sorted and without duplicates.
@@ -80,9 +80,9 @@ pub struct Snapshot {
 pub struct CheckOutcome {
     /// All scenes, sorted by name.
     pub snapshots: Vec<Snapshot>,
-    /// References without a scene, each with the reason and remedy.
+    /// References without a scene, each with the reason and the remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program itself failed.
+    /// Scenes on which the program failed because of an error in the program.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
@@ -145,8 +145,8 @@ impl Snapshot {
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
     }
 
-    /// Writes the new contents next to the references or in their place, and deletes `.new.*` and `.diff.png` files that are
-    /// out of date.
+    /// Writes the new contents next to the references or replaces the references. Deletes `.new.*` and `.diff.png`
+    /// files that are out of date.
     ///
     /// # Errors
     /// The file that could not be written. The references of this snapshot are then unchanged.

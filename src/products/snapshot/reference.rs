@@ -60,8 +60,8 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     parts
 }
 
-/// Returns the widths of the settings. If there are none, returns only `None`, which is the natural width of the
-/// drawing.
+/// Returns the widths of the settings. If the settings have no widths, returns only `None`, which is the natural width
+/// of the drawing.
 fn widths(settings: &Settings) -> Vec<Option<u32>> {
     match settings.widths.as_slice() {
         [] => vec![None],

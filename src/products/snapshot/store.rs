@@ -95,7 +95,7 @@ pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) 
     FolderLock { _folders: held }
 }
 
-/// Writes all files, or none if one of them fails.
+/// Writes all files, or no file if one of them cannot be written.
 ///
 /// # Errors
 /// The first file that could not be written.

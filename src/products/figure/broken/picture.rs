@@ -23,8 +23,8 @@ pub(super) struct Marked {
     pub number: usize,
 }
 
-/// Returns the part of the scene that is shown, in metres: all blocks and marks, or the ground if there are no blocks.
-/// Returns `None` if this part has no size.
+/// Returns the part of the scene that is shown, in metres. This part contains all blocks and marks, or the ground if
+/// there are no blocks. Returns `None` if this part has no size.
 pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();

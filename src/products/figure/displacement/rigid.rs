@@ -13,8 +13,8 @@ pub(crate) struct Displacement {
 }
 
 impl Displacement {
-    /// Returns the motion of a block with this amplitude: a rotation about its instantaneous centre by
-    /// `amplitude`·spin, or, without spin, a translation by `amplitude`·velocity.
+    /// Returns the motion of a block with this amplitude. With spin, it is a rotation by `amplitude`·spin about the
+    /// instantaneous centre. Without spin, it is a translation by `amplitude`·velocity.
     ///
     /// Units: `amplitude` is the displacement in metres of a point of speed 1.
     pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {

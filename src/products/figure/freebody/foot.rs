@@ -63,7 +63,8 @@ impl Sheet<'_> {
         (group, y)
     }
 
-    /// Draws the mark and the text of the verdict, and the scale of the arrows, in one line at the height `y` in pixels.
+    /// Draws the mark and the text of the verdict, and the scale of the arrows, in one line. `y` is the height of the
+    /// line in pixels.
     fn verdict_and_scale(&self, y: f64) -> Vec<Item> {
         let theme = &self.options.theme;
         let found = &self.analysis.frames[self.frame];

@@ -1,5 +1,5 @@
 //! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, and the
-//! lines that show coordinates. Each part adds its shapes to the ink, so that names do not cover them.
+//! lines that show coordinates. Each function adds its shapes to the ink, so that names do not cover these shapes.
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;

@@ -68,8 +68,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the colour of missing forces. Printed figures with the theme of the thesis use its red. Other figures
-    /// use a darker red, so that it differs from green in a grey print.
+    /// Returns the colour of missing forces. Printed figures with the theme of the thesis use the red of the thesis.
+    /// Other figures use a darker red, which differs from green in a grey print.
     fn failure_colour(&self) -> Colour {
         let theme = &self.options.theme;
         if self.options.printed() && *theme == Theme::thesis() {
@@ -109,8 +109,9 @@ impl ArrowMaker<'_> {
     /// Returns the point, in metres, at which the arrow of a missing force begins. The arrow then lies on the block on
     /// which it acts.
     ///
-    /// A missing pull moves along its line of action until its head is at the joint: begun there, it would lie on the other
-    /// block and look like a push. Missing friction moves across by half the distance of parallel arrows.
+    /// A missing pull is moved along its line of action until its head is at the joint. If it began at the joint, it
+    /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction, by
+    /// half the distance of parallel arrows.
     fn on_own_side(
         &self,
         kind: ArrowKind,

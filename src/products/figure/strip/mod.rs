@@ -93,8 +93,8 @@ pub(crate) fn steps_of(
     pages
 }
 
-/// Draws the panels of [`strip`] on several pages at one scale. A page has as many rows as fit if its height is at most
-/// `high` times its width, and at least one row.
+/// Draws the panels of [`strip`] on several pages at one scale. The height of a page is at most `high` times its width,
+/// unless a single row is higher.
 pub(crate) fn split(
     analysis: &Analysis,
     content: &'static dyn PanelContent,

@@ -1,6 +1,6 @@
-//! The force polygon next to the line of thrust, in the classical form: a load line, a pole, and from the pole a ray for
-//! each joint. Ray and joint have the same number. The ray is the force in the joint; between the ends of two rays lie
-//! the weight and the loads of the block between their joints.
+//! Draws the force polygon next to the line of thrust, in the classical form: a load line, a pole, and a ray for each
+//! joint. Rays begin at the pole. A ray is the force in the joint with the same number. The weight and the loads of a
+//! block connect the ends of the rays of its two joints.
 
 use super::chain::{Chain, chains};
 use crate::analysis::FrameAnalysis;

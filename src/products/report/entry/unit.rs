@@ -28,7 +28,8 @@ pub(super) struct Units {
 }
 
 impl Units {
-    /// Chooses the prefix for the largest force, weight or load: M, k, none, m or µ. Above 1000 N the prefix is k.
+    /// Chooses the prefix for the largest force, weight or load: M, k, m, µ or no prefix. Above 1000 N the prefix is k,
+    /// above 10⁸ N it is M.
     pub fn new(scene: &Scene, found: &FrameAnalysis) -> Units {
         let contacts = found.contacts.iter().map(|c| c.resultant.force.norm());
         let robots = found.robots.iter().map(|r| r.force.norm());

@@ -140,8 +140,8 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
             "aria-label" => found.title = value,
             _ if IGNORED.contains(&name) => {}
             _ if SHAPE.contains(&name) => found.shape.push((name.to_owned(), value)),
-            // The name after `#` depends on the content of the drawing, so it is ignored. The element with this name
-            // is compared itself.
+            // The name after `#` depends on the content of the drawing, so this name is ignored. The element with this
+            // name is compared separately.
             _ if value.starts_with("url(#") => {
                 found.attributes.push((name.to_owned(), "url".into()))
             }

@@ -1,6 +1,6 @@
 //! [`Rounding`]: rounds numbers of one quantity to the same decimal place.
 
-/// Numbers without a unit (counts, coefficients) are rounded to this.
+/// The step to which numbers without a unit (counts, coefficients) are rounded.
 pub(super) const UNITLESS_STEP: f64 = 1e-6;
 
 /// The decimal place of the last digit.
@@ -13,8 +13,8 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is 0 or not finite, 1
-    /// is used in its place.
+    /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is 0 or not finite,
+    /// the value 1 is used.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };

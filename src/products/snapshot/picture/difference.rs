@@ -79,7 +79,7 @@ impl PixelPair<'_> {
 pub struct Difference {
     /// The number of pixels that differ, in the area that both pictures share.
     pub changed: u64,
-    /// The number of pixels that differ only in antialiasing; they count as equal.
+    /// The number of pixels that differ only in antialiasing. Such pixels count as equal.
     pub smoothed: u64,
     /// The number of pixels that both pictures have.
     pub of: u64,

@@ -91,7 +91,7 @@ pub struct Picture {
     /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha is 0, the
     /// other channels are 0 too, because nobody sees them.
     rgba: Vec<[u8; 4]>,
-    /// The largest rounding of a channel, for each colour that was rounded.
+    /// For each colour that was rounded, the largest rounding of a channel.
     rounding: BTreeMap<[u8; 4], u8>,
     /// The subject that is stored in the file.
     pub subject: Option<Subject>,

@@ -16,9 +16,10 @@ use super::{Picture, ROUNDING, SUBJECT, Subject};
 
 /// The size of a PNG palette.
 const MAX_COLOURS: usize = 256;
-/// At most this many frequent colours stay exact; the rest of the palette is for boxes.
+/// Largest number of frequent colours that stay exact. The rest of the palette is for groups of similar colours.
 const MAX_EXACT_COLOURS: usize = 128;
-/// A colour is frequent if at least this many pixels have it: a small arrow head, not an antialiased edge.
+/// A colour is frequent if at least this many pixels have it. The fill of a small arrow head is frequent, the colours
+/// of an antialiased edge are not.
 const MIN_FREQUENT_PIXELS: usize = 24;
 
 /// A palette.

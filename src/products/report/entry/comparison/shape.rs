@@ -112,8 +112,8 @@ fn reach(scene: &Scene) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Describes the differences of a block between two scenes; empty if there are none. `reach` is the largest absolute
-/// coordinate, m.
+/// Describes the differences of a block between two scenes; empty if the blocks are equal. `reach` is the largest
+/// absolute coordinate, m.
 fn differs(was: &Block, is: &Block, reach: f64, units: UnitsEntry) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
