@@ -1,4 +1,4 @@
-//! Computes the gauge of a zonotope: the least factor by which it must be scaled to contain a point.
+//! Computes the gauge of a zonotope: the least factor by which the zonotope must be scaled to contain a point.
 //!
 //! The zonotope of the generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. Its gauge (Minkowski functional) at a point r
 //! is the smallest τ ≥ 0 for which r lies in the zonotope scaled by τ. A convex body is the intersection of the

@@ -1,4 +1,4 @@
-//! [`Session`]: one scene with its analysis, for several questions about it.
+//! [`Session`]: keeps one scene with its analysis, and answers several questions about them.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 

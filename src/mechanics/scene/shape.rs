@@ -1,4 +1,4 @@
-//! The built-in shapes of the triangular lattice as sets of cells.
+//! Gives the built-in shapes of the triangular lattice as sets of cells.
 //!
 //! Each shape is a set of whole cells. Its origin is a lattice point, so that it can be rotated by 60° and moved by
 //! lattice steps without leaving the lattice. The centroids of the links are not lattice points, so their origins are

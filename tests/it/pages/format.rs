@@ -164,7 +164,7 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
     for key in lists.into_iter().chain(["drystone", "blocks"]) {
         let refused = Refused("wrong_type", "found null");
         hold(vec![Claim(
-            "It is an error for a required key, and for a key whose value is a list or an object of named entries",
+            "`null` is an error for a required key, and for a key whose value is a list or an object of named entries",
             file(json!({ key: null })),
             refused,
         )]);

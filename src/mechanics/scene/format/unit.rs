@@ -1,4 +1,4 @@
-//! The types of the scene file for its units.
+//! The types with which a scene file gives its units.
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
