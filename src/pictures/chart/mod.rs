@@ -3,9 +3,9 @@
 //!
 //! Only `plot` uses plotters. plotters rounds to whole pixels, and its labels can overlap. Therefore the picture is
 //! drawn ten times as large. Then the width and height of the SVG, but not its view box, are divided by ten. A
-//! logarithmic axis shorter than a decade would have no labels. So axes cover at least two whole decades, except the
-//! horizontal axis of [`growth`]. Text is measured with the built-in font, so the fonts of the machine do not change a
-//! picture.
+//! logarithmic axis shorter than a decade would have no labels. Axes therefore cover at least two whole decades, except
+//! the horizontal axis of [`growth`]. Text is measured with the built-in font, so the fonts of the machine do not
+//! change a picture.
 
 mod plot;
 

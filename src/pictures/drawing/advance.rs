@@ -1,12 +1,13 @@
 //! [`advance`]: the advance widths of all characters of the built-in fonts.
 //!
-//! They are a table in `assets/fonts/advances.bin`, so that text can be measured without the fonts. A browser sets the
-//! text of figures itself, and the module for it would be twice as large with the fonts. A test compares the table with
-//! the fonts, and writes it anew if `UPDATE_SNAPSHOTS=1` is set.
+//! The widths are a table in `assets/fonts/advances.bin`, so that text can be measured without the fonts. A browser
+//! draws the text of figures itself, and the module for browsers would be twice as large with the fonts. A test
+//! compares the table with the fonts. If `UPDATE_SNAPSHOTS=1` is set, the test writes a new table.
 //!
-//! For each face, in the order of `Face::ALL`, the table has the units per em, the number of runs of neighbouring
-//! characters, the first character and the length of each run, and then the widths in units. All numbers have two bytes,
-//! lower byte first; a first character has four.
+//! The table has one part for each face, in the order of `Face::ALL`. A part begins with the units per em and the
+//! number of runs. A run consists of characters with consecutive code points. The first character and the length of
+//! each run follow, and then the widths in units. All numbers have two bytes, lower byte first, except that a first
+//! character has four bytes.
 
 use std::sync::LazyLock;
 

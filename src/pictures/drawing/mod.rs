@@ -1,7 +1,7 @@
 //! [`Drawing`]: shapes and text on a page.
 //!
 //! The origin of a page is its upper left corner; x points right and y points down, in pixels. Only [`Camera`] converts
-//! from the scene, whose y points up. Later items lie on top of earlier ones. This module knows neither forces nor file
+//! from the scene, where y points up. Later items lie on top of earlier items. This module does not use forces or file
 //! formats; `output` writes a drawing to a file.
 
 mod advance;

@@ -1,8 +1,8 @@
 //! [`Text`]: a line of text, and the width of text in the built-in fonts.
 //!
-//! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
-//! placing do not notice. The width of a character that a face lacks, and that another font
-//! has to draw, is estimated.
+//! The width of a text is the sum of advances, without kerning. Kerning moves a pair by a few hundredths of the font
+//! size, which does not matter for line breaks and positions. If a face lacks a character, another font has to draw it,
+//! and its width is estimated.
 
 use std::sync::OnceLock;
 

@@ -1,7 +1,7 @@
 //! Writes animated PNG and GIF files. Their pictures are shown one after the other, and the sequence repeats endlessly.
 //!
-//! A picture is stored as the part that differs from the picture before it. If every pixel is opaque, all pictures
-//! share one palette, and files of both formats are about equally large.
+//! A picture is stored as the part that differs from the previous picture. If every pixel is opaque, all pictures share
+//! one palette, and files of both formats have about the same size.
 
 mod palette;
 mod patch;

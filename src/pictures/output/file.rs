@@ -1,10 +1,10 @@
 //! [`write_whole`]: writes files. Each file is written completely or not at all.
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
-//! step. So nobody ever sees half a file, and a full disk leaves the old file unchanged. A link is followed, and its
-//! target is replaced; the new file has the same permissions. A device or a pipe is written to directly.
+//! step. Therefore nobody ever sees an incomplete file, and a full disk leaves the old file unchanged. If the path is a
+//! link, its target is replaced; the new file has the same permissions. A device or a pipe is written to directly.
 //!
-//! Temporary files are on a list as long as they exist. `abandon` deletes them before a signal ends the process.
+//! Temporary files are in a list as long as they exist. `abandon` deletes them before a signal ends the process.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};

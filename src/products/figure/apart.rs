@@ -1,7 +1,7 @@
 //! [`apart`]: moves overlapping arrows on one line sideways, so that they are drawn side by side.
 //!
-//! The ground often pushes a block up on the same line on which its weight pulls it down. Drawn there, the two look
-//! like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
+//! The ground often pushes a block up on the same line on which its weight pulls it down. On this line, the two arrows
+//! would look like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
 //!
 //! 1. The ideal offset of an arrow is 0. With an opposite arrow at the same point it is half a shaft and half the gap,
 //!    so that the pair is centred about its true line.

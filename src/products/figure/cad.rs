@@ -1,8 +1,8 @@
 //! [`dxf`]: writes a frame as a DXF drawing in metres, for CAD programs.
 //!
-//! The file has the version R12 (AC1009), which every CAD program reads: closed polylines, lines, points and text. What is
-//! not part of the structure lies on layers whose names begin with `guide`; `drystone import` leaves these out, so that the
-//! drawing can be edited and imported again.
+//! The file has the version R12 (AC1009), which every CAD program reads: closed polylines, lines, points and text.
+//! Parts that do not belong to the structure lie on layers whose names begin with `guide`. `drystone import` ignores
+//! these layers, so that the drawing can be edited and imported again.
 
 use std::fmt::Write as _;
 
@@ -36,7 +36,7 @@ const LETTER_SHARE: f64 = 0.15;
 /// Writes a frame as DXF. The drawing has the ground, blocks with their names, and grips of robots. If the frame
 /// stands, it has the line of thrust; if the frame falls, the displaced blocks. Coordinates are in metres with y up.
 ///
-/// `frame` is the index of the frame, from 0; the text is empty if there is no such frame.
+/// `frame` is the index of the frame, from 0. The text is empty if the frame does not exist.
 ///
 /// # Example
 /// ```

@@ -1,9 +1,9 @@
 //! Draws the forces that a block can carry as a polygon at the point at which they act. Small pictures show how the
 //! structure falls beyond the longest edges of the polygon.
 //!
-//! The tail of a force is at the point, and its tip lies in the polygon if it is carried. A polygon that is small
-//! compared with its forces would be a dot: it is drawn next to the structure, in a scale of its own. Forces without end
-//! are cut off at a circle, which has no line.
+//! The tail of a force is at the point. The force is carried if its tip lies in the polygon. A polygon that is small
+//! compared with its forces would look like a dot, so it is drawn next to the structure at a separate scale. Unbounded
+//! sets of forces are cut off at a circle, which has no line.
 
 mod plan;
 

@@ -1,9 +1,9 @@
 //! Draws the differences between consecutive frames: blocks that were added or removed, and interfaces whose forces
 //! changed.
 //!
-//! Each frame is compared with the frame before it. Arrows have the same scale in all frames. An interface has a ring
-//! if its force changed by more than 5 % of the larger of the two forces. The force before is drawn faint below the
-//! present force.
+//! Each frame is compared with the previous frame. Arrows have the same scale in all frames. An interface has a ring if
+//! its force changed by more than 5 % of the larger of both forces. The previous force is drawn in a faint colour below
+//! the present force.
 
 use std::collections::BTreeMap;
 

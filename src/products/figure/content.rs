@@ -1,7 +1,7 @@
 //! [`PanelContent`]: a trait for the content of one kind of figure, and the [`FigureContext`] computed from it.
 //!
-//! A kind of figure is a type without fields that implements the trait in a file of its own;
-//! [`Kind`](super::Kind) lists them all. A new kind starts from the smallest one, `kernel.rs`.
+//! A kind of figure is a type without fields that implements the trait in a separate file; [`Kind`](super::Kind) lists
+//! all kinds. A good start for a new kind is a copy of the smallest kind, `kernel.rs`.
 
 use core::cell::{Cell, OnceCell};
 

@@ -1,9 +1,9 @@
 //! [`Fills`]: the colours of blocks, and the quantity that they show.
 //!
-//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names it, and it is the same for
-//! all blocks. Only the rule of the thesis differs. There a held block shows the used share of its robot's limits. Any
-//! other block shows its amplitude as a share of the smallest limit of all robots. If no robot has a limit, it is a
-//! share of the largest amplitude.
+//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names the quantity, which is the
+//! same for all blocks. Only the rule of the thesis has two quantities. A block that a robot holds shows the used share
+//! of the robot's limits. Any other block shows its amplitude as a share of the smallest limit of all robots. If no
+//! robot has a limit, it shows its amplitude as a share of the largest amplitude.
 
 use super::option::Fill;
 use super::words::quantity;

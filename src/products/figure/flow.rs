@@ -1,7 +1,7 @@
 //! Draws the force flow: the paths of the forces through the blocks, as bands as wide as the forces.
 //!
-//! In each block strands join the points where forces enter to the points where they leave; [`strands`] computes them.
-//! The bands of one force have the same width and direction on both sides of a joint.
+//! In each block, strands lead from the points where forces enter to the points where they leave; [`strands`] computes
+//! them. The bands of a force have the same width and direction on both sides of a joint.
 
 mod key;
 mod line;

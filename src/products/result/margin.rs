@@ -1,9 +1,9 @@
 //! Writes margins as JSON. A margin is a number, `null` if the frame falls at every value, or `"unbounded"` if it
 //! stands at every value.
 //!
-//! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict
-//! confirms is `null` too; a notice of the frame then states between which values it lies. Margins that were not
-//! requested are absent.
+//! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict confirms
+//! is also `null`; a notice of the frame then states the two values between which the margin lies. Margins that were
+//! not requested are absent.
 //!
 //! `intervals` has both ends of each parameter. An end is `null` if the interval has no end there, and `"withheld"`
 //! if no verdict confirms it. An interval is `null` if the frame stands at no value;

@@ -5,8 +5,8 @@
 //! computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are absent if
 //! they are empty. `margins` and `only_by_wedging` are absent if they were not requested.
 //!
-//! serde is used here and in `scene::format`. That module reads the files of people, and this one writes for
-//! programs, so the two change for different reasons.
+//! serde is used here and in `scene::format`. That module reads files that people write, and this module writes results
+//! for programs. The two modules therefore change for different reasons.
 
 #[cfg(feature = "report")]
 mod accuracy;

@@ -31,7 +31,7 @@ struct Entry<'a> {
 /// Writes the problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message,
 /// hint }] }`.
 ///
-/// Lines and columns count from 1, columns in characters. Both are `null` if the problem has no place in a text.
+/// Lines and columns count from 1; columns count characters. Both are `null` if the problem has no position in a text.
 ///
 /// # Example
 /// ```
@@ -86,8 +86,8 @@ fn listed<T: Serialize>(entries: &[T]) -> String {
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.
 ///
-/// Lines and columns count in the input file, so that an editor finds them. If the scene is one line of the input,
-/// the problems are on this line.
+/// Lines and columns refer to the input file, so that an editor finds them. If the scene is one line of the input, the
+/// problems are on this line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
     written(

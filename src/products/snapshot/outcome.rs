@@ -149,7 +149,7 @@ impl Snapshot {
     /// files that are out of date.
     ///
     /// # Errors
-    /// The file that could not be written. The references of this snapshot are then unchanged.
+    /// The file that could not be written. In this case the references of this snapshot are unchanged.
     pub fn store(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
         if acceptance == Acceptance::Accept {
             store::write(&self.acceptable())?;

@@ -74,7 +74,8 @@ pub enum Access {
 
 /// Locks folders. Waits for runs that write there; to get write access, waits for all runs that use them.
 ///
-/// On a file system without locks, the run continues without a lock. Files are written completely even then.
+/// On a file system without locks, the run continues without a lock. Even then, each file is written completely or not
+/// at all.
 pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
     // All runs lock in the same order, so that two runs never wait for each other (no deadlock).

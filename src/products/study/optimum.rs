@@ -31,9 +31,10 @@ pub(super) struct Optimum {
 
 /// Relative tolerance of the feasibility checks.
 ///
-/// The arithmetic has 32 digits, but the columns are f64. If the exact geometry has several optima, the rounding of the
-/// columns (some 1e-16) favours one of them, and the guessed face is that of the exact geometry. The tolerance must be
-/// above this rounding. The gap is computed separately and counts such violations, so the tolerance hides no error.
+/// The arithmetic has 32 digits, but the columns are f64. If the exact geometry has several optima, the rounding errors
+/// of the columns (about 1e-16) make one of them the only optimum. The guessed face is the face of the exact geometry.
+/// Therefore the tolerance must be above these rounding errors. The gap is computed separately and counts such
+/// violations, so the tolerance hides no error.
 pub(super) const EXACT: f64 = 1e-13;
 
 /// Solver tolerances for the first guess at the face.

@@ -6,8 +6,8 @@
 //! 3. Otherwise a motion that even adhesion does not resist proves the program unstable.
 //! 4. Otherwise the reference is undecided.
 //!
-//! Every f64 of the program counts as exact. An exact rational simplex would certify the same, but the length of its
-//! numbers grows with the size of the program.
+//! Every f64 of the program counts as exact. An exact rational simplex method would also certify the result, but the
+//! length of its numbers grows with the size of the program.
 
 use super::double::Double;
 use super::least::largest_of_unique;

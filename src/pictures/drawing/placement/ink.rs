@@ -1,8 +1,9 @@
 //! [`Ink`]: convex shapes that labels must not cover. The shapes are stored in a uniform grid, so that a test only
 //! checks nearby shapes.
 //!
-//! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A figure
-//! tests hundreds of positions for each label, so a test allocates nothing, and each side stores its own projection.
+//! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A
+//! figure tests hundreds of positions for each label. Therefore a test allocates no memory, and each side stores the
+//! projection of its piece.
 
 use core::f64::consts::TAU;
 

@@ -1,7 +1,8 @@
 //! [`untangle`]: exchanges the positions of two labels whose leaders cross if that leaves fewer crossings.
 //!
-//! Labels are placed one after the other, so the last labels in a crowd may lie behind labels of their neighbours. This
-//! is a local search over pairs (2-opt). It stops when no exchange helps, or after a few rounds.
+//! Labels are placed one after the other, so the last labels in a crowd may lie behind labels of their neighbours. The
+//! method is a local search over pairs (2-opt). It stops if no exchange reduces the number of crossings, or after a few
+//! rounds.
 
 use super::ink::separated;
 use super::{CLEARANCE, Ink, LabelRequest, Placed, centred, corners, within};

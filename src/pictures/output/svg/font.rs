@@ -1,7 +1,7 @@
 //! [`embedded`]: embeds subsets of the built-in fonts in the SVG. A subset has the characters of the drawing.
 //!
-//! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them. A
-//! browser does. So they are computed again from the positions of the glyphs in this drawing.
+//! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them.
+//! Browsers need these tables, so they are computed again from the positions of the glyphs in this drawing.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -72,7 +72,7 @@ impl Corner {
 /// 1 and 2 of the thesis.
 ///
 /// Only the sum of the friction forces is known, because both act along one line. It is divided in proportion to the
-/// normal forces, so that the sum of both ends acts at the resultant of the interface. A single end gets everything.
+/// normal forces, so that the sum of both ends acts at the resultant of the interface. A single end has the whole force.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
     // Friction is positive along (−n_y, n_x) on the first body. On the second body both the direction and the force change

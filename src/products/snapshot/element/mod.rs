@@ -4,9 +4,9 @@
 //! 2. `pairing` pairs the elements of both trees.
 //! 3. `shape` and the functions below describe what changed in each pair: position, rotation, outline, colour, text.
 //!
-//! It works for SVG of any program. A shape that another program writes with other elements is reported as changed, though.
-//! Attributes that depend on the whole content (`id`) are ignored. Positions are compared with a tolerance of 0.025 pixels,
-//! because drystone rounds them to 0.01.
+//! The comparison works for SVG of any program. However, if another program writes a shape with other elements, the
+//! shape is reported as changed. Attributes that depend on the whole content (`id`) are ignored. Positions are compared
+//! with a tolerance of 0.025 pixels, because drystone rounds them to 0.01.
 
 mod pairing;
 mod shape;

@@ -135,8 +135,8 @@ impl StatedMargin<'_> {
     /// Returns the relative distance of the present value from the nearest end of the interval. The result is 0 at or
     /// beyond an end, and 1 if there is no end.
     ///
-    /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the
-    /// present value. The distance of a tilt is divided by 90°. A horizontal force is a fraction of the weight already.
+    /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the present
+    /// value. The distance of a tilt is divided by 90°. A horizontal force is already a fraction of the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
             return 0.0;
