@@ -1,7 +1,7 @@
 //! Output for people and programs: results, sentences, figures and reports. These modules use both mechanics and
 //! pictures.
 //!
-//! The modules are listed in the order of dependency: each uses only those above it.
+//! The modules are listed in the order of dependency. Each module uses only the modules above it.
 
 pub mod wording;
 

@@ -8,10 +8,11 @@
 //! 3. Step 2 is repeated for every load. The polygon must end at the second joint, along the line of action of that
 //!    joint's force.
 //!
-//! It is only drawn if every vertex and every segment lies inside the block, or nearly. The order of the loads is not
-//! known, so all orders are tried, and finally the sum of all loads. No order works if three bodies press the block, if
-//! forces are parallel on different lines, or if they do not balance. Then the path is schematic: a straight line
-//! between the two joints, or one from every joint and load to a common point. So the line has no gaps.
+//! The polygon is only drawn if all its vertices and segments lie in or near the block. The order of the loads is not
+//! known, so all orders are tried, and finally the sum of all loads. No order works if three bodies press on the block,
+//! if forces are parallel on different lines, or if the forces do not balance. The path is then schematic: a straight
+//! line between the two joints, or a straight line from every joint and load to a common point. The line of thrust
+//! therefore has no gaps.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;

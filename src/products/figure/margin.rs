@@ -1,10 +1,10 @@
 //! Draws a collapse margin: the structure in its present position, and with dashed lines how it would fall just beyond
 //! the margin.
 //!
-//! The options choose the [parameter](Toward). Of its two ends the figure shows the one nearer to the present state. If
-//! gravity is turned, a dashed line shows its present direction and an arrow its direction at the margin. If a
-//! horizontal load is added, the arrow shows this load. If loads grow, they are drawn with their present magnitudes.
-//! The blocks themselves are drawn in their places.
+//! The options choose the [parameter](Toward). The figure shows the end of the interval that is nearer to the present
+//! state. If gravity is turned, a dashed line shows its present direction, and an arrow shows its direction at the
+//! margin. If a horizontal load is added, the arrow shows this load. If loads grow, they are drawn with their present
+//! magnitudes. The blocks themselves are drawn in their present positions.
 
 mod reason;
 

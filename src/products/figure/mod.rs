@@ -1,8 +1,8 @@
 //! Draws the results of an analysis as figures.
 //!
-//! The numbers of an [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing).
-//! No verdict depends on computations in this folder. The [`Kind`] of a figure determines its content; each kind is in
-//! a file of its own.
+//! The figures convert the numbers of an [`Analysis`](crate::analysis::Analysis) to shapes of a
+//! [`Drawing`](crate::drawing::Drawing). No verdict depends on computations in this folder. The [`Kind`] of a figure
+//! determines its content; each kind is in a separate file.
 
 mod apart;
 mod arrow;

@@ -1,8 +1,9 @@
 //! Draws the line of thrust: the path of the compressive forces through the blocks, from interface to interface.
 //!
 //! [`segments`] computes the line in each block, along true lines of action. If there is no single line of action in a
-//! block, a lighter line joins the joints; the legend calls it schematic. So the line runs from support to support
-//! without gaps. The tips of load arrows are at the points where loads act, and their lengths have one scale.
+//! block, a lighter line connects the joints; the legend calls it schematic. The line therefore runs from support to
+//! support without gaps. The tips of load arrows are at the points where loads act, and the lengths of these arrows
+//! have one scale.
 
 mod chain;
 mod fan;

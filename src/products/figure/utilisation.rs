@@ -1,7 +1,8 @@
 //! Draws the utilisation: the used share of the available friction at each interface, and the used share of the limits
 //! of each robot.
 //!
-//! The forces are one of many equilibrium states. Another state may use less friction here and more there.
+//! The forces shown are one of many equilibrium states. In another state, some joints may use less friction, and other
+//! joints more.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;

@@ -1,7 +1,7 @@
 //! [`apart`]: moves apart the arrows of a free-body diagram that lie on one line.
 //!
-//! A block in the middle of a pile is pushed up on the same line on which its weight pulls it down. Drawn there, the
-//! two arrows would overlap. Only the position of the arrow changes; the list keeps the line of action.
+//! In the middle of a pile, forces push a block up on the same line on which its weight pulls it down. On this line,
+//! the two arrows would overlap. Only the position of the arrow changes; the list of forces keeps the line of action.
 
 use super::arrow::{Arrow, WIDTH};
 use crate::drawing::Camera;

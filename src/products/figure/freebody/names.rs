@@ -72,8 +72,8 @@ impl Sheet<'_> {
 
     /// Draws the name of a body. `others` are the bodies that touch the block. Returns false if there is no space.
     ///
-    /// The name of the block itself may be placed outside it, with a leader. The other names are only placed inside
-    /// their blocks.
+    /// The name of the block itself may be placed outside the block, with a leader. The names of other bodies are only
+    /// placed inside these bodies.
     fn name_body(&self, ink: &mut Ink, body: BodyId, others: &[BodyId], group: &mut Group) -> bool {
         let scene = &self.analysis.scene;
         let name = scene.name(body);

@@ -1,7 +1,7 @@
 //! [`Table`]: the list of the forces on a block, with magnitudes, components and moments, and their sum.
 //!
-//! All forces have the same unit and the same number of decimals, and so have all moments. So the columns can be added
-//! up. The last row is their sum, which is zero in equilibrium, except for rounding.
+//! All forces have the same unit and the same number of decimals, and so do all moments. A reader can therefore add up
+//! the columns. The last row is the sum, which is zero in equilibrium, except for rounding.
 
 use super::force::Force;
 use crate::drawing::symbol::{Accent, Symbol};

@@ -30,8 +30,8 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 
 /// Returns the force, in N, whose arrow is one unit edge long at the scale of this frame.
 ///
-/// With [`Normalisation::Drawn`] it is the largest drawn force; a torque counts as torque divided by the unit edge.
-/// With [`Normalisation::Source`] it is the largest single unknown, weight or load.
+/// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit edge.
+/// With [`Normalisation::Source`], this is the largest single unknown, weight or load.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let (frame, found) = (&scene.frames[frame], &analysis.frames[frame]);

@@ -1,7 +1,7 @@
 //! [`cost`]: the table of the effects of a step, with their unknowns and times.
 //!
 //! All effects share one linear program, which is solved once. Unknowns are therefore counted by effect, but times by
-//! stage. Only margins and wedging are computed separately and have times of their own.
+//! stage. Only margins and wedging are computed separately and have separate times.
 
 use super::Grid;
 use crate::analysis::{EffectName, EffectReport, FrameAnalysis, Stages};

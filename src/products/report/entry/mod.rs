@@ -1,8 +1,8 @@
 //! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
-//! An entry is made once from an analysis and consists of [`Section`]s of [`SheetPart`]s. The writers for HTML,
-//! Markdown and PDF read nothing but the entry, so their contents agree. Text from scene files is reduced to one safe
-//! line here ([`text::line`]), and each writer escapes it for its format.
+//! An entry is made once from an analysis. It consists of [`Section`]s of [`SheetPart`]s. The writers for HTML,
+//! Markdown and PDF read only the entry, so their contents agree. Text from scene files is reduced to one safe line
+//! here ([`text::line`]), and each writer escapes it for its format.
 
 mod balance;
 mod bullet;

@@ -1,8 +1,8 @@
 //! Writes a report as PDF: A4 pages with figures, links, bookmarks and tagged text.
 //!
-//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading
-//! or table cell, and figures are placed on it. Tables break between rows and repeat their heads. Figures are scaled
-//! down to fit, and never cut.
+//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading or
+//! table cell, and figures are placed on it. Tables break between rows and repeat their heads. Figures are scaled down
+//! if they do not fit, and are never cut.
 
 mod badge;
 mod bar;
