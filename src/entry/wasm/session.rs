@@ -32,7 +32,7 @@ impl Session {
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
     ///
     /// # Errors
-    /// The problems of the scene; the session then keeps the former scene.
+    /// The problems of the scene, or a frame that it does not have. The session then keeps the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
         self.found = analysis(scene, &self.options)?;
         Ok(self.verdict())

@@ -23,7 +23,7 @@ const SLIGHT: f64 = 0.01;
 struct Found {
     bodies: [BodyId; 2],
     area: f64,
-    /// How far one body must move so that they no longer overlap, metres.
+    /// How far one body must move so that they no longer overlap, in the units of the file.
     depth: f64,
     at: Point,
     /// Whether the depth is less than a hundredth of the smaller block's size.

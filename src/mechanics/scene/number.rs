@@ -11,7 +11,7 @@ pub(super) const LARGEST: f64 = 1e12;
 /// underflow. Coordinates may be smaller: compared with other coordinates they are rounding noise.
 pub(super) const SMALLEST: f64 = 1e-30;
 
-/// Smallest extent of a body or a cell, in metres: its area and moments are products of several.
+/// Smallest extent of a body or a cell, in the units of the file: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
 /// True if all numbers are finite and within ±10¹². Reports the first number that is not.

@@ -15,9 +15,9 @@ pub(super) const REACH: f64 = 1e6;
 /// The shape of a body relative to its own origin.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
-    /// In metres.
+    /// A polygon with corners in the units of the file.
     Polygon(Polygon),
-    /// In whole cells.
+    /// A set of lattice cells.
     Cells(Vec<Cell>),
 }
 
@@ -206,8 +206,8 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
 /// Rotates the outline by `angle` degrees about its origin and then moves it by `at`. Returns the polygon and the
 /// cells, if any.
 ///
-/// If the scene has a lattice, `at` is a lattice point; otherwise it is in metres. For cells, `at` must be whole and
-/// `angle` a multiple of 60° or 90°. Reports a problem and returns `None` if they are not.
+/// If the scene has a lattice, `at` is a lattice point; otherwise it is in the units of the file. For cells, `at` must
+/// be whole and `angle` a multiple of 60° or 90°. Reports a problem and returns `None` if they are not.
 pub(super) fn placed(
     findings: &mut Findings,
     trail: &Trail<'_>,

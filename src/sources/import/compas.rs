@@ -40,7 +40,7 @@ pub(super) fn is_assembly(text: &str) -> bool {
 /// Reads an assembly. Also returns notes: the plane of the section, the unit of length and the thickness.
 ///
 /// # Errors
-/// Blocks that are not prisms across a plane, and blocks of different thickness.
+/// If the blocks are not prisms perpendicular to one plane, or if they differ in thickness and `options` has none.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let refuse = |message: String, help: &str| {
