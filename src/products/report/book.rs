@@ -6,7 +6,7 @@
 //! | option | meaning |
 //! |---|---|
 //! | `file=scene.json` | the scene, relative to the chapter's own file |
-//! | `kind=mechanism` | the kind of figure: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation`, `polygon` or `freebody` |
+//! | `kind=mechanism` | the kind of figure: a name of [`Kind`], such as `forces` or `thrust`, or `freebody` |
 //! | `block=a` | the block of a free-body diagram |
 //! | `theme=dark` | the theme |
 //! | `width=600` | the width in pixels |
