@@ -103,7 +103,7 @@ fn point(joint: usize, radius: f64) -> Pair {
     let height = if joint == VOUSSOIRS {
         0.0
     } else {
-        radius * angle.sin()
+        radius * libm::sin(angle)
     };
-    [-radius * angle.cos(), height]
+    [-radius * libm::cos(angle), height]
 }

@@ -29,6 +29,7 @@ def check(
     notes: bool = True,
     capacity: Capacity | None = None,
     for_all: str | None = None,
+    sensitivity: str | None = None,
 ) -> Result:
     """Says whether a scene stands, with the forces, what fails and the proof.
 
@@ -41,6 +42,9 @@ def check(
     ``("lintel", (1, 3), (3, 3))`` at two points. ``for_all``, such as ``"tilt=±2,friction=0.5..0.7"``, leaves the forces that
     are carried in every case of these ranges.
 
+    ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load: "load_factor",
+    "tilt", "horizontal_load", "friction" or "kernel".
+
     Raises :class:`SceneError` where the scene is not valid.
 
     >>> brick = Scene(friction=0.5).ground([(0, -1), (9, -1), (9, 0), (0, 0)]).block("a", [(1, 0), (4, 0), (4, 2), (1, 2)])
@@ -48,7 +52,7 @@ def check(
     True
     """
     scene = as_scene(scene)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all)
+    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all, sensitivity)
     return Result(_drystone.check(scene._json(), options), scene)
 
 
@@ -64,6 +68,7 @@ def check_many(
     notes: bool = True,
     capacity: Capacity | None = None,
     for_all: str | None = None,
+    sensitivity: str | None = None,
     errors: str = "raise",
     progress: Callable[[int], object] | None = None,
     threads: int = 0,
@@ -78,7 +83,7 @@ def check_many(
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
     given = [as_scene(scene) for scene in scenes]
     located = all(scene._located for scene in given)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all)
+    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all, sensitivity)
     answers = _drystone.check_many([scene._json() for scene in given], options, progress, threads)
     results: list[Result | SceneError] = []
     for number, (scene, answer) in enumerate(zip(given, answers)):
@@ -116,6 +121,7 @@ def asked(
     located: bool,
     capacity: Capacity | None = None,
     for_all: str | None = None,
+    sensitivity: str | None = None,
 ) -> _drystone.Options:
     """The options of an analysis; the same options are read only once."""
     names: tuple[str, ...] | None
@@ -128,7 +134,7 @@ def asked(
     if for_all is not None and capacity is None:
         raise ValueError("for_all is about the forces that a block can carry; give capacity, too")
     where = None if capacity is None else place(capacity)
-    return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all)
+    return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all, sensitivity)
 
 
 def place(capacity: Capacity) -> str:

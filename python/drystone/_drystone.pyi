@@ -35,6 +35,7 @@ class Options:
         located: bool,
         capacity: str | None = None,
         for_all: str | None = None,
+        sensitivity: str | None = None,
     ) -> Options: ...
 
 @final

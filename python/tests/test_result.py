@@ -23,6 +23,20 @@ def test_to_dict_is_what_the_program_prints():
     assert "seconds" in json.dumps(result.to_dict())
 
 
+def test_sensitivities_are_those_of_the_program(steps):
+    path = ROOT / "assets/starter.json"
+    printed = program("check", "--json", "--no-timing", "--sensitivity=load_factor", path)
+    result = ds.check(path, sensitivity="load_factor")
+    assert result.to_json(timing=False) == printed.stdout
+    found = result.frames[-1].sensitivity
+    assert found.parameter == "load_factor"
+    assert all(end.weights for end in found.ends)
+    many = ds.check_many([steps], sensitivity="friction")
+    assert many[0].frames[0].sensitivity.parameter == "friction"
+    with pytest.raises(ds.DrystoneError, match='friction or kernel, not "robots"'):
+        ds.check(path, sensitivity="robots")
+
+
 def test_attributes_mirror_the_result(steps):
     result = ds.check(steps)
     found = result.to_dict()

@@ -298,7 +298,7 @@ fn just_beyond_an_edge_it_falls_and_at_a_vertex_it_stands() {
 fn the_forces_of_a_vertex_balance_every_block() {
     let file = half_arch();
     let found = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
-    let analysis = Analysis::new(&scene(&file));
+    let analysis = Analysis::new(scene(&file));
     for vertex in &found.vertices {
         let mut sum = vertex.force;
         for block in analysis.scene.blocks() {
@@ -384,7 +384,7 @@ fn random_sets_are_those_of_an_exact_program() {
         .map(|k| libm::sincos(0.013 + f64::from(k) * std::f64::consts::TAU / 90.0))
         .map(|(sin, cos)| [cos, sin])
         .collect();
-    let all: Vec<Result<Option<(f64, f64, CapacityShape)>, String>> = (first..first + wanted)
+    let all: Vec<Result<Compared, String>> = (first..first + wanted)
         .into_par_iter()
         .map(|number| compared(number, &directions))
         .collect();
@@ -418,11 +418,11 @@ fn random_sets_are_those_of_an_exact_program() {
     assert!(good.len() as u64 * 2 > wanted);
 }
 
-/// By how much the vertices lie outside and the directions are short, relative to the size of the set.
-fn compared(
-    number: u64,
-    directions: &[[f64; 2]],
-) -> Result<Option<(f64, f64, CapacityShape)>, String> {
+/// By how much the vertices lie outside and the directions are short, relative to the size of the set; `None` without a
+/// set to compare.
+type Compared = Option<(f64, f64, CapacityShape)>;
+
+fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let file = crate::oracle::random::scene(number).1;
     let Ok(scene) = Scene::from_json(&file.to_string()) else {
         return Ok(None);

@@ -83,7 +83,7 @@ fn polygons(file: &Value) -> Vec<(&'static str, usize, Vec<[f64; 2]>)> {
 fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
     let all = polygons(file);
     let points: Vec<[f64; 2]> = all.iter().flat_map(|p| p.2.clone()).collect();
-    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9;
+    let near = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]) < 1e-9;
     let mut moved: Vec<[f64; 2]> = points
         .iter()
         .map(|p| if near(*p, at) { by } else { [0.0; 2] })
@@ -95,7 +95,7 @@ fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
         for k in 0..ring.len() {
             let (a, b) = (first + k, first + (k + 1) % ring.len());
             let along = [points[b][0] - points[a][0], points[b][1] - points[a][1]];
-            let long = along[0].hypot(along[1]);
+            let long = libm::hypot(along[0], along[1]);
             for (c, p) in points.iter().enumerate() {
                 let from = [p[0] - points[a][0], p[1] - points[a][1]];
                 let share = (from[0] * along[0] + from[1] * along[1]) / (long * long);
@@ -155,7 +155,7 @@ pub struct Tally {
 impl Tally {
     fn compare(&mut self, what: &str, slope: Slope, scale: f64, change: &Change) {
         self.asked += 1;
-        if self.asked % self.every != 0 {
+        if !self.asked.is_multiple_of(self.every) {
             return;
         }
         match slope {
@@ -237,7 +237,7 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
         let at = [corner.at.x, corner.at.y];
         if done
             .iter()
-            .any(|p| (p[0] - at[0]).hypot(p[1] - at[1]) < 1e-9)
+            .any(|p| libm::hypot(p[0] - at[0], p[1] - at[1]) < 1e-9)
         {
             continue;
         }

@@ -182,6 +182,30 @@ test("the figures change with their tabs", async () => {
   await close();
 });
 
+test("the capacity tab shows what the selected block can carry", async () => {
+  const { page, close } = await open();
+  const description = () => page.getAttribute("#figure", "alt");
+  const changed = (/** @type {string | null} */ old) =>
+    page.waitForFunction((/** @type {string | null} */ old) => {
+      const figure = document.querySelector("#figure");
+      return figure?.getAttribute("src") !== old && !figure?.classList.contains("stale");
+    }, old, { timeout: 20_000 });
+  const before = await page.getAttribute("#figure", "src");
+  await page.click("#tab-capacity");
+  await changed(before);
+  const first = await description();
+  const shown = await page.getAttribute("#figure", "src");
+  const { id } = (await sceneOf(page)).blocks[4];
+  const block = await middle(page, "blocks/4");
+  await page.mouse.click(block.x, block.y);
+  await changed(shown);
+  const second = await description();
+  assert.notEqual(first, second);
+  assert.ok(!id || second?.includes(id), second ?? "");
+  await page.locator("#figure-panel").screenshot({ path: shot("capacity") });
+  await close();
+});
+
 test("the workbench can be used alone, in another page", async () => {
   const { page, close } = await open();
   const state = await page.evaluate(async () => {

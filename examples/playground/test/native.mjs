@@ -110,6 +110,35 @@ test("margins have the same bytes", () => {
   }
 });
 
+test("the forces that a block can carry and sensitivities have the same bytes", () => {
+  const name = "tests/scenes/lintel.json";
+  const scene = read(name);
+  const { id, at } = carried(scene);
+  /** @type {[any, string[]][]} */
+  const asked = [
+    [{ capacity: id }, ["--capacity", id]],
+    [{ capacity: `${id}@${at}`, for_all: "tilt=±1,friction=0.5..0.7" }, ["--capacity", `${id}@${at}`, "--for-all", "tilt=±1,friction=0.5..0.7"]],
+    [{ sensitivity: "load_factor" }, ["--sensitivity", "load_factor"]],
+    [{ sensitivity: "horizontal_load" }, ["--sensitivity", "horizontal-load"]],
+  ];
+  for (const [options, words] of asked) {
+    const { stdout } = printed("check", "--json", "--no-timing", name, ...words);
+    same(module.check(scene, JSON.stringify({ file: name, ...options })), stdout, words.join(" "));
+    const found = JSON.parse(stdout).frames.at(-1);
+    assert.ok(options.capacity ? found.capacity.vertices.length > 0 : found.sensitivity, words.join(" "));
+  }
+  const words = ["--kind", "capacity", "--capacity", `${id}@${at}`];
+  const { stdout } = printed("render", name, "-o", "-", "--format", "svg", ...words);
+  same(module.figure(scene, JSON.stringify({ kind: "capacity", capacity: `${id}@${at}` })), stdout, words.join(" "));
+});
+
+/** The last block of a scene, and the mean of its corners. @param {string} scene */
+function carried(scene) {
+  const { id, vertices } = JSON.parse(module.check(scene, '{"blocks": true}')).frames.at(-1).blocks.at(-1);
+  const mean = (/** @type {number} */ axis) => vertices.reduce((/** @type {number} */ sum, /** @type {number[]} */ v) => sum + v[axis], 0) / vertices.length;
+  return { id, at: `${mean(0)},${mean(1)}` };
+}
+
 test("a drawing becomes the same scene", () => {
   const drawing = module.figure(read("assets/starter.json"));
   const { stdout } = spawnSync(program, ["import", "-", "--format", "svg"], { input: drawing, encoding: "utf8" });
@@ -125,6 +154,9 @@ test("a session gives what the functions give", () => {
   assert.equal(session.figure(), module.figure(other));
   assert.throws(() => session.set("{"), (error) => /** @type {any} */ (error).problems.length === 1);
   assert.equal(session.verdict(), "unstable");
+  // The session has no forces that a block can carry; the figure computes them.
+  const picture = JSON.stringify({ kind: "capacity", capacity: carried(other).id });
+  assert.equal(session.figure(picture), module.figure(other, picture));
 });
 
 test("the example in the documentation runs", () => {
@@ -143,5 +175,9 @@ test("options that are not valid are refused by name", () => {
   refused(() => module.check(scene, '{"frame": 99}'));
   refused(() => module.figure(scene, '{"kind": "picture"}'));
   refused(() => module.figure(scene, '{"zoom": "no such block"}'));
+  refused(() => module.check(scene, '{"capacity": "no such block"}'));
+  refused(() => module.check(scene, '{"for_all": "tilt=±2"}'));
+  refused(() => module.check(scene, '{"sensitivity": "robots"}'));
+  refused(() => module.figure(scene, '{"kind": "capacity", "capacity": "no such block"}'));
   refused(() => module.importDrawing("", "dwg"));
 });

@@ -2,11 +2,9 @@
 
 use clap::Args;
 
-use crate::analysis::{CapacityRequest, Cases, ForceAt, Options};
+use crate::analysis::{Options, typed_capacity};
 use crate::cli::complaint::CliError;
-use crate::geometry::Point;
 use crate::scene::Scene;
-use crate::text::{line, nearest};
 
 /// The block of which the carried forces are computed, and the cases in which they must be carried.
 #[derive(Clone, Debug, Default, Args)]
@@ -38,121 +36,8 @@ impl CapacityArgs {
         let Some(typed) = &self.capacity else {
             return Ok(options);
         };
-        let request = requested(scene, typed, self.for_all.as_deref());
+        let request = typed_capacity(scene, typed, self.for_all.as_deref());
         let request = request.map_err(CliError::CommandLine)?;
         Ok(options.capacity(request))
-    }
-}
-
-/// Parses the value of `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in metres) and the ranges of
-/// `--for-all`.
-///
-/// # Errors
-/// A message for the user, if a text is not valid or the scene has no such block.
-pub(crate) fn requested(
-    scene: &Scene,
-    typed: &str,
-    for_all: Option<&str>,
-) -> Result<CapacityRequest, String> {
-    let cases = for_all.map_or(Ok(Cases::default()), cases)?;
-    cases.check().map_err(|why| format!("--for-all: {why}"))?;
-    // The name of a block may contain @, so the whole text is first tried as a name.
-    if let Some(block) = scene.block_named(typed) {
-        return Ok(CapacityRequest::of_block(block).cases(cases));
-    }
-    let (name, places) = match typed.rsplit_once('@') {
-        Some((name, places)) => (name, Some(places)),
-        None => (typed, None),
-    };
-    let block = scene
-        .block_named(name)
-        .ok_or_else(|| unknown(scene, name))?;
-    let request = CapacityRequest::of_block(block).cases(cases);
-    match places {
-        None => Ok(request),
-        Some(places) => Ok(request.at(force_at(places)?)),
-    }
-}
-
-fn unknown(scene: &Scene, name: &str) -> String {
-    let names = || scene.blocks.iter().map(|b| b.id.as_str());
-    let hint = match nearest(name, names()) {
-        Some(near) => format!("; did you mean {}?", line(near)),
-        None => match names().next() {
-            Some(first) => format!("; its blocks are {}, …", line(first)),
-            None => "; it has no blocks".into(),
-        },
-    };
-    format!("--capacity: the scene has no block {}{hint}", line(name))
-}
-
-/// Parses one point `x,y`, or two different points `x,y..x,y`, in metres. The error is a message for the user.
-fn force_at(places: &str) -> Result<ForceAt, String> {
-    let wrong = || {
-        format!(
-            "--capacity: {} is not a point; write x,y in metres, such as 1.5,2, or two points, such as 1,2..3,2",
-            line(places)
-        )
-    };
-    let point = |text: &str| {
-        let (x, y) = text.split_once(',')?;
-        let read = |v: &str| v.trim().parse::<f64>().ok().filter(|v| v.abs() <= 1e12);
-        Some(Point::new(read(x)?, read(y)?))
-    };
-    match places.split_once("..") {
-        None => point(places).map(ForceAt::Point),
-        Some((a, b)) => point(a)
-            .zip(point(b))
-            .filter(|(a, b)| a != b)
-            .map(|(a, b)| ForceAt::Contact([a, b])),
-    }
-    .ok_or_else(wrong)
-}
-
-/// Parses the ranges of `--for-all`, such as `tilt=±2,horizontal=±0.05,friction=0.5..0.7`. The error is a message for
-/// the user.
-fn cases(typed: &str) -> Result<Cases, String> {
-    let mut cases = Cases::default();
-    for part in typed.split(',') {
-        let (name, values) = part.split_once('=').ok_or_else(|| {
-            format!(
-                "--for-all: {} has no range; write for example tilt=±2 or friction=0.5..0.7",
-                line(part)
-            )
-        })?;
-        let range = range(values.trim()).ok_or_else(|| {
-            format!(
-                "--for-all: {} is not a range; write for example ±2 or 0.5..0.7",
-                line(values)
-            )
-        })?;
-        match name.trim() {
-            "tilt" => cases.tilt = Some(range),
-            "horizontal" | "horizontal_load" | "horizontal-load" => {
-                cases.horizontal_load = Some(range)
-            }
-            "friction" => cases.friction = Some(range),
-            other => {
-                return Err(format!(
-                    "--for-all: {} is not one of tilt, horizontal and friction. For other quantities the \
-                     extreme values do not show what happens between them",
-                    line(other)
-                ));
-            }
-        }
-    }
-    Ok(cases)
-}
-
-/// Parses a range: `±2`, `+-2`, `0.5..0.7`, or a single number as a range of one value. `None` for any other text.
-fn range(text: &str) -> Option<[f64; 2]> {
-    let number = |v: &str| v.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    if let Some(size) = text.strip_prefix('±').or_else(|| text.strip_prefix("+-")) {
-        let size = number(size).filter(|v| *v >= 0.0)?;
-        return Some([-size, size]);
-    }
-    match text.split_once("..") {
-        Some((low, high)) => Some([number(low)?, number(high)?]),
-        None => number(text).map(|v| [v, v]),
     }
 }

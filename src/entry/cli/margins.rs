@@ -127,6 +127,12 @@ pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
     Ok(kinds(&names))
 }
 
+/// Returns the margin with this name whose sensitivity can be computed; `None` if there is none.
+#[cfg(feature = "python")]
+pub(crate) fn varied(name: &str) -> Option<MarginKind> {
+    Varied::from_str(name, true).ok().map(Varied::kind)
+}
+
 /// Joins the option `--margins` and a list in the next word to one word, `--margins=LIST`.
 ///
 /// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two.

@@ -42,7 +42,7 @@ struct Options {
 #[pymethods]
 impl Options {
     #[new]
-    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity=None, for_all=None))]
+    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity=None, for_all=None, sensitivity=None))]
     #[expect(
         clippy::too_many_arguments,
         reason = "one for each keyword of the Python function"
@@ -59,6 +59,7 @@ impl Options {
         located: bool,
         capacity: Option<String>,
         for_all: Option<String>,
+        sensitivity: Option<String>,
     ) -> PyResult<Options> {
         let accuracy = match accuracy {
             "standard" => Accuracy::Standard,
@@ -79,6 +80,13 @@ impl Options {
                 fault(py, &format!("there is no margin {name:?}; {why}"))
             })?;
             asked = asked.margins(true).margin_kinds(kinds);
+        }
+        if let Some(name) = sensitivity {
+            let Some(kind) = cli::margins::varied(&name) else {
+                let why = "sensitivity is load_factor, tilt, horizontal_load, friction or kernel";
+                return Err(fault(py, &format!("{why}, not {name:?}")));
+            };
+            asked = asked.sensitivity(kind);
         }
         let time_limit = match time_limit {
             Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
@@ -115,7 +123,7 @@ impl Options {
         let found = isolate("scene", || {
             let scene = Scene::from_json_within(text, self.contact_tolerance)?;
             if let Some(typed) = &self.capacity {
-                match cli::capacity::requested(&scene, typed, self.for_all.as_deref()) {
+                match analysis::typed_capacity(&scene, typed, self.for_all.as_deref()) {
                     Ok(request) => asked = asked.capacity(request),
                     Err(why) => return Err(Refusal::Request(why)),
                 }

@@ -4,7 +4,6 @@ use pyo3::prelude::*;
 
 use super::{Analysis, Options, fault, refused};
 use crate::analysis;
-use crate::cli;
 use crate::geometry::Point;
 use crate::result;
 use crate::scene::Scene;
@@ -89,7 +88,7 @@ impl Session {
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` have the form
     /// of the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
-        let request = cli::capacity::requested(self.now.scene(), typed, for_all);
+        let request = analysis::typed_capacity(self.now.scene(), typed, for_all);
         let request = request.map_err(|why| fault(py, &why))?;
         let found = py.detach(|| self.now.capacity(&request));
         let found = found.map_err(|why| fault(py, &why.to_string()))?;

@@ -2,10 +2,10 @@
 
 use super::Refusal;
 use super::look::FigureOptions;
-use super::option::{deadline, scene};
-use crate::analysis::{self, Analysis};
-use crate::figure;
-use crate::scene::Sketch;
+use super::option::{self, deadline, scene};
+use crate::analysis::{self, Analysis, CapacityRequest};
+use crate::figure::{self, Kind};
+use crate::scene::{Scene, Sketch};
 
 /// Draws a figure of a scene, and returns the SVG. With the option `broken`, draws the outlines of a scene that is not
 /// valid.
@@ -20,23 +20,55 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
         .accuracy(options.accuracy.accuracy())
         .wedging(options.wedging);
     asked.deadline = deadline(options.time_limit)?;
+    let asked = with_capacity(asked, &scene, options)?;
     let found = match options.kind()? {
         Some(kind) => kind.analysed(&scene, &asked),
         None => Analysis::with(&scene, &asked),
     };
-    drawn(&found, options)
+    page(&found, options)
 }
 
-/// Draws a figure of an existing analysis, and returns the SVG.
+/// Adds the forces that a block can carry, if the figure shows them: of the given block, or of a usual one.
+fn with_capacity(
+    asked: analysis::Options,
+    scene: &Scene,
+    options: &FigureOptions,
+) -> Result<analysis::Options, Refusal> {
+    let (capacity, for_all) = (options.capacity.as_deref(), options.for_all.as_deref());
+    let mut asked = option::with_capacity(asked, scene, capacity, for_all)?;
+    let is_shown = options.kind()?.is_some_and(Kind::needs_capacity);
+    if is_shown && asked.capacity.is_none() {
+        asked.capacity = CapacityRequest::usual(scene);
+    }
+    Ok(asked)
+}
+
+/// True if a figure needs something that the analysis of a session did not compute.
+fn lacks(found: &Analysis, kind: Kind, options: &FigureOptions) -> bool {
+    let no_margins = || found.frames.iter().any(|f| f.margins.is_none());
+    let no_capacity =
+        || options.capacity.is_some() || found.frames.iter().all(|f| f.capacity.is_none());
+    kind.needs_margins() && no_margins() || kind.needs_capacity() && no_capacity()
+}
+
+/// Draws a figure of the analysis of a session, and returns the SVG. What the figure needs in addition is computed
+/// first.
 pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
+    match options.kind()? {
+        Some(kind) if lacks(found, kind, options) => {
+            let asked = with_capacity(analysis::Options::default(), &found.scene, options)?;
+            page(&kind.analysed(&found.scene, &asked), options)
+        }
+        _ => page(found, options),
+    }
+}
+
+/// Draws a figure of a complete analysis.
+fn page(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
     let zoom = options.zoom.as_deref();
     let zoom = zoom.map(|name| figure::named_block(&found.scene, name));
     let wanted = options.figure(zoom.transpose().map_err(Refusal::of_option)?)?;
     let drawing = match options.kind()? {
-        Some(kind) if kind.needs_margins() && found.frames.iter().any(|f| f.margins.is_none()) => {
-            let asked = analysis::Options::default();
-            figure::draw(&kind.analysed(&found.scene, &asked), kind, &wanted)
-        }
         Some(kind) => figure::draw(found, kind, &wanted),
         None => {
             let block = options.block.as_deref();

@@ -1,15 +1,13 @@
 //! Analyses scenes, and writes the results as JSON.
 
 use super::Refusal;
-use super::option::{self, CheckOptions};
+use super::option::CheckOptions;
 use crate::analysis::Analysis;
 use crate::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
 
 /// Analyses a scene, and returns the same JSON as `drystone check --json`.
 pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {
-    let asked = options.asked()?;
-    let scene = option::scene(scene, options.contact_tolerance, options.frame)?;
-    Ok(written(Analysis::with(scene, &asked), options))
+    Ok(written(options.analysis(scene)?, options))
 }
 
 /// Writes an analysis as JSON.

@@ -52,6 +52,8 @@ pub(super) struct FigureOptions {
     pub(super) wedging: bool,
     pub(super) contact_tolerance: Option<f64>,
     pub(super) time_limit: Option<f64>,
+    pub(super) capacity: Option<String>,
+    pub(super) for_all: Option<String>,
 }
 
 impl FigureOptions {

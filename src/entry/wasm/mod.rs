@@ -64,8 +64,10 @@ pub fn kinds() -> String {
 
 /// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is a JSON object
 /// with the names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
-/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks` and `no_notes`. Two more options
-/// are `timing`, which includes times, and `file`, the name of the file in the result.
+/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`, `capacity` (such as
+/// "lintel", "lintel@2,3" or "lintel@1,3..3,3"), `for_all` (such as "tilt=±2,friction=0.5..0.7") and `sensitivity`
+/// (load_factor, tilt, horizontal_load, friction or kernel). Two more options are `timing`, which includes times, and
+/// `file`, the name of the file in the result.
 ///
 /// # Errors
 /// The problems of the scene, or an option that is not valid.
@@ -75,9 +77,9 @@ pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
 }
 
 /// Draws a scene as SVG, as `drystone render` does. `options` is a JSON object with the names of the options of
-/// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill` and others. Three more options exist.
-/// `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from 0 to 1, is the
-/// position of a moving mechanism.
+/// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill`, `capacity`, `for_all` and others. Three
+/// more options exist. `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from 0
+/// to 1, is the position of a moving mechanism.
 ///
 /// # Errors
 /// As [`check`].

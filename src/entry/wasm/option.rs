@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Deserialize;
 
 use super::Refusal;
-use crate::analysis::{Accuracy, MarginKind, MarginKinds, Options};
+use crate::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, typed_capacity};
 use crate::clock::Instant;
 use crate::scene::format::parsed;
 use crate::scene::{Scene, SceneError};
@@ -33,11 +33,23 @@ pub(super) struct CheckOptions {
     pub(super) timing: bool,
     pub(super) blocks: bool,
     pub(super) file: Option<String>,
+    capacity: Option<String>,
+    for_all: Option<String>,
+    sensitivity: Option<Varied>,
 }
 
 impl CheckOptions {
-    /// Returns the options of the analysis. A time limit is counted from this call.
-    pub(super) fn asked(&self) -> Result<Options, Refusal> {
+    /// Reads a scene, and analyses it. A time limit is counted from this call.
+    pub(super) fn analysis(&self, text: &str) -> Result<Analysis, Refusal> {
+        let asked = self.asked()?;
+        let scene = scene(text, self.contact_tolerance, self.frame)?;
+        let (capacity, for_all) = (self.capacity.as_deref(), self.for_all.as_deref());
+        let asked = with_capacity(asked, &scene, capacity, for_all)?;
+        Ok(Analysis::with(scene, &asked))
+    }
+
+    /// Returns the options of the analysis that do not depend on the scene.
+    fn asked(&self) -> Result<Options, Refusal> {
         let mut asked = Options::default()
             .accuracy(self.accuracy.accuracy())
             .wedging(self.wedging)
@@ -46,7 +58,31 @@ impl CheckOptions {
         if let Some(kinds) = self.margins.kinds() {
             asked = asked.margins(true).margin_kinds(kinds);
         }
+        asked.sensitivity = self.sensitivity.map(Varied::kind);
         Ok(asked)
+    }
+}
+
+/// Adds the forces that a block can carry, if a block is given.
+pub(super) fn with_capacity(
+    asked: Options,
+    scene: &Scene,
+    capacity: Option<&str>,
+    for_all: Option<&str>,
+) -> Result<Options, Refusal> {
+    match (capacity, for_all) {
+        (None, None) => Ok(asked),
+        (None, Some(_)) => Err(Refusal::of_option(
+            "for_all is about the forces that a block can carry; give capacity, too",
+        )),
+        (Some(typed), cases) => match typed_capacity(scene, typed, cases) {
+            Ok(request) => Ok(asked.capacity(request)),
+            // The options of the command line have these names with hyphens.
+            Err(why) => Err(Refusal::of_option(match why.strip_prefix("--for-all") {
+                Some(rest) => format!("for_all{rest}"),
+                None => why.trim_start_matches('-').to_owned(),
+            })),
+        },
     }
 }
 
@@ -173,6 +209,29 @@ impl Margin {
             Margin::Kernel => MarginKind::Kernel,
             Margin::LoadFactor => MarginKind::LoadFactor,
             Margin::Robots => MarginKind::Robots,
+        }
+    }
+}
+
+/// A margin with one parameter, whose sensitivity can be computed.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Varied {
+    LoadFactor,
+    Tilt,
+    HorizontalLoad,
+    Friction,
+    Kernel,
+}
+
+impl Varied {
+    fn kind(self) -> MarginKind {
+        match self {
+            Varied::LoadFactor => MarginKind::LoadFactor,
+            Varied::Tilt => MarginKind::Tilt,
+            Varied::HorizontalLoad => MarginKind::HorizontalLoad,
+            Varied::Friction => MarginKind::Friction,
+            Varied::Kernel => MarginKind::Kernel,
         }
     }
 }

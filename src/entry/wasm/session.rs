@@ -25,7 +25,7 @@ impl Session {
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
         let options: CheckOptions = option::read(options.as_deref())?;
-        let found = analysis(scene, &options)?;
+        let found = options.analysis(scene)?;
         Ok(Session { options, found })
     }
 
@@ -34,7 +34,7 @@ impl Session {
     /// # Errors
     /// The problems of the scene, or a frame that it does not have. The session then keeps the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
-        self.found = analysis(scene, &self.options)?;
+        self.found = self.options.analysis(scene)?;
         Ok(self.verdict())
     }
 
@@ -49,17 +49,11 @@ impl Session {
     }
 
     /// Draws a figure of the analysed frames as SVG. `options` are those of `figure`; options of the analysis have no
-    /// effect.
+    /// effect, except `capacity` and `for_all` for the figure `capacity`.
     ///
     /// # Errors
     /// An option that is not valid.
     pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
         draw::drawn(&self.found, &option::read(options.as_deref())?)
     }
-}
-
-fn analysis(scene: &str, options: &CheckOptions) -> Result<Analysis, Refusal> {
-    let asked = options.asked()?;
-    let scene = option::scene(scene, options.contact_tolerance, options.frame)?;
-    Ok(Analysis::with(scene, &asked))
 }

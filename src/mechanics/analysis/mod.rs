@@ -38,6 +38,8 @@ pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, Note, Scene};
 pub use crate::solve::Slide;
 pub(crate) use capacity::capacity_of;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) use capacity::typed_capacity;
 pub use capacity::{
     CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt,
     LoadCapacity, VertexForce,

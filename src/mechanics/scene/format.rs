@@ -172,7 +172,7 @@ impl SceneFile {
     /// unit of length.
     pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
         let unit = self.units.unwrap_or_default().length();
-        let given = tolerance.map(|metres| unit.from_si(metres));
+        let given = tolerance.map(|metres| unit.value_from_si(metres));
         self.contact_tolerance = given.or(self.contact_tolerance);
     }
 }

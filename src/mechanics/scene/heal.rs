@@ -385,7 +385,7 @@ impl Scene {
         } = self.healed;
         let unit = self.units.length();
         let [gap, within, distance] =
-            [self.tolerance.gap, within, distance].map(|metres| unit.from_si(metres));
+            [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
         let unit = unit.symbol();
         let mut words = if within <= 0.0 {
             format!("edges touch within {gap:.2e} {unit}, a millionth of the scene's extent")

@@ -242,7 +242,7 @@ impl Notes<'_> {
             return None;
         }
         let at = at.map(|x| x * unit.size);
-        outside(&body.polygon, at, body.gap).map(|distance| unit.from_si(distance))
+        outside(&body.polygon, at, body.gap).map(|distance| unit.value_from_si(distance))
     }
 
     fn loads(&mut self, file: &SceneFile) {

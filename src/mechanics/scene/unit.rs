@@ -26,7 +26,7 @@ impl Unit {
     }
 
     /// Converts a value from the SI unit to this unit.
-    pub(crate) fn from_si(&self, value: f64) -> f64 {
+    pub(crate) fn value_from_si(&self, value: f64) -> f64 {
         // In an SI unit, the value stays exactly as it is.
         if self.size == 1.0 {
             value

@@ -79,8 +79,8 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             "robot {} cannot hold {}: it would have to give ({}, {}) {} beyond its limits",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            digits(units.force().from_si(force.x)),
-            digits(units.force().from_si(force.y)),
+            digits(units.force().value_from_si(force.x)),
+            digits(units.force().value_from_si(force.y)),
             units.force().symbol()
         ),
         Failure::RobotTorque {

@@ -12,7 +12,7 @@ pub const NO_BREAK: char = '\u{a0}';
 pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
     match unit.is_chosen {
-        true => in_chosen_unit(unit.from_si(value), &unit.symbol()),
+        true => in_chosen_unit(unit.value_from_si(value), &unit.symbol()),
         false => with_prefix(value, &unit.symbol()),
     }
 }
@@ -150,7 +150,7 @@ pub fn round_below(value: f64) -> f64 {
 pub fn round_below_in(value: f64, unit: Unit) -> f64 {
     match unit.size {
         1.0 => round_below(value),
-        size => size * round_below(unit.from_si(value)),
+        size => size * round_below(unit.value_from_si(value)),
     }
 }
 
@@ -268,14 +268,14 @@ pub fn duration(seconds: f64) -> String {
 /// Writes a point: `(2, 1.5) m`.
 pub fn place(p: Point, units: UnitsEntry) -> String {
     let unit = units.length();
-    let [x, y] = [p.x, p.y].map(|x| digits(unit.from_si(x)));
+    let [x, y] = [p.x, p.y].map(|x| digits(unit.value_from_si(x)));
     format!("({x}, {y}) {}", unit.symbol())
 }
 
 /// Writes a value with four significant digits and its unit, without a prefix: `1234 N`.
 pub fn amount(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
-    format!("{} {}", digits(unit.from_si(value)), unit.symbol())
+    format!("{} {}", digits(unit.value_from_si(value)), unit.symbol())
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ pub enum Target {
 
 /// A change that makes the structure stronger, and its effect.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct EffectiveChange {
     /// The quantity that is changed.
     pub target: Target,
     /// The change in words, with its amount: `moving corner 3 of block v4 by 10 mm up`.
@@ -52,11 +52,11 @@ pub fn most_effective(
     end: &EndSensitivity,
     is_high: bool,
     most: usize,
-) -> Vec<Change> {
+) -> Vec<EffectiveChange> {
     let outward = if is_high { 1.0 } else { -1.0 };
     let mut list = corners(scene, found, end, outward);
     list.extend(others(scene, found, end, outward));
-    let effect = |change: &Change| (change.after - end.value) * outward;
+    let effect = |change: &EffectiveChange| (change.after - end.value) * outward;
     list.retain(|change| effect(change) > NO_EFFECT * end.value.abs());
     list.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
     list.truncate(most);
@@ -82,7 +82,7 @@ fn corners(
     found: &FrameAnalysis,
     end: &EndSensitivity,
     outward: f64,
-) -> Vec<Change> {
+) -> Vec<EffectiveChange> {
     let step = step_length(found);
     let mut list = Vec::new();
     let mut seen: Vec<usize> = Vec::new();
@@ -110,7 +110,7 @@ fn corners(
             true => String::new(),
             false => format!(" with {}", super::number::listed(&with)),
         };
-        list.push(Change {
+        list.push(EffectiveChange {
             target: Target::Corner(number, direction),
             words: format!(
                 "moving corner {} of {}{with} by {} {}",
@@ -127,10 +127,15 @@ fn corners(
 }
 
 /// Returns the changes of weights, friction and loads.
-fn others(scene: &Scene, found: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<Change> {
+fn others(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    end: &EndSensitivity,
+    outward: f64,
+) -> Vec<EffectiveChange> {
     let mut list = Vec::new();
     let mut add = |target: Target, words: String, amount: f64, rate: f64| {
-        list.push(Change {
+        list.push(EffectiveChange {
             target,
             words,
             amount,

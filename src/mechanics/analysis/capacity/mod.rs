@@ -14,6 +14,8 @@ mod probe;
 mod refine;
 mod region;
 mod request;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+mod typed;
 
 use super::decide::{Place, ProofCache, decide_verdict};
 use super::{Analysis, FrameAnalysis, Options, Verdict};
@@ -26,6 +28,8 @@ use crate::scene::{Block, BlockId, RobotId, Scene};
 use crate::solve::{DeadlineGuard, is_late};
 use probe::Probe;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) use typed::typed_capacity;
 
 /// All forces that may act on a block at a point, in addition to its present loads, such that the frame stands.
 ///

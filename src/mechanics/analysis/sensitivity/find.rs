@@ -17,6 +17,9 @@ pub(in crate::mechanics::analysis) struct Part<'a> {
     pub interval: Option<&'a Interval>,
 }
 
+/// Returns the slope of a value that is read from the rates. The first argument is the largest derivative of its kind.
+type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
+
 /// Two ends that differ by less than this, relative to their values, count as equal. Every component with an equal end
 /// falls there.
 const SAME_END: f64 = 1e-6;
@@ -200,11 +203,7 @@ impl Search<'_> {
     }
 
     /// Returns the slopes of all corners of blocks. `largest` is the largest derivative with respect to a corner.
-    fn corners(
-        &self,
-        slope: &dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope,
-        largest: f64,
-    ) -> Vec<CornerSlope> {
+    fn corners(&self, slope: &SlopeOf<'_>, largest: f64) -> Vec<CornerSlope> {
         let corners = self.corners;
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); corners.count];
         for (place, joined) in corners.joined.iter().enumerate() {

@@ -9,7 +9,7 @@
 //! 3. Elimination solves for the motions of the groups. Newton's method solves for the forces and the value, up to
 //!    rounding.
 //! 4. The dimensions of the null spaces show whether forces and motions are unique. If the forces are unique but the
-//!   motions are not, all extreme motions are computed. Otherwise, some other forces and motions are computed.
+//!    motions are not, all extreme motions are computed. Otherwise, some other forces and motions are computed.
 
 use super::case::Case;
 use super::elimination::Elimination;

@@ -51,7 +51,7 @@ impl Column {
     /// Chooses the prefix for a column so that its largest number has one to three digits before the decimal point.
     /// Prefixes range from 10⁻⁶ to 10⁶. A unit that the scene chooses has no prefix.
     fn new(largest: f64, unit: Unit) -> Column {
-        let largest = unit.from_si(largest);
+        let largest = unit.value_from_si(largest);
         let digits = if largest > 0.0 && largest.is_finite() {
             libm::floor(libm::log10(largest)) as i32
         } else {

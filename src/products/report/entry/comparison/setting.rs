@@ -100,7 +100,7 @@ fn given(scene: &Scene, number: usize) -> Given {
         let words: Vec<String> = loads
             .map(|load| {
                 let newtons = scene.units.force();
-                let [x, y] = [load.force.x, load.force.y].map(|f| newtons.from_si(f));
+                let [x, y] = [load.force.x, load.force.y].map(|f| newtons.value_from_si(f));
                 let force = vector(x, y, &newtons.symbol());
                 let torque = match load.torque {
                     0.0 => String::new(),
