@@ -13,6 +13,15 @@ if [ ! -d "$tools/node_modules/playwright-core" ]; then
     mkdir -p "$tools"
     (cd "$tools" && npm install --silent --no-save --no-package-lock --prefix . playwright-core@1.65.1)
 fi
+# Debian 12 has Node.js 18, which is too old for the tests.
+if [ "$(node -p 'process.versions.node.split(".")[0]')" -lt 20 ]; then
+    if [ ! -x "$tools/node/package/bin/node" ]; then
+        mkdir -p "$tools/node"
+        name=node-linux-$(node -p process.arch)
+        (cd "$tools/node" && npm pack --silent "$name@20.19.5" && tar xzf "$name-20.19.5.tgz" && rm "$name-20.19.5.tgz")
+    fi
+    export PATH=$tools/node/package/bin:$PATH
+fi
 axe=$root/target/axe/package/axe.min.js
 if [ ! -f "$axe" ]; then
     mkdir -p "$root/target/axe"
