@@ -49,6 +49,7 @@ mod random;
 mod report;
 mod scenes;
 mod sensitivity;
+mod sensitivity_figure;
 mod session;
 mod sinks;
 mod small;

@@ -133,8 +133,11 @@ impl Render {
     /// free-body diagrams and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
-        let why = if self.margin.is_some() && !self.kind.needs_margins() {
-            "--margin is about the direction of a margin; add --kind margin"
+        let varies = self.kind.needs_sensitivity();
+        let why = if self.margin.is_some() && !self.kind.needs_margins() && !varies {
+            "--margin is about the direction of a margin; add --kind margin or --kind sensitivity"
+        } else if matches!(self.margin, Some(Margin::Friction)) && !varies {
+            "--margin friction has no picture of how it falls; add --kind sensitivity"
         } else if self.capacity.are_requested() && !self.kind.needs_capacity() {
             "--capacity names the block of a figure of the forces that it can carry; add --kind capacity"
         } else if self.writes_parts() && (self.kind.panels().is_none() || is_stdout) {
@@ -234,7 +237,7 @@ impl Render {
         } else {
             source.scene.clone()
         };
-        let asked = self.with_capacity(asked, &scene)?;
+        let asked = self.with_requests(asked, &scene)?;
         let analysis = self.analysed(&scene, &asked);
         progress.step();
         let mut summary = summary(&analysis);
@@ -309,9 +312,9 @@ impl Render {
         }
     }
 
-    /// Adds the request for the forces that a block can carry. Without `--capacity`, a figure that shows these forces
-    /// gets the request that `CapacityRequest::usual` chooses.
-    fn with_capacity(
+    /// Adds the forces that a block can carry, if the figure shows them: of the block on the command line, or of a
+    /// usual one. Adds the margin on the command line, if the figure shows how it changes.
+    fn with_requests(
         &self,
         asked: &analysis::Options,
         scene: &Scene,
@@ -319,6 +322,9 @@ impl Render {
         let mut asked = self.capacity.add_to(*asked, scene)?;
         if self.kind.needs_capacity() && asked.capacity.is_none() {
             asked.capacity = analysis::CapacityRequest::usual(scene);
+        }
+        if self.kind.needs_sensitivity() {
+            asked.sensitivity = self.margin.map(Margin::kind);
         }
         Ok(asked)
     }

@@ -11,6 +11,7 @@ use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
 use super::option::{ArrowScale, Options};
 use super::polygon::ForcePolygon;
+use super::sensitivity::CornerEffects;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
 use crate::analysis::{self, Analysis, MarginKinds};
@@ -45,13 +46,16 @@ pub enum Kind {
     /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its
     /// longest edges.
     Capacity,
+    /// An arrow at each corner that shows in which direction to move it to make a margin larger, with the ten most
+    /// effective changes numbered and listed.
+    Sensitivity,
     /// The changes of blocks and forces from one frame to the next. The arrows of all panels have the same scale.
     Compare,
 }
 
 impl Kind {
     /// All kinds, in the order in which help lists them.
-    pub const ALL: [Kind; 11] = [
+    pub const ALL: [Kind; 12] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -62,6 +66,7 @@ impl Kind {
         Kind::Polygon,
         Kind::Margin,
         Kind::Capacity,
+        Kind::Sensitivity,
         Kind::Compare,
     ];
 
@@ -78,6 +83,7 @@ impl Kind {
             Kind::Polygon => &ForcePolygon,
             Kind::Margin => &CollapseMargin,
             Kind::Capacity => &CarriedForces,
+            Kind::Sensitivity => &CornerEffects,
             Kind::Compare => &Comparison,
         }
     }
@@ -109,6 +115,9 @@ impl Kind {
     pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         let mut asked = *asked;
         asked.margins |= self.needs_margins();
+        if self.needs_sensitivity() && asked.sensitivity.is_none() {
+            asked.sensitivity = Some(analysis::Sensitivity::usual(scene));
+        }
         let analysis = Analysis::with(scene, &asked);
         match self.stated_margins(&analysis) {
             Some(kinds) if !asked.margins => {
@@ -128,6 +137,12 @@ impl Kind {
     /// ([`analysis::Options::capacity`](crate::analysis::Options::capacity)).
     pub fn needs_capacity(self) -> bool {
         self.content().about().needs_capacity
+    }
+
+    /// True if it needs the derivatives of a margin, which the analysis only computes on request
+    /// ([`analysis::Options::sensitivity`](crate::analysis::Options::sensitivity)).
+    pub fn needs_sensitivity(self) -> bool {
+        self.content().about().needs_sensitivity
     }
 
     /// Returns a copy of the options in which the values that the kind determines itself are replaced.

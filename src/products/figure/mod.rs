@@ -43,6 +43,7 @@ mod pen;
 mod plate;
 mod polygon;
 mod ring;
+mod sensitivity;
 mod shapes;
 mod strip;
 mod thrust;

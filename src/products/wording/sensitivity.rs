@@ -13,7 +13,7 @@ const SHARE_OF_LENGTH: f64 = 1.0 / 50.0;
 /// The share of a weight by which the weight changes.
 const SHARE_OF_WEIGHT: f64 = 0.1;
 /// The amount by which a friction coefficient changes.
-const FRICTION_STEP: f64 = 0.05;
+pub const FRICTION_STEP: f64 = 0.05;
 /// Changes with a smaller effect, relative to the value, are not listed.
 const NO_EFFECT: f64 = 1e-6;
 
@@ -76,6 +76,46 @@ pub fn length(metres: f64) -> String {
     }
 }
 
+/// Returns the changes with the largest effect as [`most_effective`] does, without those that are too small for the
+/// digits of the value.
+pub fn visible(
+    scene: &Scene,
+    found: &FrameAnalysis,
+    (kind, end, is_high): (MarginKind, &EndSensitivity, bool),
+    most: usize,
+) -> Vec<EffectiveChange> {
+    let before = value(kind, end.value);
+    let mut changes = most_effective(scene, found, end, is_high, most);
+    changes.retain(|change| value(kind, change.after) != before);
+    changes
+}
+
+/// Returns the corners, by their index in [`EndSensitivity::corners`], each with the unit vector along which the
+/// interval grows most and its growth per metre; `None` if it does not grow. Corners that move together occur once.
+pub fn corner_moves(
+    found: &FrameAnalysis,
+    end: &EndSensitivity,
+    outward: f64,
+) -> Vec<(usize, Option<(Vector, f64)>)> {
+    let mut list: Vec<(usize, Option<(Vector, f64)>)> = Vec::new();
+    for (number, corner) in end.corners.iter().enumerate() {
+        let is_here =
+            |other: usize| (end.corners[other].at - corner.at).norm() < 1e-6 * found.length;
+        if !corner.with.is_empty() && list.iter().any(|known| is_here(known.0)) {
+            continue;
+        }
+        let best = match corner.moves {
+            CornerMoves::Freely(slopes) => best_direction(slopes, outward),
+            CornerMoves::Along { direction, slope } => {
+                best_side(slope, outward).map(|(side, rate)| (direction * side, rate))
+            }
+            _ => None,
+        };
+        list.push((number, best));
+    }
+    list
+}
+
 /// Returns the changes of corners. Corners that move together are listed once.
 fn corners(
     scene: &Scene,
@@ -85,23 +125,8 @@ fn corners(
 ) -> Vec<EffectiveChange> {
     let step = step_length(found);
     let mut list = Vec::new();
-    let mut seen: Vec<usize> = Vec::new();
-    for (number, corner) in end.corners.iter().enumerate() {
-        let is_known = |other: &usize| {
-            let other = &end.corners[*other];
-            (other.at - corner.at).norm() < 1e-6 * found.length
-        };
-        if !corner.with.is_empty() && seen.iter().any(is_known) {
-            continue;
-        }
-        seen.push(number);
-        let best = match corner.moves {
-            CornerMoves::Freely(slopes) => best_direction(slopes, outward),
-            CornerMoves::Along { direction, slope } => {
-                best_side(slope, outward).map(|(side, rate)| (direction * side, rate))
-            }
-            _ => None,
-        };
+    for (number, best) in corner_moves(found, end, outward) {
+        let corner = &end.corners[number];
         let Some((direction, rate)) = best else {
             continue;
         };
@@ -210,7 +235,7 @@ pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)>
 }
 
 /// Names the nearest of eight directions: `up and to the left`.
-fn toward(direction: Vector) -> String {
+pub fn toward(direction: Vector) -> String {
     // The tangent of 22.5°.
     const NARROW: f64 = 0.414_213_562_373_095_1;
     let (x, y) = (direction.x.abs(), direction.y.abs());
@@ -257,9 +282,7 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
     }
     for (is_high, end) in sensitivity.ends() {
         let before = value(kind, end.value);
-        let mut changes = most_effective(scene, found, end, is_high, 10);
-        // Leave out a change that is too small to change the written digits.
-        changes.retain(|change| value(kind, change.after) != before);
+        let changes = visible(scene, found, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         lines.push(match changes.is_empty() {
             true => {

@@ -85,7 +85,8 @@ pub(crate) struct Render {
     /// Split a long strip into A4 pages, each a separate file with its number after the name
     #[arg(long, conflicts_with_all = ["animate", "panels"])]
     pub(super) pages: bool,
-    /// The direction of --kind margin [default: tilt]
+    /// The margin of --kind margin [default: tilt] or --kind sensitivity [default: load-factor if there are loads, otherwise
+    /// tilt]
     #[arg(long, value_enum, value_name = "DIRECTION")]
     pub(super) margin: Option<Margin>,
     /// Panels per row of a strip

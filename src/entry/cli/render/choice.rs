@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
-use crate::analysis::Toward;
+use crate::analysis::{MarginKind, Toward};
 use crate::figure;
 
 /// The value of `--kind`: a kind of figure with panels, or the free-body diagram of a block.
@@ -75,6 +75,8 @@ pub(super) enum Margin {
     HorizontalLoad,
     /// The factor on the listed loads
     LoadFactor,
+    /// The least friction; only with --kind sensitivity
+    Friction,
 }
 
 impl KindChoice {
@@ -89,6 +91,11 @@ impl KindChoice {
     /// True if the figure shows margins.
     pub(super) fn needs_margins(self) -> bool {
         self.panels().is_some_and(figure::Kind::needs_margins)
+    }
+
+    /// True if the figure shows how a margin changes.
+    pub(super) fn needs_sensitivity(self) -> bool {
+        self.panels().is_some_and(figure::Kind::needs_sensitivity)
     }
 
     /// True if the figure shows the forces that a block can carry.
@@ -142,6 +149,18 @@ impl Margin {
             Margin::Tilt => Toward::Tilt,
             Margin::HorizontalLoad => Toward::HorizontalLoad,
             Margin::LoadFactor => Toward::LoadFactor,
+            // Only figures of the sensitivity have it, and they have no direction.
+            Margin::Friction => Toward::default(),
+        }
+    }
+
+    /// Returns the margin.
+    pub(super) fn kind(self) -> MarginKind {
+        match self {
+            Margin::Tilt => MarginKind::Tilt,
+            Margin::HorizontalLoad => MarginKind::HorizontalLoad,
+            Margin::LoadFactor => MarginKind::LoadFactor,
+            Margin::Friction => MarginKind::Friction,
         }
     }
 }

@@ -97,6 +97,33 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
+    /// Returns the margin whose sensitivity a figure shows unless another one is requested: the load factor if a placed
+    /// block has a load, otherwise the tilt.
+    pub fn usual(scene: &Scene) -> MarginKind {
+        let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
+        match scene.loads.iter().any(|load| placed(load.block)) {
+            true => MarginKind::LoadFactor,
+            false => MarginKind::Tilt,
+        }
+    }
+
+    /// Returns the end that a figure shows: the one nearer to the present state, for the load factor the upper one if it
+    /// has a value. The flag is true for the upper end. `None` if neither end has a value.
+    pub fn nearest(&self) -> Option<(bool, &EndSensitivity)> {
+        match (&self.low, &self.high) {
+            (Err(_), Err(_)) => None,
+            (Ok(low), Err(_)) => Some((false, low)),
+            (Err(_), Ok(high)) => Some((true, high)),
+            (Ok(low), Ok(high)) => {
+                let is_nearer = low.value.abs() < (1.0 - 1e-6) * high.value.abs();
+                match is_nearer && self.kind != MarginKind::LoadFactor {
+                    true => Some((false, low)),
+                    false => Some((true, high)),
+                }
+            }
+        }
+    }
+
     /// Returns the ends that have derivatives, the lower end first. The flag is true for the upper end.
     pub fn ends(&self) -> impl Iterator<Item = (bool, &EndSensitivity)> {
         let both = [(false, &self.low), (true, &self.high)];

@@ -42,7 +42,8 @@ impl<'e> Laid<'e> {
             .map(|l| l.replace(text::NO_BREAK, " "))
             .collect();
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
-        let width = sign + widths.fold(0.0, f64::max);
+        let column = entry.column().unwrap_or(0.0).min(room);
+        let width = (sign + widths.fold(0.0, f64::max)).max(column);
         Laid {
             entry,
             lines,
@@ -77,12 +78,23 @@ struct KeyLine<'e> {
     width: f64,
 }
 
+impl KeyLine<'_> {
+    /// Whether it is a line of a numbered list. Such lines have no other entries.
+    fn is_list(&self) -> bool {
+        let mut entries = self.entries.iter();
+        entries.any(|laid| laid.entry.column().is_some())
+    }
+}
+
 /// Puts each entry into the first line that has space for it. A line is at most `room` pixels wide.
 fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
         let laid = Laid::new(entry, room, theme);
-        let fits = |line: &&mut KeyLine<'e>| line.width + ENTRY_GAP + laid.width <= room;
+        let is_listed = entry.column().is_some();
+        let fits = |line: &&mut KeyLine<'e>| {
+            line.is_list() == is_listed && line.width + ENTRY_GAP + laid.width <= room
+        };
         match lines.iter_mut().find(fits) {
             Some(line) => {
                 line.width += ENTRY_GAP + laid.width;
@@ -109,10 +121,19 @@ pub(crate) fn draw(
 ) -> (Group, f64) {
     let mut group = Group::with_class("key");
     let mut height = 0.0;
-    for key_line in lines(entries, room, theme) {
+    let lines = lines(entries, room, theme);
+    let list = lines.iter().filter(|line| line.is_list());
+    let list = list.map(|line| line.width).fold(0.0, f64::max);
+    for key_line in lines {
         let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
         let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
-        let mut at = PagePoint::new(middle - key_line.width / 2.0, top + height + high / 2.0);
+        // The columns of a list begin below each other.
+        let width = if key_line.is_list() {
+            list
+        } else {
+            key_line.width
+        };
+        let mut at = PagePoint::new(middle - width / 2.0, top + height + high / 2.0);
         for entry in &key_line.entries {
             group.items.extend(entry.draw(at, theme));
             at = at.moved(entry.width + ENTRY_GAP, 0.0);

@@ -2,7 +2,7 @@
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
-    Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+    Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
@@ -101,6 +101,14 @@ pub(super) fn amplitudes(
     let end = at.moved(start + BAR_LENGTH + 7.0, 0.0);
     items.push(written(high, end, theme));
     items
+}
+
+/// Draws a number that ends at `right`.
+pub(super) fn number(number: usize, colour: Colour, right: PagePoint, theme: &Theme) -> Item {
+    let size = theme.sizes.key;
+    let at = right.moved(0.0, 0.36 * size);
+    let text = Text::new(at, number.to_string(), Face::SansBold, size, colour);
+    text.anchored(Anchor::End).into()
 }
 
 /// Draws a short line; `width` is in pixels.

@@ -1,0 +1,350 @@
+//! Draws how a margin changes if corners move: at each corner an arrow in the direction in which to move it.
+//!
+//! The arrow points where the interval of the margin grows most, and its length is in proportion to the growth per metre.
+//! Corners that move together have one arrow. The most effective changes have numbers, and the legend lists what they do;
+//! weights, loads and friction belong to them if they are as effective. A corner at a kink has no arrow. Of the two ends
+//! of a margin the figure shows the nearer one, of the load factor the upper one. The analysis determines the margin.
+
+mod plan;
+
+use super::arrow::{ForceArrow, LEAST_SEEN, Marks};
+use super::content::{About, FrameSource, PanelContent};
+use super::context::FigureContext;
+use super::label::{self, Callout};
+use super::legend::{self, Entry};
+use super::panel::composed_with;
+use super::pen::Pen;
+use super::thrust;
+use super::words::{counted, round_below};
+use crate::analysis::MarginKind;
+use crate::drawing::arrow::straight;
+use crate::drawing::placement::Ink;
+use crate::drawing::{
+    Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
+    text,
+};
+use crate::geometry::Bounds;
+use crate::wording::number::digits;
+use crate::wording::sensitivity::{length, name, value, without};
+use plan::{CornerArrow, Plan, scale};
+
+/// Radius of the disc of a number without an arrow, as a multiple of the font size.
+const DISC: f64 = 0.68;
+/// Length of the arrow that shows the scale, pixels, at most.
+const SCALE_ARROW: f64 = 60.0;
+
+/// The figure of the effects of corners on a margin.
+pub(crate) struct CornerEffects;
+
+impl PanelContent for CornerEffects {
+    fn about(&self) -> About {
+        About {
+            name: "sensitivity",
+            help: "Where to move corners to make a margin larger, the ten most effective changes numbered; --margin selects the margin",
+            title: "How corners change the margin of a dry-laid structure",
+            needs_sensitivity: true,
+            lines_cross_names: true,
+            ..About::default()
+        }
+    }
+
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
+    }
+
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let scene = &of.analysis.scene;
+        thrust::largest_load(scene, &scene.frames[of.frame])
+    }
+
+    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
+        let plan = Plan::new(of.analysis, of.frame)?;
+        let arrows = plan.bounds(scale(of.analysis, unit))?;
+        Some(arrows.grown(0.2 * unit))
+    }
+
+    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
+        let mut ink = label::ink(pen);
+        let mut callouts = Vec::new();
+        let mut parts = vec![pen.arrows(false)];
+        if let Some(plan) = Plan::new(pen.context.analysis, pen.number) {
+            parts.push(arrows(pen, &plan, &mut ink, &mut callouts));
+            parts.push(discs(pen, &plan, &mut ink));
+        }
+        composed_with(pen, view, pen.blocks(), parts, callouts, ink)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let analysis = context.analysis;
+        let frames = 0..analysis.frames.len();
+        let plans: Vec<Plan> = frames.filter_map(|f| Plan::new(analysis, f)).collect();
+        let mut entries = Vec::new();
+        if plans.iter().any(|plan| !plan.arrows.is_empty()) {
+            let words = "where to move a corner, as long as its effect";
+            entries.push(Entry::Sign(arrow_sign, 26.0, words.into()));
+        }
+        let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
+        if let Some(plan) = plans.iter().max_by(strongest) {
+            let pixels = scale(analysis, context.unit) * unit / context.unit;
+            entries.extend(scale_entry(plan, pixels));
+        }
+        if plans
+            .iter()
+            .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
+        {
+            let words = "one of the most effective moves, listed below";
+            entries.push(Entry::Sign(numbered_sign, 26.0, words.into()));
+        }
+        if plans.iter().any(Plan::has_marks) {
+            let words = "weight, load or joint, listed below";
+            let wide = 1.6 * disc_radius(&context.options.theme);
+            entries.push(Entry::Sign(disc_sign, wide, words.into()));
+        }
+        entries.extend(legend::loads(context));
+        entries.extend(legend::robots(context));
+        let kinks = plans.iter().map(|plan| plan.kinks).sum();
+        if kinks > 0 {
+            let corners = counted(kinks, "corner");
+            entries.push(Entry::Note(format!(
+                "{corners} at a kink, without an arrow"
+            )));
+        }
+        if let [only] = &plans[..]
+            && analysis.frames.len() == 1
+        {
+            entries.extend(list(only, &context.options.theme));
+        }
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let found = &context.analysis.frames[frame];
+        let Some(sensitivity) = &found.sensitivity else {
+            return "the sensitivity of its margins was not computed".into();
+        };
+        if let Some(reason) = sensitivity.reason() {
+            return without(sensitivity.kind, reason);
+        }
+        let Some(plan) = Plan::new(context.analysis, frame) else {
+            return String::new();
+        };
+        let end = if plan.is_high { "upper" } else { "lower" };
+        let stated = format!(
+            "{} {}, the {end} end of its margin",
+            name(plan.kind, plan.is_high),
+            value(plan.kind, plan.value)
+        );
+        if plan.arrows.is_empty() && plan.changes.is_empty() {
+            return match plan.kinks {
+                0 => format!("{stated}; no single corner makes it visibly better"),
+                _ => format!("{stated}; it is at a kink, where corners have no unique derivatives"),
+            };
+        }
+        if context.analysis.frames.len() == 1 {
+            return stated;
+        }
+        let changes = plan.changes.iter();
+        let changes = changes.map(|c| format!("{}: {}", c.number, c.short));
+        [stated]
+            .into_iter()
+            .chain(changes)
+            .collect::<Vec<_>>()
+            .join("; ")
+    }
+}
+
+/// Draws the arrows, the most effective ones last.
+fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
+    let (context, theme) = (pen.context, &pen.context.options.theme);
+    let scale = scale(context.analysis, context.unit);
+    let mut group = Group::with_class("effects").titled("Where to move corners");
+    let mut order: Vec<&CornerArrow> = plan.arrows.iter().collect();
+    order.sort_by_key(|arrow| std::cmp::Reverse(arrow.number.unwrap_or(usize::MAX)));
+    for arrow in order {
+        let from = pen.camera.place(arrow.at);
+        let along = pen.camera.turn(arrow.effect * scale);
+        let long = libm::hypot(along.0, along.1);
+        if long < LEAST_SEEN {
+            continue;
+        }
+        let width = width(pen.unit(), arrow.number.is_some());
+        ink.arrow(from, along, width);
+        let outline = straight(from, along, width);
+        let casing = Stroke::new(theme.page, 1.6);
+        let per_step = value(plan.kind, arrow.effect.norm() * plan.step);
+        let title = format!("{per_step} for {}", length(plan.step));
+        let one = Group::with_class("effect").titled(title);
+        let casing = Path::stroked(outline.clone(), casing).with_opacity(0.85);
+        let fill = Path::filled(outline, colour(theme, arrow.number.is_some()));
+        group.items.push(one.with(casing).with(fill).into());
+        if let Some(number) = arrow.number {
+            let ahead = 2.0 / long;
+            callouts.push(Callout {
+                at: from.moved((1.0 + ahead) * along.0, (1.0 + ahead) * along.1),
+                clear: 2.5,
+                words: number.to_string(),
+                colour: number_colour(theme),
+            });
+        }
+    }
+    callouts.sort_by_key(|callout| callout.words.parse::<usize>().unwrap_or(usize::MAX));
+    group
+}
+
+/// Draws discs with the numbers that no arrow has.
+fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
+    let theme = &pen.context.options.theme;
+    let radius = disc_radius(theme);
+    let mut group = Group::with_class("changes");
+    let loads = &pen.context.marks[pen.number].arrows;
+    // What a number must not cover if there is no empty place.
+    let mut marks = Ink::default();
+    for load in loads {
+        let (from, along) = (pen.camera.place(load.at), pen.camera.turn(load.vector));
+        marks.arrow(from, along, pen.width(load));
+    }
+    for arrow in plan.arrows.iter().filter(|arrow| arrow.number.is_some()) {
+        let along = arrow.effect * scale(pen.context.analysis, pen.context.unit);
+        marks.arrow(pen.camera.place(arrow.at), pen.camera.turn(along), 2.0);
+    }
+    for change in &plan.changes {
+        let Some(at) = plan.mark(change) else {
+            continue;
+        };
+        // The number of a load is at the tail of its arrow.
+        let near = 1e-6 * pen.context.unit;
+        let is_its = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
+        let its = loads.iter().find(|arrow| change.is_load && is_its(arrow));
+        let wanted = match its {
+            Some(arrow) => {
+                let (x, y) = pen.camera.turn(arrow.vector);
+                let share = (radius + 1.5) / libm::hypot(x, y).max(f64::MIN_POSITIVE);
+                pen.camera.place(arrow.at).moved(-share * x, -share * y)
+            }
+            None => pen.camera.place(at),
+        };
+        // A number of a joint lies across it.
+        let near = free(ink, wanted, radius, 1.2).filter(|_| !change.is_joint);
+        let at = near.or_else(|| free(&marks, wanted, radius, 3.0));
+        let at = at.unwrap_or(wanted);
+        ink.disc(at, radius + 1.0);
+        marks.disc(at, radius + 1.0);
+        let title = format!("{}: {}", change.number, change.words);
+        let disc = Group::with_class("change").titled(title);
+        let disc = disc.with(numbered(at, change.number, theme));
+        group.items.push(disc.into());
+    }
+    group
+}
+
+/// Returns the nearest of several places at which a disc covers nothing, up to `most` radii from the wanted one.
+fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
+    let side = 2.0 * radius;
+    let is_free = |centre: &PagePoint| {
+        ink.clear(PageRect {
+            at: centre.moved(-radius, -radius),
+            width: side,
+            height: side,
+        })
+    };
+    // Rings of twelve places, at multiples of a fifth of the radius.
+    let place = |k: usize| {
+        let far = 0.2 * radius * k.div_ceil(12) as f64;
+        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / 12.0);
+        wanted.moved(far * cos, far * sin)
+    };
+    let last = (12.0 * most / 0.2).round() as usize;
+    (0..=last).map(place).find(is_free)
+}
+
+/// Returns the numbered list of the changes.
+fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
+    let size = theme.sizes.key;
+    let widths = plan.changes.iter();
+    let widths = widths.map(|change| text::width(&change.words, Face::Sans, size));
+    let column = widths.fold(0.0, f64::max) + 1.9 * size;
+    let entry = |change: &plan::Numbered| {
+        let colour = number_colour(theme);
+        Entry::Numbered(change.number, colour, change.words.clone(), column)
+    };
+    plan.changes.iter().map(entry).collect()
+}
+
+/// Returns the scale of the arrows. `pixels` is the length of an arrow for a growth of 1 per metre.
+fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
+    // The longest arrow stays longer than that of the scale.
+    let longest = plan.strongest() * pixels;
+    let amount = round_below(longest.min(SCALE_ARROW) / pixels * plan.step);
+    let drawn = amount / plan.step * pixels;
+    let sign = match (plan.kind, plan.is_high) {
+        (MarginKind::Tilt | MarginKind::HorizontalLoad, _) | (_, true) => '+',
+        _ => '−',
+    };
+    let words = format!(
+        "{} {sign}{} for {}",
+        name(plan.kind, plan.is_high),
+        plain(plan.kind, amount),
+        length(plan.step)
+    );
+    (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
+}
+
+/// Writes a round change of a margin.
+fn plain(kind: MarginKind, amount: f64) -> String {
+    match kind {
+        MarginKind::Tilt => format!("{}°", digits(amount)),
+        _ => digits(amount),
+    }
+}
+
+/// Returns the width of the shaft of an arrow, pixels. `unit` is the unit edge in pixels.
+fn width(unit: f64, is_numbered: bool) -> f64 {
+    let width = (0.045 * unit).clamp(1.4, 2.6);
+    match is_numbered {
+        true => 1.25 * width,
+        false => 0.8 * width,
+    }
+}
+
+fn colour(theme: &Theme, is_numbered: bool) -> Colour {
+    match is_numbered {
+        true => theme.motion.mixed(theme.ink, 0.15),
+        false => theme.motion.mixed(theme.page, 0.4),
+    }
+}
+
+fn number_colour(theme: &Theme) -> Colour {
+    theme.motion.mixed(theme.ink, 0.45)
+}
+
+fn disc_radius(theme: &Theme) -> f64 {
+    DISC * theme.sizes.amount
+}
+
+/// Draws a disc with a number.
+fn numbered(at: PagePoint, number: usize, theme: &Theme) -> Group {
+    let size = 0.92 * theme.sizes.amount;
+    let disc = Path::filled(
+        Outline::circle(at, disc_radius(theme)),
+        number_colour(theme),
+    );
+    let at = at.moved(0.0, 0.36 * size);
+    let words = Text::new(at, number.to_string(), Face::SansBold, size, theme.page);
+    Group::default()
+        .with(disc)
+        .with(words.anchored(Anchor::Middle))
+}
+
+fn arrow_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![Path::filled(straight(at, (26.0, 0.0), 2.0), colour(theme, false)).into()]
+}
+
+fn numbered_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![Path::filled(straight(at, (26.0, 0.0), 3.0), colour(theme, true)).into()]
+}
+
+fn disc_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let radius = 0.8 * disc_radius(theme);
+    let disc = Outline::circle(at.moved(radius, 0.0), radius);
+    vec![Path::filled(disc, number_colour(theme)).into()]
+}

@@ -1,0 +1,236 @@
+//! [`Plan`]: the arrows at the corners of a frame, and its numbered changes.
+
+use crate::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::scene::Scene;
+use crate::wording::failure::pair;
+use crate::wording::sensitivity::{
+    self as words, EffectiveChange, FRICTION_STEP, Target, corner_moves, length, step_length,
+    visible,
+};
+
+/// The longest arrow, as a share of the size of the structure and of the unit edge; the larger one counts.
+const LONGEST: (f64, f64) = (0.09, 0.8);
+/// The largest number of numbered changes: in a figure of one frame, and in each panel of a strip.
+const MOST: (usize, usize) = (10, 3);
+
+/// The arrows and numbers of a frame.
+pub(super) struct Plan {
+    pub kind: MarginKind,
+    /// Whether the shown end is the upper one.
+    pub is_high: bool,
+    /// The value of the shown end.
+    pub value: f64,
+    pub arrows: Vec<CornerArrow>,
+    pub changes: Vec<Numbered>,
+    /// The number of corners at a kink, which have no arrow.
+    pub kinks: usize,
+    /// The length by which a corner is moved in the list, metres.
+    pub step: f64,
+}
+
+/// The arrow of a corner, or of several corners that move together.
+pub(super) struct CornerArrow {
+    pub at: Point,
+    /// Its direction, with the growth of the interval per metre as its length.
+    pub effect: Vector,
+    /// Its number from 1, if it belongs to the most effective changes.
+    pub number: Option<usize>,
+}
+
+/// One of the most effective changes.
+pub(super) struct Numbered {
+    pub number: usize,
+    /// Where the number stands if no arrow has it; `None` for a change everywhere.
+    pub at: Option<Point>,
+    /// Whether a load is moved.
+    pub is_load: bool,
+    /// Whether it is the friction of one joint.
+    pub is_joint: bool,
+    /// What is done, and the value before and after.
+    pub words: String,
+    /// What is done, and the value afterwards.
+    pub short: String,
+}
+
+impl Plan {
+    /// Plans the drawing of a frame; `None` if its margin has no derivatives.
+    pub fn new(analysis: &Analysis, frame: usize) -> Option<Plan> {
+        let (scene, found) = (&analysis.scene, analysis.frames.get(frame)?);
+        let sensitivity = found.sensitivity.as_ref()?;
+        let (is_high, end) = sensitivity.nearest()?;
+        let kind = sensitivity.kind;
+        let most = if analysis.frames.len() > 1 {
+            MOST.1
+        } else {
+            MOST.0
+        };
+        let changes = visible(scene, found, (kind, end, is_high), most);
+        let outward = if is_high { 1.0 } else { -1.0 };
+        let number_of = |corner: usize| {
+            let is_this = |change: &EffectiveChange| matches!(change.target, Target::Corner(number, _) if number == corner);
+            changes.iter().position(is_this).map(|place| place + 1)
+        };
+        let (mut arrows, mut kinks) = (Vec::new(), 0);
+        for (number, best) in corner_moves(found, end, outward) {
+            let corner = &end.corners[number];
+            if is_kink(corner.moves) {
+                kinks += 1;
+            } else if let Some((direction, rate)) = best {
+                arrows.push(CornerArrow {
+                    at: corner.at,
+                    effect: direction * rate,
+                    number: number_of(number),
+                });
+            }
+        }
+        let sketch = Sketch {
+            scene,
+            found,
+            end,
+            kind,
+            is_high,
+        };
+        let changes = changes.iter().enumerate();
+        let changes = changes.map(|(place, change)| sketch.numbered(place + 1, change));
+        Some(Plan {
+            kind,
+            is_high,
+            value: end.value,
+            changes: changes.collect(),
+            arrows,
+            kinks,
+            step: step_length(found),
+        })
+    }
+
+    /// Returns the largest growth per metre of an arrow; 0 without arrows.
+    pub fn strongest(&self) -> f64 {
+        let effects = self.arrows.iter().map(|arrow| arrow.effect.norm());
+        effects.fold(0.0, f64::max)
+    }
+
+    /// Returns the tip of an arrow. `scale` is the length of an arrow in metres for a growth of 1 per metre.
+    pub fn tip(arrow: &CornerArrow, scale: f64) -> Point {
+        arrow.at + arrow.effect * scale
+    }
+
+    /// Returns a box around all arrows.
+    pub fn bounds(&self, scale: f64) -> Option<Bounds> {
+        let ends = self.arrows.iter();
+        Bounds::from_points(ends.flat_map(|arrow| [arrow.at, Plan::tip(arrow, scale)]))
+    }
+
+    /// Whether a number stands where no arrow is.
+    pub fn has_marks(&self) -> bool {
+        self.changes
+            .iter()
+            .any(|change| self.mark(change).is_some())
+    }
+
+    /// Returns the place of a number that no arrow has.
+    pub fn mark(&self, change: &Numbered) -> Option<Point> {
+        let mut arrows = self.arrows.iter();
+        match arrows.any(|arrow| arrow.number == Some(change.number)) {
+            true => None,
+            false => change.at,
+        }
+    }
+}
+
+/// Returns the length of an arrow in metres for a growth of 1 per metre. It is the same in all frames. 0 without arrows.
+pub(super) fn scale(analysis: &Analysis, unit: f64) -> f64 {
+    let scene = &analysis.scene;
+    let frames = 0..analysis.frames.len();
+    let plans = frames.filter_map(|frame| Plan::new(analysis, frame));
+    let strongest = plans.map(|plan| plan.strongest()).fold(0.0, f64::max);
+    let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
+    let structure = placed
+        .map(|id| scene.blocks[id.0].body.polygon.bounds())
+        .reduce(Bounds::union);
+    let size = structure.map_or(0.0, |b| b.width().max(b.height()));
+    match strongest > 0.0 {
+        true => (LONGEST.0 * size).max(LONGEST.1 * unit) / strongest,
+        false => 0.0,
+    }
+}
+
+/// True if a corner has no unique derivatives.
+fn is_kink(moves: CornerMoves) -> bool {
+    let is_open = |slope: Slope| slope.unique().is_none();
+    match moves {
+        CornerMoves::Freely(slopes) => slopes.into_iter().any(is_open),
+        CornerMoves::Along { slope, .. } => is_open(slope),
+        CornerMoves::Not => false,
+    }
+}
+
+/// The end of a margin whose changes are described.
+struct Sketch<'a> {
+    scene: &'a Scene,
+    found: &'a FrameAnalysis,
+    end: &'a EndSensitivity,
+    kind: MarginKind,
+    is_high: bool,
+}
+
+impl Sketch<'_> {
+    /// Describes a change and finds the place of its number.
+    fn numbered(&self, number: usize, change: &EffectiveChange) -> Numbered {
+        let (scene, found) = (self.scene, self.found);
+        let by = length(change.amount);
+        let (at, done) = match change.target {
+            Target::Corner(corner, direction) => {
+                let corner = &self.end.corners[corner];
+                let done = match is_kink(corner.moves) {
+                    true => format!("{by} {}", words::toward(direction)),
+                    false => format!("+{by}"),
+                };
+                (Some(corner.at), done)
+            }
+            Target::Load(load, direction) => {
+                let done = format!("load {by} {}", words::toward(direction));
+                (Some(scene.loads[load].at), done)
+            }
+            Target::Weight(block) => {
+                let sign = if change.words.ends_with("heavier") {
+                    '+'
+                } else {
+                    '−'
+                };
+                let block = &scene.blocks[block.0];
+                let done = format!("weight of {} {sign}10 %", block.id);
+                (Some(block.centroid), done)
+            }
+            Target::Friction(interface) => {
+                let contact = found.contacts.get(interface);
+                let between = contact.map(|c| pair(scene, c.interface.bodies));
+                let done = format!("friction of {}", between.unwrap_or_default());
+                let at = contact.map(|c| c.interface.middle());
+                (at, format!("{done} {}", rubbed(change)))
+            }
+            Target::AllFriction => (None, format!("friction of all joints {}", rubbed(change))),
+        };
+        let [before, after] =
+            [self.end.value, change.after].map(|value| words::value(self.kind, value));
+        let name = words::name(self.kind, self.is_high);
+        Numbered {
+            number,
+            at,
+            is_load: matches!(change.target, Target::Load(..)),
+            is_joint: matches!(change.target, Target::Friction(_)),
+            words: format!("{done}: {name} {before} → {after}"),
+            short: format!("{done} → {after}"),
+        }
+    }
+}
+
+/// The step of a friction coefficient with its sign.
+fn rubbed(change: &EffectiveChange) -> String {
+    let sign = if change.words.starts_with("raising") {
+        '+'
+    } else {
+        '−'
+    };
+    format!("{sign}{FRICTION_STEP}")
+}
