@@ -44,7 +44,7 @@ mod strategy;
 mod parallel_joints;
 
 pub(super) use candidate::Candidate;
-pub(super) use limit_proof::{proved_forces, proved_motion};
+pub(super) use limit_proof::{decided_forces, proved_forces, proved_motion};
 pub(super) use proof_cache::ProofCache;
 pub(super) use verdict_only::{Ends, decide_verdict, remember_limit, verdict_from_cache};
 pub(super) use wedging::only_by_wedging;

@@ -1,6 +1,6 @@
 //! [`Probe`]: a component with one additional robot without limits, whose possible forces are computed.
 
-use crate::analysis::decide::{proved_forces, proved_motion};
+use crate::analysis::decide::{decided_forces, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
@@ -11,6 +11,12 @@ use crate::solve::{Amounts, Support, support};
 /// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
 /// is linear in the force, so the proof holds up to the line on which the power is 0.
 const BEYOND: f64 = 4e-3;
+
+/// How far inside the limit a force is tried, relative to its size, if the farthest force itself has no proof.
+const INSIDE: [f64; 4] = [0.0, 1e-9, 1e-8, LAST_INSIDE];
+
+/// The last of these distances, which is a tenth of the accuracy of the polygon.
+const LAST_INSIDE: f64 = 1e-7;
 
 /// A motion in which the point is slower than this gives no limit of the force. The fastest point of a motion has speed
 /// 1.
@@ -162,7 +168,10 @@ impl Probe {
                 let near = Vector::new(near[0], near[1]) * self.program.scale.force;
                 match self.proves {
                     true => Farthest::At {
-                        carried: self.carried(&forces),
+                        carried: match self.carried(&forces) {
+                            None if is_again => self.carried_near(near, direction),
+                            carried => carried,
+                        },
                         line: self.line(near, direction, &motion),
                     },
                     false => Farthest::At {
@@ -194,6 +203,38 @@ impl Probe {
             torque: own.torque,
             forces,
             proof,
+        })
+    }
+
+    /// Decides the component under the farthest force itself, and then under forces slightly less far. A set of one
+    /// force needs this force exactly, so at last the force of the free grip is used if it is as far. `None` if no
+    /// forces were proved.
+    fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<Carried> {
+        let size = farthest.norm().max(self.heaviest());
+        let under = |inside: f64| {
+            let force = farthest - direction * (inside * size);
+            let (forces, proof) = decided_forces(&self.with_force(force))?;
+            Some(Carried {
+                force,
+                torque: 0.0,
+                forces,
+                proof,
+            })
+        };
+        let near = match self.has_torque {
+            true => None,
+            false => INSIDE.into_iter().find_map(under),
+        };
+        near.or_else(|| {
+            let (mut forces, proof) = decided_forces(&self.held)?;
+            let own = forces.grips.pop()?;
+            let is_as_far = direction.dot(&(farthest - own.force)) <= LAST_INSIDE * size;
+            is_as_far.then_some(Carried {
+                force: own.force,
+                torque: own.torque,
+                forces,
+                proof,
+            })
         })
     }
 

@@ -1,7 +1,8 @@
 //! Proves the results of a linear program at the limit of stability.
 
 use super::Component;
-use super::verdict_only::VERDICT_ONLY;
+use super::verdict_only::{VERDICT_ONLY, decide_without_idle_limits};
+use crate::analysis::Verdict;
 use crate::assembly::Assembly;
 use crate::program::Program;
 use crate::proof::{Forces, Motion, Proof};
@@ -17,6 +18,23 @@ pub(in crate::mechanics::analysis) fn proved_forces(
 ) -> Option<(Forces, Proof)> {
     let component = in_scale_of(assembly, program);
     let found = component.prove_forces(amounts);
+    component
+        .believes(&found.proof)
+        .then_some((found.forces, found.proof))
+}
+
+/// Decides a component as a whole. Returns the forces that balance it, with their proof; `None` if it was not shown to
+/// stand.
+pub(in crate::mechanics::analysis) fn decided_forces(
+    assembly: &Assembly,
+) -> Option<(Forces, Proof)> {
+    let component = Component::new(assembly, VERDICT_ONLY);
+    let program = Program::new(assembly, component.scale);
+    let decision = decide_without_idle_limits(&component, &program);
+    if decision.verdict != Verdict::Stable {
+        return None;
+    }
+    let found = component.prove_forces(&decision.amounts);
     component
         .believes(&found.proof)
         .then_some((found.forces, found.proof))

@@ -66,7 +66,7 @@ pub(super) const VERDICT_ONLY: Options = Options {
     ..Options::PLAIN
 };
 
-fn decide_without_idle_limits(component: &Component, program: &Program) -> Decision {
+pub(super) fn decide_without_idle_limits(component: &Component, program: &Program) -> Decision {
     // A motion that stronger robots cannot stop is a mechanism with the real limits too.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.decide_by_programs(&generous);
