@@ -199,6 +199,6 @@ fn a_frame_without_slopes_says_why_and_has_no_arrows() {
         let text: String = svg::write(&drawing).replace("\n", " ");
         assert!(text.contains(words), "{words}: {text}");
     }
-    let plain = Analysis::new(&scene(&pressed([0.0, -1.0])));
+    let plain = Analysis::new(scene(&pressed([0.0, -1.0])));
     assert!(svg::write(&draw(&plain)).contains("was not computed"));
 }
