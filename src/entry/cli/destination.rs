@@ -1,4 +1,4 @@
-//! [`Destination`]: the file or folder for pictures.
+//! [`Destination`]: where pictures are written: a file, a folder or standard output.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};

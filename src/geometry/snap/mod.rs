@@ -264,7 +264,8 @@ fn nodes_near_sides<'s>(
             if nodes.bodies(node).contains(&side.body) {
                 continue;
             }
-            // The foot of the perpendicular must lie between the ends, and the distance within the smaller gap.
+            // The foot of the perpendicular must lie between the ends, and the distance must not exceed the smaller of
+            // the two gaps.
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
             let off = (node.at - foot).norm();

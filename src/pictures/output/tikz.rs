@@ -208,7 +208,7 @@ fn comment(text: &str) -> String {
         .collect()
 }
 
-/// Escapes text for LaTeX. Letters of other scripts are not changed.
+/// Escapes text for LaTeX. Letters of other scripts are not changed, except μ.
 fn escaped(words: &str) -> String {
     let mut out = String::with_capacity(words.len());
     for c in words.chars() {

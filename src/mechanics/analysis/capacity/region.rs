@@ -125,7 +125,7 @@ fn sides(
         [first, second, ..] => {
             let last = corners[count - 1];
             if cross(*first, *second).abs() < 1e-9 && count == 2 {
-                // The set is a strip: both edges are unbounded on both sides.
+                // The set is a strip: its two edges are infinite lines.
                 sides.push(([None; 2], corners[0] + second * size, corners[0]));
                 sides.push(([None; 2], last + first * size, last));
                 return sides;

@@ -1,4 +1,5 @@
-//! Tests whether a component stands only by a self-stress that its loads do not build up from rest.
+//! Tests whether a component stands only by a self-stress that does not arise when its loads are applied to unstressed
+//! contacts.
 
 use super::{Component, Findings};
 use crate::analysis::{Options, Wedged};

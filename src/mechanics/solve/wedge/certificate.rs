@@ -68,7 +68,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
         bound,
         equalities: conic.unknowns,
     };
-    // Solve, and set multipliers that are only the solver's rounding to 0.
+    // Solve, and set to 0 the multipliers that are only rounding errors of the solver.
     let answer = solve(&problem, TOLERANCE, Conditioning::Full);
     let clean = |v: &f64| if v.abs() < ZERO_MULTIPLIER { 0.0 } else { *v };
     (answer.status == Status::Solved).then(|| answer.x.iter().map(clean).collect())

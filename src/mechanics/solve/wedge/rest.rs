@@ -1,4 +1,4 @@
-//! Checks whether the forces of a pattern are a [`Rest`]: they must balance every block and obey the springs' law.
+//! Checks whether the forces of a pattern are a [`Rest`]: they must balance every block and obey the law of springs.
 //!
 //! The forces are computed with iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
 //! chapter 12).

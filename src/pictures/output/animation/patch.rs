@@ -26,7 +26,7 @@ impl Patch {
     }
 }
 
-/// Converts pictures with their times in seconds to patches. Returns the patches, and the width and height of the
+/// Converts pictures with their durations in seconds to patches. Returns the patches, and the width and height of the
 /// pictures in pixels. If a picture equals the previous picture, the previous picture is shown for longer.
 pub(super) fn patches(
     rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>,

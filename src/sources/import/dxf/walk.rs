@@ -70,7 +70,7 @@ pub(super) struct Place {
 }
 
 impl<'d> Walk<'d> {
-    /// Reads all entities outside of blocks.
+    /// Reads the entities of the drawing, and those of the blocks that they insert.
     ///
     /// # Errors
     /// If the drawing has too many outlines.
