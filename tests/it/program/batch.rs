@@ -310,7 +310,7 @@ fn what_was_made_from_something_else_is_not_resumed() {
         (
             &whole,
             "batch stands.json",
-            &["line 1 ", "stands.json there"],
+            &["line 1 ", "stands.json at this place"],
         ),
         (&whole, "batch short.ndjson", &["answers in.ndjson"]),
         // Other options.
