@@ -22,6 +22,7 @@ pub use compensated_sum::CompensatedSum;
 pub use edge::Edge;
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, CellShape, Lattice, LatticeKind};
+pub(crate) use overlap::in_half_plane;
 pub use overlap::{ConvexPieces, Overlap, overlap};
 pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Polygon, PolygonError};

@@ -9,6 +9,7 @@
 //! Depth is a distance along a side's normal, so it does not depend on where the scene lies.
 
 use std::borrow::Cow;
+use std::ops::{Add, Sub};
 
 use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 
@@ -207,23 +208,31 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
 fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut kept = a.to_vec();
     for i in 0..b.len() {
-        // One step of Sutherland and Hodgman: keep the corners on the inner side, add the points where the outline
-        // crosses.
         let (from, to) = (b[i], b[(i + 1) % b.len()]);
-        let side = |p: &Point| cross(to - from, p - from);
-        let mut next = Vec::with_capacity(kept.len() + 1);
-        for k in 0..kept.len() {
-            let (p, q) = (kept[k], kept[(k + 1) % kept.len()]);
-            // `side` is positive on the inner side of the cutting line. A corner on the line is kept.
-            let (side_p, side_q) = (side(&p), side(&q));
-            if side_p >= 0.0 {
-                next.push(p);
-            }
-            if (side_p > 0.0 && side_q < 0.0) || (side_p < 0.0 && side_q > 0.0) {
-                next.push(p + (q - p) * (side_p / (side_p - side_q)));
-            }
+        kept = in_half_plane(&kept, |p| -cross(to - from, p - from));
+    }
+    kept
+}
+
+/// Returns the part of a convex polygon in which `height` is at most 0. `height` is linear: the distance from a line,
+/// multiplied by any positive number.
+///
+/// One step of Sutherland and Hodgman: keep the corners on the inner side, and add the points where the outline crosses
+/// the line. A corner on the line is kept.
+pub(crate) fn in_half_plane<P>(ring: &[P], height: impl Fn(&P) -> f64) -> Vec<P>
+where
+    P: Copy + Sub<Output = Vector> + Add<Vector, Output = P>,
+{
+    let mut kept = Vec::with_capacity(ring.len() + 1);
+    for (k, from) in ring.iter().enumerate() {
+        let to = &ring[(k + 1) % ring.len()];
+        let (here, there) = (height(from), height(to));
+        if here <= 0.0 {
+            kept.push(*from);
         }
-        kept = next;
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            kept.push(*from + (*to - *from) * (here / (here - there)));
+        }
     }
     kept
 }

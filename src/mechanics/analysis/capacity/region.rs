@@ -3,7 +3,7 @@
 use super::probe::{Line, Probe};
 use super::refine::{self, Sample};
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::{Point, Vector, cross, in_half_plane};
 use crate::scene::BlockId;
 
 /// A ray is cut off at this multiple of the size of the set.
@@ -230,19 +230,7 @@ pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
 
 /// Returns the part of a convex polygon in which normal · F ≤ limit.
 pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
-    let height = |force: &Vector| normal.dot(force) - limit;
-    let mut kept = Vec::with_capacity(ring.len() + 1);
-    for (k, from) in ring.iter().enumerate() {
-        let to = &ring[(k + 1) % ring.len()];
-        let (here, there) = (height(from), height(to));
-        if here <= 0.0 {
-            kept.push(*from);
-        }
-        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
-            kept.push(from + (to - from) * (here / (here - there)));
-        }
-    }
-    kept
+    in_half_plane(ring, |force| normal.dot(force) - limit)
 }
 
 /// Returns the four corners of a square around a force, anticlockwise. `half` is half its side.

@@ -2,7 +2,7 @@
 
 use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
 use crate::figure::view;
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Vector, in_half_plane};
 
 /// Largest distance of the polygon from its point, as a share of the size of the structure.
 const REACH: f64 = 0.42;
@@ -301,7 +301,7 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
         let along = outline[(k + 1) % outline.len()] - a;
         if along.norm() > 0.0 {
             let normal = Vector::new(along.y, -along.x).normalize();
-            ring = clipped(&ring, normal, normal.dot(a));
+            ring = in_half_plane(&ring, |force| normal.dot(force) - normal.dot(a));
         }
     }
     ring
@@ -309,23 +309,6 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 
 /// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
 const FAR: f64 = 1e3;
-
-/// Returns the part of a polygon in which normal · F ≤ limit.
-fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
-    let height = |force: &Vector| normal.dot(force) - limit;
-    let mut kept = Vec::with_capacity(ring.len() + 1);
-    for (k, from) in ring.iter().enumerate() {
-        let to = &ring[(k + 1) % ring.len()];
-        let (here, there) = (height(from), height(to));
-        if here <= 0.0 {
-            kept.push(*from);
-        }
-        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
-            kept.push(from + (to - from) * (here / (here - there)));
-        }
-    }
-    kept
-}
 
 /// Returns the indices of the longest edges, which get small pictures, in ascending order. Empty for several frames or
 /// many blocks.
