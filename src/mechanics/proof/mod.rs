@@ -23,6 +23,8 @@ mod tests;
 pub use balance::imbalances;
 pub use least::force_sum_lower_bound;
 
+use std::collections::HashMap;
+
 use crate::assembly::{Assembly, AssemblyBody, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::interface::ContactKind;
@@ -342,6 +344,35 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
         summed += force.norm() * motion.velocity.norm() + (moment * motion.spin).abs();
     }
     (power, summed)
+}
+
+/// Returns the power of the loads along a motion, less the power that limited robots can absorb, in watts. Bodies
+/// without an entry in `motions` do not move.
+pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
+    let motion_of: HashMap<BlockId, &Motion> = motions.iter().map(|m| (m.block, m)).collect();
+    let mut power = 0.0;
+    for body in &assembly.bodies {
+        if let Some(m) = motion_of.get(&body.block) {
+            power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
+        }
+    }
+    for grip in &assembly.grips {
+        let body = &assembly.bodies[grip.body];
+        let Some(m) = motion_of.get(&body.block) else {
+            continue;
+        };
+        let speed = m.about(body.centroid, grip.at);
+        for (speed, limit) in [
+            (speed.x, grip.limits.fx),
+            (speed.y, grip.limits.fy),
+            (m.spin, grip.limits.torque),
+        ] {
+            if limit.is_finite() {
+                power -= speed.abs() * limit;
+            }
+        }
+    }
+    power
 }
 
 /// Checks a motion of an assembly, one entry per body: the power of the loads, and the velocity against which contacts

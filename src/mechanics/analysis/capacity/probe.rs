@@ -4,7 +4,7 @@ use crate::analysis::decide::{decided_forces, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
-use crate::proof::{Forces, Motion, Proof, check_forces};
+use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Amounts, Support, support};
 
@@ -250,7 +250,7 @@ impl Probe {
         let speed = velocity.norm();
         (speed > MIN_SPEED).then(|| Line {
             normal: velocity / speed,
-            limit: -self.power(&motion) / speed,
+            limit: -net_power(&self.given, &motion) / speed,
             motion,
             proof,
         })
@@ -269,28 +269,6 @@ impl Probe {
         body.listed = body.listed.plus(more.times(1.0 / factor));
         body.load = body.load.plus(more);
         assembly
-    }
-
-    /// Returns the power of the loads along a motion, less the power that robots with limits can absorb, in watts.
-    fn power(&self, motion: &[Motion]) -> f64 {
-        let mut power = 0.0;
-        for (body, m) in self.given.bodies.iter().zip(motion) {
-            power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
-        }
-        for grip in &self.given.grips {
-            let (body, m) = (&self.given.bodies[grip.body], &motion[grip.body]);
-            let speed = m.about(body.centroid, grip.at);
-            for (speed, limit) in [
-                (speed.x, grip.limits.fx),
-                (speed.y, grip.limits.fy),
-                (m.spin, grip.limits.torque),
-            ] {
-                if limit.is_finite() {
-                    power -= speed.abs() * limit;
-                }
-            }
-        }
-        power
     }
 }
 

@@ -12,7 +12,7 @@ use crate::analysis::decide::{
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
-use crate::proof::{ContactForces, Forces, GripForces, Motion};
+use crate::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Extreme, Tangent};
 
@@ -209,28 +209,7 @@ impl<'a> Trial<'a> {
     /// Returns the power of the changed loads along a motion, less the power that limited robots can absorb, in
     /// watts.
     pub fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
-        let changed = self.changed(setting);
-        let mut power = 0.0;
-        for (number, body) in changed.bodies.iter().enumerate() {
-            let Some(m) = motion.iter().find(|m| m.block == body.block) else {
-                continue;
-            };
-            // Add the power of the weight and the loads, less the power that limited robots absorb.
-            power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
-            for grip in changed.grips.iter().filter(|grip| grip.body == number) {
-                let speed = m.about(body.centroid, grip.at);
-                for (speed, limit) in [
-                    (speed.x, grip.limits.fx),
-                    (speed.y, grip.limits.fy),
-                    (m.spin, grip.limits.torque),
-                ] {
-                    if limit.is_finite() {
-                        power -= speed.abs() * limit;
-                    }
-                }
-            }
-        }
-        power
+        net_power(&self.changed(setting), motion)
     }
 
     /// Returns the program of the changed component in its own scale.
