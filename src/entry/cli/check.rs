@@ -142,7 +142,7 @@ impl Check {
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
             verdict_only: self.verdict_only,
-            sensitivity: self.sensitivity.map(Varied::kind),
+            sensitivity: self.sensitivity.map(|margin| margin.0),
             ..self.margins.add_to(self.level.options())
         };
         sources

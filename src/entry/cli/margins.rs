@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use crate::analysis::{MarginKind, MarginKinds, Options};
@@ -20,57 +21,45 @@ pub(crate) struct MarginArgs {
         num_args = 0..,
         require_equals = true
     )]
-    margins: Option<Vec<Name>>,
+    margins: Option<Vec<MarginKind>>,
 }
 
-/// A margin, by its name in results.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Name {
-    Friction,
-    Tilt,
-    #[value(alias = "horizontal_load")]
-    HorizontalLoad,
-    Kernel,
-    #[value(alias = "load_factor")]
-    LoadFactor,
-    Robots,
-}
+impl ValueEnum for MarginKind {
+    fn value_variants<'a>() -> &'a [MarginKind] {
+        &MarginKind::ALL
+    }
 
-/// A margin with one parameter, whose sensitivity can be computed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Varied {
-    #[value(alias = "load_factor")]
-    LoadFactor,
-    Tilt,
-    #[value(alias = "horizontal_load")]
-    HorizontalLoad,
-    Friction,
-    Kernel,
-}
-
-impl Varied {
-    /// Returns the kind of margin that this word of the command line selects.
-    pub(crate) fn kind(self) -> MarginKind {
-        match self {
-            Varied::LoadFactor => MarginKind::LoadFactor,
-            Varied::Tilt => MarginKind::Tilt,
-            Varied::HorizontalLoad => MarginKind::HorizontalLoad,
-            Varied::Friction => MarginKind::Friction,
-            Varied::Kernel => MarginKind::Kernel,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let name = match self {
+            MarginKind::HorizontalLoad => "horizontal-load",
+            MarginKind::LoadFactor => "load-factor",
+            kind => kind.word(),
+        };
+        let value = PossibleValue::new(name);
+        Some(match name == self.word() {
+            true => value,
+            false => value.alias(self.word()),
+        })
     }
 }
 
-impl Name {
-    fn kind(self) -> MarginKind {
-        match self {
-            Name::Friction => MarginKind::Friction,
-            Name::Tilt => MarginKind::Tilt,
-            Name::HorizontalLoad => MarginKind::HorizontalLoad,
-            Name::Kernel => MarginKind::Kernel,
-            Name::LoadFactor => MarginKind::LoadFactor,
-            Name::Robots => MarginKind::Robots,
-        }
+/// A margin whose sensitivity can be computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Varied(pub MarginKind);
+
+impl ValueEnum for Varied {
+    fn value_variants<'a>() -> &'a [Varied] {
+        &[
+            Varied(MarginKind::LoadFactor),
+            Varied(MarginKind::Tilt),
+            Varied(MarginKind::HorizontalLoad),
+            Varied(MarginKind::Friction),
+            Varied(MarginKind::Kernel),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        self.0.to_possible_value()
     }
 }
 
@@ -107,30 +96,11 @@ impl MarginArgs {
 }
 
 /// Returns the margins in a list; all margins for an empty list.
-fn kinds(names: &[Name]) -> MarginKinds {
-    if names.is_empty() {
-        return MarginKinds::ALL;
+fn kinds(names: &[MarginKind]) -> MarginKinds {
+    match names {
+        [] => MarginKinds::ALL,
+        names => MarginKinds::new(names),
     }
-    let kinds: Vec<MarginKind> = names.iter().map(|name| name.kind()).collect();
-    MarginKinds::new(&kinds)
-}
-
-/// Returns the margins with these names, or all margins if the list is empty. The error is the first name that is not
-/// a margin.
-#[cfg(feature = "python")]
-pub(crate) fn named(names: &[String]) -> Result<MarginKinds, String> {
-    let read = |name: &String| Name::from_str(name, true).map_err(|_| name.clone());
-    let names = names
-        .iter()
-        .map(read)
-        .collect::<Result<Vec<Name>, String>>()?;
-    Ok(kinds(&names))
-}
-
-/// Returns the margin with this name whose sensitivity can be computed; `None` if there is none.
-#[cfg(feature = "python")]
-pub(crate) fn varied(name: &str) -> Option<MarginKind> {
-    Varied::from_str(name, true).ok().map(Varied::kind)
 }
 
 /// Joins the option `--margins` and a list in the next word to one word, `--margins=LIST`.

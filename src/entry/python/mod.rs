@@ -16,7 +16,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-use crate::analysis::{self, Accuracy, Verdict};
+use crate::analysis::{self, Accuracy, MarginKind, MarginKinds, Verdict};
 use crate::cli;
 use crate::clock::Instant;
 use crate::drawing::Theme;
@@ -74,15 +74,22 @@ impl Options {
             .wedging(wedging)
             .verdict_only(verdict_only);
         if let Some(names) = margins {
-            let kinds = cli::margins::named(&names).map_err(|name| {
-                let why =
-                    "margins are friction, tilt, horizontal_load, kernel, load_factor and robots";
-                fault(py, &format!("there is no margin {name:?}; {why}"))
-            })?;
+            let read = |name: &String| {
+                MarginKind::from_word(name).ok_or_else(|| {
+                    let why = "margins are friction, tilt, horizontal_load, kernel, load_factor and robots";
+                    fault(py, &format!("there is no margin {name:?}; {why}"))
+                })
+            };
+            let kinds = names.iter().map(read).collect::<PyResult<Vec<_>>>()?;
+            let kinds = match kinds.is_empty() {
+                true => MarginKinds::ALL,
+                false => MarginKinds::new(&kinds),
+            };
             asked = asked.margins(true).margin_kinds(kinds);
         }
         if let Some(name) = sensitivity {
-            let Some(kind) = cli::margins::varied(&name) else {
+            let kind = MarginKind::from_word(&name).filter(|kind| kind.has_sensitivity());
+            let Some(kind) = kind else {
                 let why = "sensitivity is load_factor, tilt, horizontal_load, friction or kernel";
                 return Err(fault(py, &format!("{why}, not {name:?}")));
             };

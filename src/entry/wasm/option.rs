@@ -58,7 +58,7 @@ impl CheckOptions {
         if let Some(kinds) = self.margins.kinds() {
             asked = asked.margins(true).margin_kinds(kinds);
         }
-        asked.sensitivity = self.sensitivity.map(Varied::kind);
+        asked.sensitivity = self.sensitivity.map(|margin| margin.0);
         Ok(asked)
     }
 }
@@ -181,7 +181,7 @@ impl Margins {
             Margins::Whether(false) => None,
             Margins::Whether(true) => Some(MarginKinds::ALL),
             Margins::These(list) => {
-                let kinds: Vec<MarginKind> = list.iter().map(|name| name.kind()).collect();
+                let kinds: Vec<MarginKind> = list.iter().map(|margin| margin.0).collect();
                 Some(MarginKinds::new(&kinds))
             }
         }
@@ -190,48 +190,33 @@ impl Margins {
 
 /// A margin, by its name in results.
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Margin {
-    Friction,
-    Tilt,
-    HorizontalLoad,
-    Kernel,
-    LoadFactor,
-    Robots,
-}
+#[serde(try_from = "String")]
+pub(super) struct Margin(MarginKind);
 
-impl Margin {
-    fn kind(self) -> MarginKind {
-        match self {
-            Margin::Friction => MarginKind::Friction,
-            Margin::Tilt => MarginKind::Tilt,
-            Margin::HorizontalLoad => MarginKind::HorizontalLoad,
-            Margin::Kernel => MarginKind::Kernel,
-            Margin::LoadFactor => MarginKind::LoadFactor,
-            Margin::Robots => MarginKind::Robots,
-        }
+impl TryFrom<String> for Margin {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Margin, String> {
+        let kind = MarginKind::from_word(&word).map(Margin);
+        kind.ok_or_else(|| {
+            let why = "margins are friction, tilt, horizontal_load, kernel, load_factor and robots";
+            format!("there is no margin {word:?}; {why}")
+        })
     }
 }
 
-/// A margin with one parameter, whose sensitivity can be computed.
+/// A margin whose sensitivity can be computed, by its name in results.
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Varied {
-    LoadFactor,
-    Tilt,
-    HorizontalLoad,
-    Friction,
-    Kernel,
-}
+#[serde(try_from = "String")]
+struct Varied(MarginKind);
 
-impl Varied {
-    fn kind(self) -> MarginKind {
-        match self {
-            Varied::LoadFactor => MarginKind::LoadFactor,
-            Varied::Tilt => MarginKind::Tilt,
-            Varied::HorizontalLoad => MarginKind::HorizontalLoad,
-            Varied::Friction => MarginKind::Friction,
-            Varied::Kernel => MarginKind::Kernel,
-        }
+impl TryFrom<String> for Varied {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Varied, String> {
+        let kind = MarginKind::from_word(&word).filter(|kind| kind.has_sensitivity());
+        kind.map(Varied).ok_or_else(|| {
+            "sensitivity is load_factor, tilt, horizontal_load, friction or kernel".to_owned()
+        })
     }
 }

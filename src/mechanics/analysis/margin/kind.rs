@@ -19,6 +19,27 @@ pub enum MarginKind {
 }
 
 impl MarginKind {
+    /// All margins.
+    pub const ALL: [MarginKind; 6] = [
+        MarginKind::Friction,
+        MarginKind::Tilt,
+        MarginKind::HorizontalLoad,
+        MarginKind::Kernel,
+        MarginKind::LoadFactor,
+        MarginKind::Robots,
+    ];
+
+    /// Returns the margin with this name in results; `None` if there is none. Hyphens count as underscores.
+    pub fn from_word(word: &str) -> Option<MarginKind> {
+        let word = word.replace('-', "_").to_ascii_lowercase();
+        MarginKind::ALL.into_iter().find(|kind| kind.word() == word)
+    }
+
+    /// True if the margin is one number, whose sensitivity can be computed: every margin except that of the robots.
+    pub fn has_sensitivity(self) -> bool {
+        self != MarginKind::Robots
+    }
+
     /// Returns the name of this margin in results.
     pub fn word(self) -> &'static str {
         match self {
