@@ -105,7 +105,7 @@ fn near(found: impl Into<Option<f64>>, expected: f64) {
 #[test]
 fn a_block_on_a_floor_is_carried_as_by_hand() {
     // At its centroid it slides: |Fx| ≤ 0.5 (6 − Fy). It would tip only at |Fx| = 2 (6 − Fy).
-    let found = capacity(&on_floor(), "a", ForceAt::Usual);
+    let found = capacity(&on_floor(), "a", ForceAt::Default);
     assert_eq!(found.shape(), CapacityShape::Unbounded);
     assert_eq!((found.vertices.len(), found.edges.len()), (1, 2));
     near(found.vertices[0].force.y, 6.0);
@@ -126,7 +126,7 @@ fn every_shape_occurs() {
     // Without friction only vertical forces between the ends of the joint are carried.
     let mut smooth = on_floor();
     smooth["friction"] = json!(0.0);
-    let ray = capacity(&smooth, "a", ForceAt::Usual);
+    let ray = capacity(&smooth, "a", ForceAt::Default);
     assert_eq!((ray.shape(), ray.rays.len()), (CapacityShape::Unbounded, 1));
     near(ray.reach([0.0, 1.0]), 6.0);
     near(ray.reach([1.0, 0.0]), 0.0);
@@ -138,7 +138,7 @@ fn every_shape_occurs() {
     // One force holds a block in the air.
     let mut hangs = on_floor();
     hangs["ground"] = json!([]);
-    let point = capacity(&hangs, "a", ForceAt::Usual);
+    let point = capacity(&hangs, "a", ForceAt::Default);
     assert_eq!(point.shape(), CapacityShape::Point, "{point:?}");
     near(point.vertices[0].force.y, 6.0);
     // No force at one point holds it beside its centroid, but a free contact does.
@@ -156,7 +156,7 @@ fn every_shape_occurs() {
     assert_eq!(all.shape(), CapacityShape::Everything);
     assert_eq!(all.reach([1.0, 0.0]), Some(f64::INFINITY));
     // Of the robot itself, only the weight is asked for.
-    let tool = capacity(&held, "a", ForceAt::Usual);
+    let tool = capacity(&held, "a", ForceAt::Default);
     assert_eq!(tool.shape(), CapacityShape::Point);
     assert!(tool.robot.is_some());
     // What else falls makes the set empty.
@@ -166,7 +166,7 @@ fn every_shape_occurs() {
         rectangle(1.0, 5.0, 1.0, 1.0),
         1.0,
     ));
-    let none = capacity(&other, "a", ForceAt::Usual);
+    let none = capacity(&other, "a", ForceAt::Default);
     assert_eq!(none.shape(), CapacityShape::Empty);
     assert_eq!(none.mechanism.len(), 1);
 }

@@ -157,7 +157,7 @@ fn no_arrow_leaves_the_page() {
         "starter.json",
     ] {
         let scene = of_assets(path);
-        let kind = drystone::analysis::Sensitivity::usual(&scene);
+        let kind = drystone::analysis::Sensitivity::default_kind(&scene);
         let analysis = analysed(&scene, kind);
         for width in [None, Some(84.0 / 25.4 * 96.0)] {
             let mut options = Options::default();

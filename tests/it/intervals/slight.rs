@@ -8,10 +8,11 @@ use drystone::analysis::Interval;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::{
-    NONE, Problems, analysed, check_friction, check_kernel, check_tilt, compare, exact_interval,
-    known, near, random_scene,
+use super::exact::{
+    NONE, Problems, check_friction, check_kernel, check_tilt, compare, exact_interval,
 };
+use super::random::random_scene;
+use super::{analysed, known, near};
 use crate::oracle::factor::Growing;
 use crate::oracle::number_of;
 use crate::random::Random;

@@ -1,0 +1,306 @@
+//! Computed intervals against an exact program.
+
+use dashu_ratio::RBig;
+use drystone::Scene;
+use drystone::analysis::{Interval, Intervals};
+use serde_json::{Value, json};
+
+use super::read;
+use crate::oracle::balance::Balance;
+use crate::oracle::factor::{ENDLESS, Growing};
+use crate::oracle::touch::touches;
+use crate::random::Random;
+
+fn exact_scene(file: &Value) -> Scene {
+    Scene::from_json(&file.to_string()).expect("a changed scene is sound")
+}
+
+/// Whether a changed file stands, exactly.
+fn stands(file: &Value) -> bool {
+    let scene = exact_scene(file);
+    let touches = touches(&scene);
+    Balance::groups(&scene, &touches)
+        .iter()
+        .all(Balance::stands)
+}
+
+/// The exact interval of a whole scene.
+pub(super) fn exact_interval(file: &Value, growing: Growing) -> Option<[f64; 2]> {
+    let scene = exact_scene(file);
+    let touches = touches(&scene);
+    let mut whole = [RBig::from(-ENDLESS), RBig::from(ENDLESS)];
+    if growing == Growing::ListedLoads {
+        whole[0] = RBig::ZERO;
+    }
+    for group in Balance::groups(&scene, &touches) {
+        let [low, high] = group.interval(growing)?;
+        let [least, most] = whole;
+        whole = [least.max(low), most.min(high)];
+    }
+    if whole[0] > whole[1] {
+        return None;
+    }
+    let [low, high] = whole.map(|value| value.to_f64_fast());
+    let endless = ENDLESS as f64;
+    Some([
+        if low <= -endless {
+            f64::NEG_INFINITY
+        } else {
+            low
+        },
+        if high >= endless { f64::INFINITY } else { high },
+    ])
+}
+
+fn with(file: &Value, key: &str, value: f64) -> Value {
+    let mut changed = file.clone();
+    changed[key] = json!(value);
+    changed
+}
+
+fn turned(file: &Value, degrees: f64) -> Value {
+    let mut changed = file.clone();
+    let angle = degrees.to_radians();
+    changed["gravity"] = json!([libm::sin(angle), -libm::cos(angle)]);
+    changed
+}
+
+/// An interval of a parameter in which the loads are linear, against the exact one.
+pub(super) fn check_linear(
+    name: &str,
+    file: &Value,
+    growing: Growing,
+    found: &Option<Interval>,
+    problems: &mut Problems,
+) {
+    compare(name, found, exact_interval(file, growing), NONE, problems);
+}
+
+/// Up to which an end counts as 0: the band within which verdicts are true.
+pub(super) const NONE: f64 = 1e-7;
+
+/// An interval against the exact one. `none` is the size up to which an end counts as 0.
+pub(super) fn compare(
+    name: &str,
+    found: &Option<Interval>,
+    exact: Option<[f64; 2]>,
+    none: f64,
+    problems: &mut Problems,
+) {
+    let Some(found) = found else {
+        problems.push(format!("{name} is absent"));
+        return;
+    };
+    match (read(found), exact) {
+        (Err(withheld), _) => {
+            problems.push(format!("{name} withheld: {withheld}, exactly {exact:?}"))
+        }
+        (Ok(None), None) => {}
+        (Ok(Some(found)), Some(exact)) => {
+            for (a, b) in found.into_iter().zip(exact) {
+                if a != b && !((a - b).abs() <= (1e-6 * b.abs()).max(none)) {
+                    problems.push(format!("{name} {found:?}, exactly {exact:?}"));
+                    return;
+                }
+            }
+        }
+        // Within the band of the proofs a point that is left over is one or none.
+        (Ok(Some([low, high])), None) if high - low <= (1e-6 * high.abs()).max(none) => {}
+        (Ok(None), Some([low, high])) if high - low <= (1e-6 * high.abs()).max(none) => {}
+        (found, exact) => problems.push(format!("{name} {found:?}, exactly {exact:?}")),
+    }
+}
+
+/// What is wrong with the intervals of a scene.
+#[derive(Default)]
+pub(super) struct Problems {
+    pub(super) list: Vec<String>,
+    /// Whether verdicts are true within their band only, as where a load is as slight as the band.
+    pub(super) has_band: bool,
+}
+
+impl Problems {
+    pub(super) fn push(&mut self, problem: String) {
+        self.list.push(problem);
+    }
+
+    /// All of them with the number of the scene, and the scene.
+    pub(super) fn of(mut self, number: u64, file: &Value) -> Vec<String> {
+        if !self.list.is_empty() {
+            self.push(file.to_string());
+        }
+        let list = self.list.iter();
+        list.map(|problem| format!("{number}: {problem}")).collect()
+    }
+}
+
+/// Whether a changed file stands or falls by less than the band of the verdicts.
+pub(super) fn is_borderline(file: &Value) -> bool {
+    let scene = exact_scene(file);
+    let touches = touches(&scene);
+    let groups = Balance::groups(&scene, &touches);
+    groups.iter().any(Balance::is_borderline)
+}
+
+/// What must stand or fall, and does not.
+fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
+    if stands(file) != standing && !(problems.has_band && is_borderline(file)) {
+        let word = if standing { "falls" } else { "stands" };
+        problems.push(format!("{name}: the exact program {word}"));
+    }
+}
+
+/// How near, relatively, an end of friction, kernel or limit is.
+const BESIDE: f64 = 1e-6;
+/// And absolutely: friction and kernel act in parts of the loads, of which verdicts tell no more than this apart.
+const SOLVED: f64 = 1e-7;
+
+pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {
+    let at = |mu: f64| with(file, "friction", mu);
+    let interval = found.friction.as_ref().expect("requested");
+    match read(interval) {
+        Err(withheld) => problems.push(format!("friction withheld: {withheld}")),
+        Ok(None) => expect("friction none", &at(1000.0), false, problems),
+        Ok(Some([low, _])) => {
+            let more = (low * (1.0 + BESIDE) + SOLVED).max(2e-6);
+            expect(&format!("friction {low}"), &at(more), true, problems);
+            if low > 2e-6 {
+                expect(
+                    &format!("friction {low}"),
+                    &at(low * (1.0 - BESIDE) - SOLVED),
+                    false,
+                    problems,
+                );
+            }
+        }
+    }
+}
+
+pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Problems) {
+    let at = |kernel: f64| with(file, "kernel", kernel);
+    match read(found.kernel.as_ref().expect("requested")) {
+        Err(withheld) => problems.push(format!("kernel withheld: {withheld}")),
+        Ok(None) => expect("kernel none", &at(0.0), false, problems),
+        Ok(Some([_, high])) if high.is_infinite() => {
+            expect("kernel endless", &at(1.0), true, problems)
+        }
+        Ok(Some([_, high])) => {
+            let name = format!("kernel {high}");
+            if high > 2e-6 {
+                expect(&name, &at(high * (1.0 - BESIDE) - SOLVED), true, problems);
+            }
+            let more = (high * (1.0 + BESIDE) + SOLVED).max(2e-6);
+            if more < 1.0 {
+                expect(&name, &at(more), false, problems);
+            }
+        }
+    }
+}
+
+pub(super) fn check_tilt(
+    file: &Value,
+    found: &Intervals,
+    chance: &mut Random,
+    problems: &mut Problems,
+) {
+    const OFF: f64 = 1e-4;
+    match read(found.tilt.as_ref().expect("requested")) {
+        Err(withheld) => problems.push(format!("tilt withheld: {withheld}")),
+        Ok(None) => {
+            for _ in 0..12 {
+                let turn = 360.0 * chance.share();
+                expect(
+                    &format!("tilt none at {turn}"),
+                    &turned(file, turn),
+                    false,
+                    problems,
+                );
+            }
+        }
+        Ok(Some([low, high])) if low.is_infinite() || high.is_infinite() => {
+            if low.is_finite() || high.is_finite() {
+                problems.push(format!("tilt {low} to {high}: one end of a circle"));
+            }
+            for _ in 0..12 {
+                let turn = 360.0 * chance.share();
+                expect(
+                    &format!("tilt endless at {turn}"),
+                    &turned(file, turn),
+                    true,
+                    problems,
+                );
+            }
+        }
+        Ok(Some([low, high])) => {
+            let name = format!("tilt {low} to {high}");
+            for (turn, standing) in [
+                (low - OFF, false),
+                (low + OFF, true),
+                (high - OFF, true),
+                (high + OFF, false),
+            ] {
+                let is_inside = turn > low + 0.5 * OFF && turn < high - 0.5 * OFF;
+                if is_inside == standing {
+                    expect(
+                        &format!("{name} at {turn}"),
+                        &turned(file, turn),
+                        standing,
+                        problems,
+                    );
+                }
+            }
+            for _ in 0..3 {
+                let turn = low + (high - low) * chance.share();
+                if turn > low + OFF && turn < high - OFF {
+                    expect(
+                        &format!("{name} at {turn}"),
+                        &turned(file, turn),
+                        true,
+                        problems,
+                    );
+                }
+            }
+            // Nothing nearer to 0 stands where 0 does not.
+            let nearest = if low > 0.0 { low } else { -high };
+            for _ in 0..4 {
+                let turn = (nearest - OFF) * (2.0 * chance.share() - 1.0);
+                if nearest > OFF {
+                    expect(
+                        &format!("{name} at {turn}"),
+                        &turned(file, turn),
+                        false,
+                        problems,
+                    );
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn check_robots(file: &Value, found: &Intervals, problems: &mut Problems) {
+    for robot in &found.robots {
+        for (key, interval) in [
+            ("fx", &robot.fx),
+            ("fy", &robot.fy),
+            ("torque", &robot.torque),
+        ] {
+            let at = |limit: f64| {
+                let mut changed = file.clone();
+                let limits = &mut changed["robots"][robot.robot.0]["limits"];
+                limits[key] = json!(limit);
+                changed
+            };
+            match read(interval) {
+                Err(withheld) => problems.push(format!("{key} withheld: {withheld}")),
+                Ok(None) => expect(&format!("{key} none"), &at(1e6), false, problems),
+                Ok(Some([low, _])) => {
+                    let name = format!("{key} {low}");
+                    expect(&name, &at((low * (1.0 + BESIDE)).max(1e-5)), true, problems);
+                    if low > 1e-5 {
+                        expect(&name, &at(low * (1.0 - BESIDE) - SOLVED), false, problems);
+                    }
+                }
+            }
+        }
+    }
+}
