@@ -10,7 +10,7 @@ use crate::cli::capacity::CapacityArgs;
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
-use crate::cli::margins::{MarginArgs, Varied};
+use crate::cli::margins::{MarginArgs, SensitivityMargin};
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
@@ -43,7 +43,7 @@ pub(crate) struct Check {
     /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the largest
     /// effect; --json has them all
     #[arg(long, value_enum, value_name = "MARGIN")]
-    sensitivity: Option<Varied>,
+    sensitivity: Option<SensitivityMargin>,
     #[command(flatten)]
     capacity: CapacityArgs,
     /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces

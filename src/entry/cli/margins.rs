@@ -45,16 +45,16 @@ impl ValueEnum for MarginKind {
 
 /// A margin whose sensitivity can be computed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Varied(pub MarginKind);
+pub(crate) struct SensitivityMargin(pub MarginKind);
 
-impl ValueEnum for Varied {
-    fn value_variants<'a>() -> &'a [Varied] {
+impl ValueEnum for SensitivityMargin {
+    fn value_variants<'a>() -> &'a [SensitivityMargin] {
         &[
-            Varied(MarginKind::LoadFactor),
-            Varied(MarginKind::Tilt),
-            Varied(MarginKind::HorizontalLoad),
-            Varied(MarginKind::Friction),
-            Varied(MarginKind::Kernel),
+            SensitivityMargin(MarginKind::LoadFactor),
+            SensitivityMargin(MarginKind::Tilt),
+            SensitivityMargin(MarginKind::HorizontalLoad),
+            SensitivityMargin(MarginKind::Friction),
+            SensitivityMargin(MarginKind::Kernel),
         ]
     }
 

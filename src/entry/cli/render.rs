@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 pub(crate) use args::Render;
-use choice::{KindChoice, Margin};
+use choice::KindChoice;
 use output::{Rendered, all, summary, without_faults};
 use target::paths;
 
-use crate::analysis::{self, Analysis};
+use crate::analysis::{self, Analysis, Toward};
 use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::ExitStatus;
@@ -136,8 +136,8 @@ impl Render {
         let varies = self.kind.needs_sensitivity();
         let why = if self.margin.is_some() && !self.kind.needs_margins() && !varies {
             "--margin is about the direction of a margin; add --kind margin or --kind sensitivity"
-        } else if matches!(self.margin, Some(Margin::Friction)) && !varies {
-            "--margin friction has no picture of how it falls; add --kind sensitivity"
+        } else if self.margin.is_some() && self.toward().is_none() && !varies {
+            "--margin friction and --margin kernel have no picture of how it falls; add --kind sensitivity"
         } else if self.capacity.are_requested() && !self.kind.needs_capacity() {
             "--capacity names the block of a figure of the forces that it can carry; add --kind capacity"
         } else if self.writes_parts() && (self.kind.panels().is_none() || is_stdout) {
@@ -312,21 +312,22 @@ impl Render {
         }
     }
 
-    /// Adds the forces that a block can carry, if the figure shows them: of the block on the command line, or of a
-    /// usual one. Adds the margin on the command line, if the figure shows how it changes.
+    /// Adds the block of `--capacity`, and the margin of `--margin` if the figure shows the sensitivity of a margin.
     fn with_requests(
         &self,
         asked: &analysis::Options,
         scene: &Scene,
     ) -> Result<analysis::Options, CliError> {
         let mut asked = self.capacity.add_to(*asked, scene)?;
-        if self.kind.needs_capacity() && asked.capacity.is_none() {
-            asked.capacity = analysis::CapacityRequest::usual(scene);
-        }
         if self.kind.needs_sensitivity() {
-            asked.sensitivity = self.margin.map(Margin::kind);
+            asked.sensitivity = self.margin.map(|margin| margin.0);
         }
         Ok(asked)
+    }
+
+    /// Returns the parameter of `--margin`; `None` if there is no such option, or if its margin has no mechanism.
+    fn toward(&self) -> Option<Toward> {
+        self.margin.and_then(|margin| Toward::from_margin(margin.0))
     }
 
     /// Analyses a scene, with the margins that the figure states or needs.
@@ -358,7 +359,7 @@ impl Render {
             normalisation: self.normalise.figure(),
             scale: self.arrow_scale.figure(),
             fill: self.fill.figure(),
-            toward: self.margin.unwrap_or(Margin::Tilt).toward(),
+            toward: self.toward().unwrap_or_default(),
             titles: !self.no_title,
             captions: !self.no_caption,
             verdicts: !self.no_verdict,

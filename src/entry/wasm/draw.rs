@@ -3,7 +3,7 @@
 use super::Refusal;
 use super::look::FigureOptions;
 use super::option::{self, deadline, scene};
-use crate::analysis::{self, Analysis, CapacityRequest};
+use crate::analysis::{self, Analysis};
 use crate::figure::{self, Kind};
 use crate::scene::{Scene, Sketch};
 
@@ -20,7 +20,7 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
         .accuracy(options.accuracy.accuracy())
         .wedging(options.wedging);
     asked.deadline = deadline(options.time_limit)?;
-    let asked = with_capacity(asked, &scene, options)?;
+    let asked = with_requests(asked, &scene, options)?;
     let found = match options.kind()? {
         Some(kind) => kind.analysed(&scene, &asked),
         None => Analysis::with(&scene, &asked),
@@ -28,35 +28,27 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
     page(&found, options)
 }
 
-/// Adds the forces that a block can carry, if the figure shows them: of the given block, or of a usual one.
-fn with_capacity(
+/// Adds the block of the option `capacity`, and the margin of the option `margin` if the figure shows the sensitivity of
+/// a margin.
+fn with_requests(
     asked: analysis::Options,
     scene: &Scene,
     options: &FigureOptions,
 ) -> Result<analysis::Options, Refusal> {
     let (capacity, for_all) = (options.capacity.as_deref(), options.for_all.as_deref());
     let mut asked = option::with_capacity(asked, scene, capacity, for_all)?;
-    let is_shown = options.kind()?.is_some_and(Kind::needs_capacity);
-    if is_shown && asked.capacity.is_none() {
-        asked.capacity = CapacityRequest::usual(scene);
+    if options.kind()?.is_some_and(Kind::needs_sensitivity) {
+        asked.sensitivity = options.margin();
     }
     Ok(asked)
-}
-
-/// True if a figure needs something that the analysis of a session did not compute.
-fn lacks(found: &Analysis, kind: Kind, options: &FigureOptions) -> bool {
-    let no_margins = || found.frames.iter().any(|f| f.margins.is_none());
-    let no_capacity =
-        || options.capacity.is_some() || found.frames.iter().all(|f| f.capacity.is_none());
-    kind.needs_margins() && no_margins() || kind.needs_capacity() && no_capacity()
 }
 
 /// Draws a figure of the analysis of a session, and returns the SVG. What the figure needs in addition is computed
 /// first.
 pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
+    let asked = with_requests(analysis::Options::default(), &found.scene, options)?;
     match options.kind()? {
-        Some(kind) if lacks(found, kind, options) => {
-            let asked = with_capacity(analysis::Options::default(), &found.scene, options)?;
+        Some(kind) if kind.lacks(found, &asked) => {
             page(&kind.analysed(&found.scene, &asked), options)
         }
         _ => page(found, options),

@@ -3,8 +3,8 @@
 use serde::Deserialize;
 
 use super::Refusal;
-use super::option::{FrameChoice, Level};
-use crate::analysis::Toward;
+use super::option::{FrameChoice, Level, SensitivityMargin};
+use crate::analysis::{MarginKind, Toward};
 use crate::drawing::style::format::Notation;
 use crate::drawing::{Colour, Drawing, Theme};
 use crate::figure::{self, ArrowScale, Corners, FREEBODY, Fill, ForceStyle, Kind, Normalisation};
@@ -33,7 +33,7 @@ pub(super) struct FigureOptions {
     normalise: Normalise,
     arrow_scale: Scale,
     fill: Colours,
-    margin: Direction,
+    margin: Option<SensitivityMargin>,
     corners: bool,
     amounts: bool,
     no_title: bool,
@@ -105,7 +105,7 @@ impl FigureOptions {
             normalisation: self.normalise.value(),
             scale: self.arrow_scale.value(),
             fill: self.fill.value(),
-            toward: self.margin.value(),
+            toward: self.toward()?,
             titles: !self.no_title,
             captions: !self.no_caption,
             verdicts: !self.no_verdict,
@@ -126,6 +126,24 @@ impl FigureOptions {
             zoom,
             ..figure::Options::default()
         })
+    }
+
+    /// Returns the margin that the figure shows; `None` for the default one.
+    pub(super) fn margin(&self) -> Option<MarginKind> {
+        self.margin.map(|margin| margin.0)
+    }
+
+    /// Returns the direction of a figure of margins.
+    fn toward(&self) -> Result<Toward, Refusal> {
+        let is_sensitivity = self.kind()?.is_some_and(Kind::needs_sensitivity);
+        match self.margin().map(Toward::from_margin) {
+            None => Ok(Toward::default()),
+            Some(Some(toward)) => Ok(toward),
+            Some(None) if is_sensitivity => Ok(Toward::default()),
+            Some(None) => Err(Refusal::of_option(
+                "the margins friction and kernel have no picture of how it falls; choose the kind sensitivity",
+            )),
+        }
     }
 
     /// Writes a drawing as SVG with the selected background and width.
@@ -181,8 +199,5 @@ choices! {
     Colours: Fill {
         Amplitude => Fill::Amplitude, Stress => Fill::Stress, Friction => Fill::Friction, None => Fill::None,
         Source => Fill::Source
-    }
-    Direction: Toward {
-        Tilt => Toward::Tilt, HorizontalLoad => Toward::HorizontalLoad, LoadFactor => Toward::LoadFactor
     }
 }

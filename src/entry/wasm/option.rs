@@ -35,7 +35,7 @@ pub(super) struct CheckOptions {
     pub(super) file: Option<String>,
     capacity: Option<String>,
     for_all: Option<String>,
-    sensitivity: Option<Varied>,
+    sensitivity: Option<SensitivityMargin>,
 }
 
 impl CheckOptions {
@@ -208,14 +208,14 @@ impl TryFrom<String> for Margin {
 /// A margin whose sensitivity can be computed, by its name in results.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "String")]
-struct Varied(MarginKind);
+pub(super) struct SensitivityMargin(pub MarginKind);
 
-impl TryFrom<String> for Varied {
+impl TryFrom<String> for SensitivityMargin {
     type Error = String;
 
-    fn try_from(word: String) -> Result<Varied, String> {
+    fn try_from(word: String) -> Result<SensitivityMargin, String> {
         let kind = MarginKind::from_word(&word).filter(|kind| kind.has_sensitivity());
-        kind.map(Varied).ok_or_else(|| {
+        kind.map(SensitivityMargin).ok_or_else(|| {
             "sensitivity is load_factor, tilt, horizontal_load, friction or kernel".to_owned()
         })
     }

@@ -11,7 +11,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Analysis, FrameAnalysis, Margin, Sides, Verdict};
+use super::{Analysis, FrameAnalysis, Margin, MarginKind, Sides, Verdict};
 use crate::geometry::{Point, Vector, cross, quarter_turn, sin_cos_degrees};
 use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
@@ -37,6 +37,18 @@ pub enum Toward {
     HorizontalLoad,
     /// The factor on the listed loads.
     LoadFactor,
+}
+
+impl Toward {
+    /// Returns the parameter of a margin that has a mechanism at its limit; `None` for friction, kernel and robots.
+    pub fn from_margin(kind: MarginKind) -> Option<Toward> {
+        match kind {
+            MarginKind::Tilt => Some(Toward::Tilt),
+            MarginKind::HorizontalLoad => Some(Toward::HorizontalLoad),
+            MarginKind::LoadFactor => Some(Toward::LoadFactor),
+            MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => None,
+        }
+    }
 }
 
 impl Analysis {

@@ -15,6 +15,9 @@ use super::sensitivity::CornerEffects;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
 use crate::analysis::{self, Analysis, MarginKinds};
+#[cfg(any(feature = "cli", feature = "wasm"))]
+use crate::analysis::{CapacityRequest, Sensitivity};
+#[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::scene::Scene;
 
 /// The content of the panels of a figure.
@@ -110,13 +113,17 @@ impl Kind {
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
-    /// Analyses a scene, with the margins that a figure of this kind states or needs.
+    /// Analyses a scene, with everything that a figure of this kind shows: margins, the sensitivity of a margin, the
+    /// forces that a block can carry. If `asked` names no margin or no block, the default ones of the scene are used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         let mut asked = *asked;
         asked.margins |= self.needs_margins();
         if self.needs_sensitivity() && asked.sensitivity.is_none() {
-            asked.sensitivity = Some(analysis::Sensitivity::usual(scene));
+            asked.sensitivity = Some(Sensitivity::default_kind(scene));
+        }
+        if self.needs_capacity() && asked.capacity.is_none() {
+            asked.capacity = CapacityRequest::default_for(scene);
         }
         let analysis = Analysis::with(scene, &asked);
         match self.stated_margins(&analysis) {
@@ -125,6 +132,24 @@ impl Kind {
             }
             _ => analysis,
         }
+    }
+
+    /// True if an analysis lacks something that a figure of this kind shows, or if `asked` names another margin or block
+    /// than the analysis has results for.
+    #[cfg(any(feature = "python", feature = "wasm"))]
+    pub(crate) fn lacks(self, found: &Analysis, asked: &analysis::Options) -> bool {
+        let frames = &found.frames;
+        let margins = || frames.iter().all(|f| f.margins.is_some());
+        let capacity = || asked.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
+        let sensitivity = || {
+            let kind = frames
+                .iter()
+                .find_map(|f| Some(f.sensitivity.as_ref()?.kind));
+            kind.is_some() && (asked.sensitivity.is_none() || asked.sensitivity == kind)
+        };
+        self.needs_margins() && !margins()
+            || self.needs_capacity() && !capacity()
+            || self.needs_sensitivity() && !sensitivity()
     }
 
     /// True if the figure needs margins. The analysis computes them only on request

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Margin, Normalise};
+use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Normalise};
 use crate::cli::capacity::CapacityArgs;
 use crate::cli::level::AnalysisArgs;
 use crate::cli::look::StyleArgs;
+use crate::cli::margins::SensitivityMargin;
 use crate::cli::picture::Picture;
 use crate::cli::source::FrameChoice;
 
@@ -87,8 +88,8 @@ pub(crate) struct Render {
     pub(super) pages: bool,
     /// The margin of --kind margin [default: tilt] or --kind sensitivity [default: load-factor if there are loads, otherwise
     /// tilt]
-    #[arg(long, value_enum, value_name = "DIRECTION")]
-    pub(super) margin: Option<Margin>,
+    #[arg(long, value_enum, value_name = "MARGIN")]
+    pub(super) margin: Option<SensitivityMargin>,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) columns: Option<u16>,

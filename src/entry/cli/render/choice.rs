@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
-use crate::analysis::{MarginKind, Toward};
 use crate::figure;
 
 /// The value of `--kind`: a kind of figure with panels, or the free-body diagram of a block.
@@ -65,18 +64,6 @@ pub(super) enum Normalise {
 pub(super) enum ArrowScale {
     Panel,
     Strip,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Margin {
-    /// The angle by which gravity may turn
-    Tilt,
-    /// The horizontal force on each block, relative to its weight
-    HorizontalLoad,
-    /// The factor on the listed loads
-    LoadFactor,
-    /// The least friction; only with --kind sensitivity
-    Friction,
 }
 
 impl KindChoice {
@@ -139,28 +126,6 @@ impl ArrowScale {
         match self {
             ArrowScale::Panel => figure::ArrowScale::Panel,
             ArrowScale::Strip => figure::ArrowScale::Strip,
-        }
-    }
-}
-
-impl Margin {
-    pub(super) fn toward(self) -> Toward {
-        match self {
-            Margin::Tilt => Toward::Tilt,
-            Margin::HorizontalLoad => Toward::HorizontalLoad,
-            Margin::LoadFactor => Toward::LoadFactor,
-            // Only figures of the sensitivity have it, and they have no direction.
-            Margin::Friction => Toward::default(),
-        }
-    }
-
-    /// Returns the margin.
-    pub(super) fn kind(self) -> MarginKind {
-        match self {
-            Margin::Tilt => MarginKind::Tilt,
-            Margin::HorizontalLoad => MarginKind::HorizontalLoad,
-            Margin::LoadFactor => MarginKind::LoadFactor,
-            Margin::Friction => MarginKind::Friction,
         }
     }
 }

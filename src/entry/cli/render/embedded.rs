@@ -56,8 +56,13 @@ pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result
         let theme = render.look.theme()?;
         let options = render.options(theme);
         let mut found = found.clone();
-        if render.kind.needs_margins() && found.frames.iter().any(|frame| frame.margins.is_none()) {
-            found = Analysis::with(found.scene, &Options::default().margins(true));
+        let asked = render.with_requests(&Options::default(), &found.scene)?;
+        if render
+            .kind
+            .panels()
+            .is_some_and(|kind| kind.lacks(&found, &asked))
+        {
+            found = render.analysed(&found.scene, &asked);
         }
         let source = Source {
             path: "the scene".into(),

@@ -22,7 +22,7 @@ pub enum ForceAt {
     /// At the grip point if a robot holds the block. The force then replaces that of this robot, without the limits of
     /// its force. Otherwise at the centroid of the block.
     #[default]
-    Usual,
+    Default,
     /// At this point, in metres. It moves with the block.
     Point(Point),
     /// At two points, with a force in any direction at each. They act like one more contact; the capacity is that of
@@ -73,12 +73,12 @@ pub enum CapacityError {
 }
 
 impl CapacityRequest {
-    /// Creates the request for the forces at the usual point of a block: its grip point if a robot holds it, otherwise
+    /// Creates the request for the forces at the default point of a block: its grip point if a robot holds it, otherwise
     /// its centroid.
     pub fn of_block(block: BlockId) -> CapacityRequest {
         CapacityRequest {
             block,
-            at: ForceAt::Usual,
+            at: ForceAt::Default,
             cases: Cases::default(),
         }
     }
@@ -86,7 +86,7 @@ impl CapacityRequest {
     /// Returns the request that is used for a scene if no block was chosen. It is the block of the first robot in the
     /// last frame in which a robot holds a block. Without robots it is the block of the last frame whose centroid is
     /// highest. `None` if there is no such block.
-    pub fn usual(scene: &Scene) -> Option<CapacityRequest> {
+    pub fn default_for(scene: &Scene) -> Option<CapacityRequest> {
         let held = scene.frames.iter().rev().find_map(|f| f.holds.first());
         let highest = || {
             let placed = scene.frames.last()?.placed.iter().copied();
@@ -113,9 +113,9 @@ impl CapacityRequest {
     /// Returns the hold of the robot whose force is replaced. `None` if no robot holds the block, or if a point was
     /// given.
     pub(super) fn tool<'f>(&self, frame: &'f Frame) -> Option<&'f Hold> {
-        let is_usual = self.at == ForceAt::Usual;
+        let is_default = self.at == ForceAt::Default;
         let mut holds = frame.holds.iter();
-        holds.find(|hold| is_usual && hold.block == self.block)
+        holds.find(|hold| is_default && hold.block == self.block)
     }
 
     /// Returns the points at which the force acts in a frame: one, or two for a contact.
@@ -126,7 +126,7 @@ impl CapacityRequest {
         let block = scene.blocks.get(self.block.0);
         let block = block.ok_or(CapacityError::NoBlock)?;
         let points = match self.at {
-            ForceAt::Usual => vec![self.tool(frame).map_or(block.centroid, |hold| hold.at)],
+            ForceAt::Default => vec![self.tool(frame).map_or(block.centroid, |hold| hold.at)],
             ForceAt::Point(at) => vec![at],
             ForceAt::Contact(both) => both.to_vec(),
         };

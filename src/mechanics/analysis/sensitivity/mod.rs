@@ -99,7 +99,7 @@ pub struct Sensitivity {
 impl Sensitivity {
     /// Returns the margin whose sensitivity a figure shows unless another one is requested: the load factor if a placed
     /// block has a load, otherwise the tilt.
-    pub fn usual(scene: &Scene) -> MarginKind {
+    pub fn default_kind(scene: &Scene) -> MarginKind {
         let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
         match scene.loads.iter().any(|load| placed(load.block)) {
             true => MarginKind::LoadFactor,
