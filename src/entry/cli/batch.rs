@@ -147,14 +147,17 @@ impl Batch {
         self.jobs.map_or_else(
             || {
                 let cores = thread::available_parallelism().map_or(1, usize::from);
-                // A thread that writes a picture waits for the disk. More threads than cores keep all cores busy.
+                // Threads wait for the disk while they write pictures, so only more threads than cores keep all cores
+                // busy.
                 cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
             },
             usize::from,
         )
     }
 
-    /// Returns the form of the output, from the ending of its file.
+    /// Returns the output format that the extension of the output file selects: CSV for `.csv`, otherwise lines of
+    /// JSON.
+    /// Returns an error for a format that drystone does not write, and for options that a CSV file does not support.
     fn form(&self) -> Result<Form, CliError> {
         let ending = self
             .output
@@ -217,8 +220,8 @@ impl Batch {
         })
     }
 
-    /// Returns the settings on which the answers of a run depend. The number of threads and the progress report do
-    /// not change the answers.
+    /// Returns the settings on which the output lines depend. They leave out the number of threads and the progress
+    /// report, which do not change the lines.
     fn settings(&self, work: &Work) -> Settings {
         let mut settings = vec![
             ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
@@ -237,7 +240,7 @@ impl Batch {
             }
         };
         settings.push(("the format of the pictures", format.into()));
-        settings.push(("the hash of their style", look));
+        settings.push(("the hash of the picture style", look));
         Settings(settings)
     }
 }
@@ -278,8 +281,8 @@ struct Answer {
 }
 
 impl Work {
-    /// Analyses one record, and returns its line. Returns an error if its picture cannot be written, because later
-    /// pictures could then not be written either.
+    /// Analyses one scene of the input, and returns its output line. A scene that is not valid gets a line with its
+    /// problems. An error means that the picture cannot be written; later pictures would then fail too.
     fn answer(&self, record: Record) -> Result<Answer, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
@@ -337,8 +340,8 @@ impl Work {
         (line, ExitStatus::WrongInput)
     }
 
-    /// Returns the options of an analysis. It computes only the values that the line contains. A time limit is counted
-    /// from this call.
+    /// Returns the options of an analysis that computes only the values in the output line. The time limit starts at
+    /// this call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());
         if self.fields.ask(&["frames", "margins"]) {
@@ -352,7 +355,8 @@ impl Work {
 }
 
 impl Drawn {
-    /// Draws a scene, and writes the picture to its file. The file is complete before the line of the scene is written.
+    /// Draws a scene and writes the picture file, before the output line of the scene is written. Returns the name of
+    /// the file, or the reason why the picture cannot be drawn.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {

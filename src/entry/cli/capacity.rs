@@ -30,8 +30,8 @@ impl CapacityArgs {
         self.capacity.is_some()
     }
 
-    /// Adds the request of `--capacity` and `--for-all` to the options of an analysis. Without `--capacity`, the
-    /// options stay unchanged.
+    /// Adds the block of `--capacity` and the ranges of `--for-all` to the options of an analysis. Without
+    /// `--capacity`, the options stay unchanged.
     pub(crate) fn add_to(&self, options: Options, scene: &Scene) -> Result<Options, CliError> {
         let Some(typed) = &self.capacity else {
             return Ok(options);

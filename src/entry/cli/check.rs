@@ -88,7 +88,7 @@ impl Check {
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }
-        // If the program itself fails on one scene, the other scenes are still answered.
+        // An internal fault of the program concerns only its scene: the other scenes are still answered.
         let is_wrong = |(.., complaint): &Refused| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
             return Err(refused
@@ -126,7 +126,7 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Computes the answers for all scenes, in parallel. The terminal shows the progress.
+    /// Analyses all scenes in parallel, and shows a progress bar. Returns an answer or an error for each scene.
     fn answers(
         &self,
         sources: &[(usize, Source)],
@@ -159,7 +159,7 @@ impl Check {
             .collect()
     }
 
-    /// Computes the answer for one scene.
+    /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table.
     fn answer(
         &self,
         source: &Source,
@@ -194,7 +194,8 @@ impl Check {
         Ok((ending, verdicts, String::new(), page))
     }
 
-    /// Returns the tables of all scenes, with the totals and the explanation below them.
+    /// Returns the tables of all scenes. Below them are the totals of several scenes, and the meanings of the words if
+    /// `--explain` is given.
     fn tables(&self, done: &[Answer], width: Option<usize>) -> Page {
         let mut page = Page::default();
         for (.., table) in done {
@@ -259,7 +260,7 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     words
 }
 
-/// Writes the sensitivity of each frame, as the lines below a table.
+/// Returns the lines below a table that show, for each frame, how its margin changes with the input.
 fn sensitivities(analysis: &Analysis) -> Page {
     let mut page = Page::default();
     let scene = &analysis.scene;
@@ -277,7 +278,7 @@ fn sensitivities(analysis: &Analysis) -> Page {
     page
 }
 
-/// Writes the notes below a table. Each has two lines: the note, and the remedy.
+/// Writes the notes below a table. Each note has two lines: its message, and a hint what to change.
 fn noted(notes: &[Note]) -> Page {
     let mut page = Page::default();
     for note in notes {

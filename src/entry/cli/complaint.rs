@@ -81,7 +81,7 @@ impl CliError {
         }
     }
 
-    /// True if the program itself failed on one scene. The other scenes are still answered then.
+    /// True for an internal fault of the program on one scene. The command then still answers the other scenes.
     pub(crate) fn is_internal_fault(&self) -> bool {
         match self {
             CliError::Scene { problems, .. } => {
@@ -115,7 +115,7 @@ impl CliError {
                 format!("cannot read {what}: {why}"),
                 "check the path and the permissions of the file",
             ),
-            // All other errors do not concern a single scene file.
+            // The other errors do not belong to one scene file.
             other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
         }
     }
@@ -133,7 +133,7 @@ impl CliError {
                 }
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
                     page.line(
-                        "drystone render --broken draws its outlines and marks these problems",
+                        "drystone render --broken draws the outlines of this scene and marks these problems",
                     );
                 }
             }
@@ -196,7 +196,8 @@ struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// Finds the place of a byte range in a text; `None` if the range does not fit the text.
+    /// Finds the line in which a byte range of a text begins, and the part of the range in this line. Returns `None` if
+    /// the range is not inside the text.
     fn new(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
         let before = text.get(..span.start)?;
         let start = before.rfind('\n').map_or(0, |n| n + 1);
@@ -223,7 +224,7 @@ impl<'a> Place<'a> {
         }
         let before: String = self.line.chars().take(self.range.start).collect();
         let label = seen(&line(&before)) + ARROW + seen(&label(problem));
-        // The marked text may be long. The arrow to the label starts at its middle.
+        // `ariadne` draws the arrow to the label from the middle of the marked text.
         let label = label + self.range.len().div_ceil(2);
         let columns = margin(problem) + label.max(seen(&line(self.line)) + 1);
         width.is_none_or(|width| columns <= width)
@@ -238,7 +239,7 @@ fn margin(problem: &Problem) -> usize {
     problem.line.to_string().len() + 4
 }
 
-/// Returns the label below the marked place.
+/// Returns the label below the marked text: the path of the problem in the scene, or `here` if it has no path.
 fn label(problem: &Problem) -> String {
     match problem.path.as_str() {
         "" => "here".into(),
@@ -297,7 +298,7 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
 
 /// Writes the message with a part of the line, for a line that is too long to be shown completely.
 fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
-    // Leave four columns: two spaces, and a mark at each end of the part.
+    // Reserve four columns: two spaces before the text, and one `…` at each of its ends.
     let room = width.map_or(WINDOW, |width| {
         width.saturating_sub(4).clamp(NARROWEST, WINDOW)
     });
@@ -305,7 +306,7 @@ fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) 
     let letters: Vec<char> = text.chars().collect();
     let start = place.range.start.min(letters.len());
     let wide = |c: &char| seen(c.encode_utf8(&mut [0; 4]));
-    // Extend the part to the left of the place first, then to the right, as far as the width allows.
+    // Choose which characters are shown: up to a third of the width before the problem, then as many as fit after it.
     let fits = |letters: &mut dyn Iterator<Item = &char>, most: usize| {
         let mut left = most;
         let fit = letters.take_while(|c| {

@@ -32,7 +32,8 @@ impl Destination {
         }
     }
 
-    /// Returns the format of the picture. The ending of the file decides, and `--format` must agree with it.
+    /// Returns the format of the picture. For a file, its extension decides, and `--format` must agree with it.
+    /// Otherwise `--format` decides, and the default is SVG.
     pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, CliError> {
         let Destination::File(path) = self else {
             return Ok(asked.unwrap_or(Format::Svg));
@@ -45,7 +46,7 @@ impl Destination {
             let shown = path.display();
             let endings = Format::ALL.map(|format| format!(".{}", format.ending()));
             return Err(CliError::CommandLine(format!(
-                "{shown}: a picture is {}; for a folder end its name with a slash",
+                "{shown}: the name of a picture ends in {}; for a folder, end the name with a slash",
                 one_of(&endings)
             )));
         };
@@ -53,7 +54,7 @@ impl Destination {
             Some(format) if format != by_name => {
                 let (shown, asked) = (path.display(), format.ending());
                 Err(CliError::CommandLine(format!(
-                    "{shown} is not what --format {asked} makes; leave one of them out"
+                    "the extension of {shown} and --format {asked} contradict each other; leave out --format"
                 )))
             }
             _ => Ok(by_name),
@@ -61,7 +62,7 @@ impl Destination {
     }
 }
 
-/// Lists endings in words: `.svg, .png or .pdf`.
+/// Joins file extensions with commas and `or`: `.svg, .png or .pdf`.
 fn one_of(names: &[String]) -> String {
     match names.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
@@ -71,7 +72,7 @@ fn one_of(names: &[String]) -> String {
 
 /// Refuses outputs that would overwrite an input or another output, even through other names or links.
 pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
-    // A file that a shell redirects to standard input is an input too, if the system has a path for it.
+    // If a shell redirects a file to standard input, `/dev/stdin` is this file. Not all systems have this path.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");
     for (number, output) in outputs.iter().enumerate() {
@@ -100,7 +101,8 @@ pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliErro
     Ok(())
 }
 
-/// Writes all files or none. Commands that keep existing files have the option `--force`.
+/// Writes all files or none. `existing` says whether existing files are replaced. If not, an existing file is an error
+/// that mentions `--force`.
 pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), CliError> {
     write_whole(files, existing).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),

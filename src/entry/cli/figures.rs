@@ -1,4 +1,5 @@
-//! `drystone figures`: writes the gallery, with every figure as SVG, PNG and PDF, and its caption.
+//! `drystone figures`: draws the gallery, figures 1 to 9 of Vallat (2023), as SVG, PNG and PDF, and writes their
+//! captions.
 
 use std::path::{Path, PathBuf};
 

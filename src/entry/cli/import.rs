@@ -114,7 +114,7 @@ impl Import {
             self.drawing.display().to_string()
         };
         let text = self.text(&name, format).map_err(|c| vec![c])?;
-        // Files with the ending .json have one of three formats, so the content decides.
+        // A .json file may have one of three formats. Its content decides which.
         let format = match (self.format, format) {
             (None, Format::GeoJson) => Format::of_json(&text),
             _ => format,
@@ -149,7 +149,7 @@ impl Import {
         Ok(ExitStatus::Done)
     }
 
-    /// Refuses contradictory options, and a scene file that cannot be written.
+    /// Returns an error if the options contradict each other, or if the scene file is a folder or the drawing itself.
     fn check_options(&self, file: Option<&Path>) -> Result<(), CliError> {
         if self.json && file.is_none() {
             let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
@@ -201,7 +201,7 @@ impl Import {
                 self.drawing.display()
             ))),
             _ => Err(CliError::CommandLine(format!(
-                "the name {} does not tell what the drawing is written in; say --format svg, dxf, geojson, wkt, contacts or compas",
+                "the file name {} does not show the format of the drawing; give --format svg, dxf, geojson, wkt, contacts or compas",
                 self.drawing.display()
             ))),
         }
@@ -218,15 +218,15 @@ impl Import {
             what: name.into(),
             why: error.to_string(),
         })?;
-        // Old DXF files have one byte per character. Only names have characters beyond ASCII, so it is sufficient to
-        // read them as Latin-1.
+        // Old DXF files have one byte per character. Only names contain characters that are not ASCII, so it is
+        // sufficient to read these files as Latin-1.
         if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
             return Ok(bytes.into_iter().map(char::from).collect());
         }
         String::from_utf8(bytes).map_err(|error| CliError::NotRead {
             what: name.into(),
             why: format!(
-                "it is no UTF-8 text, from byte {} on; save it as plain UTF-8",
+                "it is not valid UTF-8 from byte {} on; save it as UTF-8",
                 error.utf8_error().valid_up_to()
             ),
         })
@@ -328,7 +328,7 @@ fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
     page
 }
 
-/// Returns a note if weights come from the default density.
+/// Returns a note if the scene has weights that come from the default density.
 fn light(imported: &Imported) -> Option<String> {
     let scene = Scene::new(imported.scene.clone()).ok()?;
     let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;

@@ -1,4 +1,5 @@
-//! [`AnalysisArgs`]: options of an analysis that `check` and `render` share.
+//! [`AnalysisArgs`]: the options `--accuracy`, `--wedging`, `--contact-tolerance` and `--time-limit`, which all
+//! commands that analyse scenes share.
 
 use std::time::Duration;
 
@@ -53,7 +54,7 @@ impl AnalysisArgs {
         ]
     }
 
-    /// Returns the options of the analysis. A time limit is counted from this call.
+    /// Returns the options of the analysis. The time limit starts at this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,
@@ -66,7 +67,7 @@ impl AnalysisArgs {
     }
 }
 
-/// Makes the parser for a level of accuracy. For the former level `draft`, its error message names the replacement.
+/// Returns the parser for a level of accuracy. For the former level `draft`, its error message names the replacement.
 fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
     let names = ["standard", "proved", "draft"];
     let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));

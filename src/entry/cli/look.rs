@@ -1,4 +1,4 @@
-//! [`StyleArgs`]: the options for theme and style, which `render` and `shapes` share.
+//! [`StyleArgs`]: the options `--theme` and `--style`, which all commands that draw share.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ impl StyleArgs {
         self.theme.is_some() || self.style.is_some()
     }
 
-    /// Returns the theme, with the changes of the style file.
+    /// Returns the selected theme, with the changes that the style file makes to it.
     pub(crate) fn theme(&self) -> Result<Theme, CliError> {
         let base = self.theme.as_deref().and_then(Theme::named);
         match &self.style {
@@ -59,8 +59,8 @@ fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
         Some("toml") => Notation::Toml,
         _ => {
             return Err(CliError::CommandLine(format!(
-                "--style {name}: a style file ends in .json or .toml; whether normal and friction force are drawn apart \
-                 is said by --arrows"
+                "--style {name}: a style file ends in .json or .toml; to draw normal and friction forces separately, use \
+                 --arrows components"
             )));
         }
     };

@@ -81,7 +81,7 @@ impl MarginArgs {
         }
     }
 
-    /// Returns the names on the command line: `none`, `all`, or a list.
+    /// Returns the requested margins as text: `none`, `all`, or their names separated by commas.
     pub(crate) fn described(&self) -> String {
         match self.margins.as_deref() {
             None => "none".into(),
@@ -95,7 +95,7 @@ impl MarginArgs {
     }
 }
 
-/// Returns the margins in a list; all margins for an empty list.
+/// Returns the set of the listed margins. An empty list means all margins.
 fn kinds(names: &[MarginKind]) -> MarginKinds {
     match names {
         [] => MarginKinds::ALL,
@@ -103,10 +103,10 @@ fn kinds(names: &[MarginKind]) -> MarginKinds {
     }
 }
 
-/// Joins the option `--margins` and a list in the next word to one word, `--margins=LIST`.
+/// Joins the option `--margins` and a list in the next argument to one argument, `--margins=LIST`.
 ///
-/// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two.
-/// The word after `--margins` is a list if it looks like names, unless a file has this name.
+/// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two. The
+/// argument after `--margins` is taken as a list if it looks like names, unless a file with this name exists.
 pub(crate) fn join_list(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
     let mut joined: Vec<OsString> = Vec::new();
     for word in words {

@@ -60,7 +60,7 @@ use crate::cli::terminal::{OutputArgs, Terminal};
 
 const BEFORE_YOU_TRUST_IT: &str = "\
 A verdict of 'stands' means that a balance of forces exists for rigid blocks at rest, laid dry (no cohesion). A balance \
-that exists only by wedging counts as one.
+that exists only by wedging counts too.
 
 Exit codes: 0 done and everything stands, 1 something falls, 2 the input or the command line is wrong, 3 something is \
 undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \

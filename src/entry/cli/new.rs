@@ -1,4 +1,5 @@
-//! `drystone new`: writes a scene from which to start.
+//! `drystone new`: writes an example, or an arch, wall, tower, doorway or lattice with given dimensions, as a scene to
+//! start from.
 
 use std::path::{Path, PathBuf};
 
@@ -137,7 +138,7 @@ fn length(typed: &str) -> Result<f64, String> {
 fn at_least_zero(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(number) if (0.0..=1e6).contains(&number) => Ok(number),
-        _ => Err("it must be a number, at least 0".into()),
+        _ => Err("it must be a number from 0 to 1000000".into()),
     }
 }
 

@@ -1,8 +1,8 @@
 //! [`Page`]: text for a terminal. It escapes all text that may come from files.
 //!
-//! The terminal takes nothing else. Words of ours are those that stand in this program, `&'static str`; all other words are
-//! made one harmless line on their way in, so that no title begins a line, sets a colour or moves the cursor. A new message
-//! cannot forget that: there is no other way onto the page.
+//! The terminal prints nothing else. Fixed text of the program is `&'static str`. All other text is escaped when it is
+//! added, so that the title of a scene cannot begin a line, set a colour or move the cursor. A new message cannot
+//! forget this, because there is no other way to add text.
 
 use clap::builder::styling::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -16,7 +16,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Makes a page with one line.
+    /// Makes a page with one line of escaped text.
     pub(crate) fn new(words: &str) -> Page {
         let mut page = Page::default();
         page.line(words);
@@ -74,8 +74,8 @@ impl Page {
         self.text.push_str(&page.text);
     }
 
-    /// Returns the page with lines of at most `width` columns. The rest of a longer line follows on the next line. It
-    /// is indented further than the rows of a table, so that it cannot be mistaken for a row.
+    /// Returns the page with lines of at most `width` columns. The rest of a longer line follows on the next line. The
+    /// continuation is indented further than the rows of a table, so that nobody takes it for a row.
     pub(crate) fn fitted(&self, width: usize) -> Page {
         let mut page = Page::default();
         for line in self.text.lines() {

@@ -1,4 +1,4 @@
-//! [`Picture`]: the options for picture files, which `render` and `shapes` share.
+//! [`Picture`]: the options for picture files, which `render`, `batch` and `shapes` share.
 
 use std::fs;
 use std::path::PathBuf;
@@ -92,7 +92,7 @@ impl Picture {
         self
     }
 
-    /// Selects fast compression for a command that writes many pictures. The files are larger.
+    /// Selects fast PNG compression, for a command that writes many pictures. The files become larger.
     pub(crate) fn of_many(self) -> Picture {
         Picture {
             compression: Compression::Quick,
@@ -105,15 +105,15 @@ impl Picture {
         let mut wrong = Vec::new();
         if !format.has_pixels() && (self.width.is_some() || self.scale.is_some()) {
             wrong.push(
-                "--width and --scale count pixels, and only a PNG or GIF has any; give --width-mm, write a PNG, or leave them out",
+                "--width and --scale are in pixels, which only a PNG or GIF has; give --width-mm, write a PNG, or leave them out",
             );
         }
         if self.dpi.is_some() && (!format.has_pixels() || self.width_mm.is_none()) {
-            wrong.push("--dpi is for a PNG of a width in print; write a PNG and give --width-mm, or leave it out");
+            wrong.push("--dpi is for a PNG with a width in print; write a PNG and give --width-mm, or leave out --dpi");
         }
         if self.text.is_some() && format != Format::Svg {
             wrong.push(
-                "--text is for an SVG; a PNG has no words, a PDF always has its fonts in it, and LaTeX sets those of TikZ. Leave it out",
+                "--text is for an SVG; a PNG contains no text, a PDF always contains its fonts, and LaTeX sets the text of TikZ. Leave out --text",
             );
         }
         if wrong.is_empty() {
@@ -123,7 +123,7 @@ impl Picture {
         }
     }
 
-    /// Returns the drawing with the selected background.
+    /// Returns the drawing with the background that `--background` selects.
     fn on_page(&self, drawing: Drawing) -> Drawing {
         Drawing {
             background: match self.background {
@@ -135,7 +135,7 @@ impl Picture {
         }
     }
 
-    /// Writes a drawing in a format, and returns its bytes.
+    /// Returns a drawing as the bytes of a file in this format.
     pub(crate) fn bytes(
         &self,
         drawing: Drawing,
@@ -153,8 +153,8 @@ impl Picture {
         format.write(&drawing, &settings).map_err(format_error)
     }
 
-    /// Writes an animation, and returns its bytes. Each drawing is shown for its number of seconds. All drawings have
-    /// the same size.
+    /// Returns an animation as the bytes of a file. Each drawing comes with the number of seconds for which it is
+    /// shown. All drawings must have the same size.
     pub(crate) fn animated(
         &self,
         drawings: Vec<(Drawing, f64)>,
@@ -172,20 +172,20 @@ impl Picture {
         animate(&steps, self.size(), fonts).map_err(png_error)
     }
 
-    /// Returns the width in pixels for which a figure is laid out; `None` for its natural width. With a width in
-    /// millimetres, text is as large as a footnote, and names in blocks are slightly smaller.
+    /// Returns the layout width of a figure in pixels, computed from `--width-mm`; `None` without this option. In
+    /// print, text is then as large as a footnote, and names in blocks are slightly smaller.
     pub(crate) fn page(&self) -> Option<f64> {
         self.width_mm.map(page_width)
     }
 
-    /// Returns the largest ratio of height to width of a figure on an A4 page. A figure with a width in print must
-    /// fit inside the margins.
+    /// Returns the largest ratio of height to width that a figure on an A4 page may have. With `--width-mm`, a figure
+    /// may be 247 mm high, which is the height between the margins of the page.
     pub(crate) fn page_ratio(&self) -> f64 {
         let page = 297.0 / 210.0;
         self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
     }
 
-    /// Refuses a PNG that would be too large, given the least width and height of its drawing.
+    /// Returns an error if a PNG of a drawing with at least this width and height would be too large.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
         png::check(width, height, self.size()).map_err(png_error)
     }
@@ -202,12 +202,13 @@ impl Picture {
         Fonts::with(files).map_err(|number| {
             let name = self.fonts[number].display();
             CliError::CommandLine(format!(
-                "--font {name}: it is no font; give a .ttf, .otf or .ttc file"
+                "--font {name}: it is not a font; give a .ttf, .otf or .ttc file"
             ))
         })
     }
 
-    /// True if drystone lays out the text of a picture of this format, and not the reader's program.
+    /// True if drystone itself lays out the text of a picture in this format; false if the program that shows the
+    /// picture does.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
         format.lays_out_words(self.words())
     }
@@ -220,8 +221,8 @@ impl Picture {
         }
     }
 
-    /// Returns the size. The default is two pixels per unit, which is sharp on high-resolution screens and gives a
-    /// small file.
+    /// Returns the size that the options select. The default is two pixels per unit of the drawing, which is sharp on
+    /// high-resolution screens and gives a small file.
     fn size(&self) -> Size {
         match (self.width, self.scale, self.width_mm) {
             (Some(width), _, _) => Size::Width(width),
@@ -235,8 +236,8 @@ impl Picture {
     }
 }
 
-/// Returns the error. If the error is about the size of a figure with several steps, adds the advice to draw separate
-/// figures.
+/// Adds the advice to split the figure to an error about the size of a figure with several steps. Returns any other
+/// error unchanged.
 pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
         CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(
@@ -246,8 +247,8 @@ pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     }
 }
 
-/// Converts the error of a format. A size out of range is an error of the command line; any other error is a failure
-/// to write.
+/// Converts an error of an output format. A size out of range becomes an error of the command line, and any other error
+/// means that the picture cannot be written.
 fn format_error(error: FormatError) -> CliError {
     match error {
         FormatError::Size(why) => CliError::CommandLine(why),

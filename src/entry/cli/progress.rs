@@ -1,4 +1,4 @@
-//! [`Progress`]: shows a bar on standard error for work that takes longer than half a second.
+//! [`Progress`]: a progress bar on standard error, which appears when the work takes longer than half a second.
 //!
 //! No other file uses `indicatif`. The bar counts steps of work. Next to it is the number of changed frames that were
 //! decided for margins; one step may need hundreds of them. The bar is removed when the work is done.
@@ -22,7 +22,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Begins a bar for this number of steps. With [`Shown::Never`], nothing is drawn.
+    /// Starts a progress bar with this number of steps. With [`Shown::Never`], nothing is drawn.
     pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
         match shown {
             Shown::Never => Progress {
@@ -43,7 +43,7 @@ impl Progress {
                 let since = trials().saturating_sub(before);
                 if since > 0 {
                     // If the bar cannot be drawn, the work continues without it.
-                    let _ = write!(to, ", {since} changed frames judged,");
+                    let _ = write!(to, ", {since} changed frames decided,");
                 }
             };
             bar.set_style(style.with_key("trials", counted));
@@ -53,7 +53,7 @@ impl Progress {
         let waiter = thread::spawn(move || {
             if over.recv_timeout(patience) == Err(RecvTimeoutError::Timeout) {
                 waiting.set_draw_target(target);
-                // One step may take many seconds. Meanwhile the bar moves, so that the user sees that the program is
+                // One step may take many seconds. The spinner keeps moving, so that the user sees that the program is
                 // working.
                 waiting.enable_steady_tick(Duration::from_millis(100));
                 waiting.tick();
@@ -89,7 +89,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((done, waiter)) = self.waiter.take() {
             drop(done);
-            // If the thread failed, there is no bar to remove.
+            // Ignore the result: a thread that has failed shows no bar.
             let _ = waiter.join();
         }
         self.bar.finish_and_clear();

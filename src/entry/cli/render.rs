@@ -48,7 +48,7 @@ impl Render {
         }
         let mut files = source::files(&self.scenes).map_err(|c| vec![c])?;
         if files.iter().any(|file| file == Path::new("-")) {
-            let why = "--watch looks at files; standard input (-) cannot be saved again";
+            let why = "--watch needs files; standard input (-) cannot be read again";
             return Err(vec![CliError::CommandLine(why.into())]);
         }
         files.extend(self.look.file().map(Path::to_path_buf));
@@ -118,7 +118,7 @@ impl Render {
         let why = if self.block.is_some() && !is_freebody {
             "--block names the block of a free-body diagram; add --kind freebody"
         } else if self.corners && !is_freebody {
-            "--corners is about the forces of a free-body diagram; add --kind freebody"
+            "--corners applies to the forces of a free-body diagram; add --kind freebody"
         } else if self.animate.is_some()
             && (format.animate().is_none() || self.kind.panels().is_none())
         {
@@ -135,11 +135,11 @@ impl Render {
         let is_stdout = matches!(destination, Destination::Stdout);
         let varies = self.kind.needs_sensitivity();
         let why = if self.margin.is_some() && !self.kind.needs_margins() && !varies {
-            "--margin is about the direction of a margin; add --kind margin or --kind sensitivity"
+            "--margin selects the margin of a figure; add --kind margin or --kind sensitivity"
         } else if self.margin.is_some() && self.toward().is_none() && !varies {
-            "--margin friction and --margin kernel have no picture of how it falls; add --kind sensitivity"
+            "--kind margin cannot show the margins friction and kernel; use --kind sensitivity"
         } else if self.capacity.are_requested() && !self.kind.needs_capacity() {
-            "--capacity names the block of a figure of the forces that it can carry; add --kind capacity"
+            "--capacity selects the block of a capacity figure; add --kind capacity"
         } else if self.writes_parts() && (self.kind.panels().is_none() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
@@ -148,12 +148,12 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// True if a figure becomes several files.
+    /// True if each figure is written as several files, with `--panels` or `--pages`.
     fn writes_parts(&self) -> bool {
         self.panels || self.pages
     }
 
-    /// Analyses and draws the scenes in parallel, or two of them as one figure if `joins` is set.
+    /// Analyses and draws the scenes in parallel. If `joins` is true, two scenes become one figure that compares them.
     fn render_all(
         &self,
         sources: &[Source],
@@ -186,7 +186,8 @@ impl Render {
         }
     }
 
-    /// Refuses numbers of scenes that do not fit the destination, before any scene is read.
+    /// Returns an error if several scenes would go to one file or to standard output, or if a terminal would show
+    /// binary data. Reads no scene.
     fn check_count(
         &self,
         scenes: &[PathBuf],
@@ -206,11 +207,11 @@ impl Render {
             Destination::File(path) if scenes.len() > 1 => {
                 let (count, shown) = (scenes.len(), path.display());
                 format!(
-                    "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
+                    "{count} scenes cannot be written to the one file {shown}; give a folder, with a slash at the end of its name"
                 )
             }
             Destination::Stdout if scenes.len() > 1 => {
-                "only one picture at a time goes to standard output; give a folder".into()
+                "only one picture can be written to standard output; give a folder".into()
             }
             Destination::Stdout if terminal.is_watched() => match format.unreadable() {
                 Some(why) => why,
@@ -250,7 +251,7 @@ impl Render {
             && !self.writes_parts()
             && analysis.frames.len() > MANY
         {
-            // A figure that is too large for a PNG is refused before it is laid out.
+            // Check the size before the layout, which takes long for a figure with many frames.
             let size = figure::least_size(&analysis, kind, options);
             self.picture.check_png(size).map_err(split)?;
         }
@@ -330,7 +331,7 @@ impl Render {
         self.margin.and_then(|margin| Toward::from_margin(margin.0))
     }
 
-    /// Analyses a scene, with the margins that the figure states or needs.
+    /// Analyses a scene, and computes the margins that this kind of figure shows.
     fn analysed(&self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         match self.kind.panels() {
             Some(kind) => kind.analysed(scene, asked),

@@ -1,4 +1,4 @@
-//! `drystone report`: reports on many scenes, on one page for people.
+//! `drystone report`: writes a report on one or more scenes as HTML, Markdown, PDF or JSON.
 
 mod content;
 mod task;
@@ -99,7 +99,8 @@ impl Report {
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let (tasks, mut notes) = self.tasks()?;
         self.check_targets(&tasks, form).map_err(|c| vec![c])?;
-        // A page that follows the reader's system needs light and dark figures.
+        // Without a chosen theme, a web page follows the light or dark mode of the reader's system, so it needs figures
+        // for both.
         let follows = matches!(form, Form::Html | Form::Split) && !self.look.is_chosen();
         let wanted = ReportOptions {
             theme,
@@ -124,7 +125,7 @@ impl Report {
             return Err(complaints);
         }
         if self.compare && pieces.len() > 1 {
-            let words = "In the table, margins, friction, blocks and largest forces are those of the second scenes.";
+            let words = "The table shows the margins, friction, blocks and largest forces of the second scene of each pair.";
             notes.push(words.to_owned());
         }
         for complaint in &complaints {
@@ -149,7 +150,7 @@ impl Report {
         })
     }
 
-    /// Refuses to write the report over one of its inputs.
+    /// Returns an error if the report would overwrite one of its inputs.
     fn check_targets(&self, tasks: &[Task], form: Form) -> Result<(), CliError> {
         let main = match form {
             Form::Split => self.output.join("index.html"),
@@ -160,8 +161,8 @@ impl Report {
         destination::apart(&[main], &inputs)
     }
 
-    /// Describes all tasks. Returns the parts of the report, the files that are not valid scenes, and the worst exit
-    /// status.
+    /// Analyses the scenes of all tasks. Returns the parts of the report, the files that are not valid scenes, and the
+    /// worst exit status.
     fn describe_all(
         &self,
         tasks: &[Task],
@@ -196,7 +197,7 @@ impl Report {
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
         let described: Vec<Result<Described, CliError>> = if self.accuracy_study {
-            // Scenes are analysed one after the other, because simultaneous work would disturb the times.
+            // Analyse one scene after the other, because parallel work would disturb the measured times.
             numbered.iter().map(one).collect()
         } else {
             numbered.par_iter().map(one).collect()
@@ -265,7 +266,7 @@ impl Report {
         }
     }
 
-    /// Makes the part of the report for one task. `number` is the number of the task.
+    /// Analyses the scenes of one task and makes its part of the report. `number` counts the tasks from 1.
     fn describe(
         &self,
         task: &Task,
@@ -279,7 +280,7 @@ impl Report {
             Err(wrong) => return Ok(Err(wrong)),
         };
         if form == Form::Pdf {
-            // A PDF contains text in the fonts of drystone, so characters that they lack are replaced.
+            // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
             for (source, _) in &mut read {
                 source.scene = script::legible(&source.scene, &Fonts::default());
             }
@@ -336,7 +337,7 @@ impl Report {
         for (number, (name, bytes)) in made.into_iter().enumerate() {
             let path = match (form, number) {
                 (Form::Split, _) | (_, 1..) => folder.join(name),
-                // Use the path as typed: its ending may be in upper case.
+                // Use the path as the user typed it: its extension may be in upper case.
                 _ => self.output.clone(),
             };
             files.push((path, bytes));

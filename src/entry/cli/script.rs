@@ -21,7 +21,7 @@ pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
             more => format!(" and {more} more"),
         };
         terminal.complain(&Page::new(&format!(
-            "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
+            "warning: {}: no font has {}{more}; they are shown as code points. Give a font that has them with \
              --font FILE",
             source.name(),
             shown.join(" ")
@@ -62,8 +62,8 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     scene
 }
 
-/// Describes a character: itself and its code point, or only the code point if the character would change its
-/// neighbours.
+/// Returns a letter or digit with its code point, such as `א (U+05D0)`. For any other character, returns only the code
+/// point, because the character may change its neighbours.
 fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
     if c.is_alphanumeric() {

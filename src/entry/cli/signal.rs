@@ -1,6 +1,6 @@
 //! Handles signals: deletes temporary files before a signal ends the process.
 //!
-//! The only file that names signal-hook. Other systems than Unix end a process without a word, and need nothing here.
+//! No other file uses `signal-hook`. Only Unix systems have such signals.
 
 #[cfg(unix)]
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};

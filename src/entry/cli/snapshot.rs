@@ -92,8 +92,8 @@ impl Snapshot {
         drop(turn);
         self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
-            // These files only help people to inspect the difference. The result of the command does not depend on
-            // them.
+            // Without --accept, the unwritten files would only help people to inspect the difference. The exit code
+            // does not depend on them.
             Err(failed) if !accepts => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));
@@ -108,7 +108,7 @@ impl Snapshot {
         Ok(ending(&report))
     }
 
-    /// Writes the review page and the JUnit file, if the options name them.
+    /// Writes the review page if `--review` names a file, and the JUnit file if `--junit` is given.
     fn write_reports(&self, report: &CheckOutcome, page: String) -> Result<(), CliError> {
         let mut written = Vec::new();
         if let Some(Some(file)) = &self.review {
@@ -135,11 +135,11 @@ impl Snapshot {
             }
         }
         if asks && accepts {
-            return refuse("--accept takes everything and --review asks; leave one of them out");
+            return refuse("--accept accepts all changes, and --review asks about each; leave one of them out");
         }
         if store::in_ci() && !self.accept_in_ci && (self.accept || asks) {
             return refuse(
-                "CI is set, where nobody looks before references are accepted; accept them on your own machine, or with \
+                "CI is set, so nobody would inspect the new references; accept them on your own machine, or with \
                  --accept-in-ci if this is meant",
             );
         }

@@ -1,4 +1,4 @@
-//! Reads all scenes of a command before the command does anything else.
+//! Reads the scenes of a command: files, the files in folders, or standard input.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -19,17 +19,17 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Returns the name of the file without folders and ending; `scene` for standard input.
+    /// Returns the file name without folders and extension; `scene` for standard input.
     pub(crate) fn stem(&self) -> String {
         stem(&self.path)
     }
 
-    /// Returns the name of the scene in messages.
+    /// Returns the path of the file for messages; `standard input` for `-`.
     pub(crate) fn name(&self) -> String {
         name(&self.path)
     }
 
-    /// Reduces the scene to one of its frames.
+    /// Removes all frames of the scene but one. Returns an error if there is no such frame.
     fn only_frame(&mut self, choice: FrameChoice) -> Result<(), CliError> {
         let count = self.scene.frames.len();
         let number = match choice {
@@ -76,7 +76,7 @@ impl FrameChoice {
 impl FromStr for FrameChoice {
     type Err = String;
 
-    /// Parses a frame: a number from 1, a letter as in the figure (`a`, `b`, … `z`, `aa`, …), or `last`.
+    /// Parses a frame: its number, counted from 1, its letter in the figure (`a`, `b`, … `z`, `aa`, …), or `last`.
     fn from_str(typed: &str) -> Result<FrameChoice, String> {
         if typed == "last" {
             return Ok(FrameChoice::Last);
@@ -103,8 +103,8 @@ impl FromStr for FrameChoice {
     }
 }
 
-/// Reads all scenes, or returns all problems of all scenes. A `tolerance` in metres replaces the tolerances of the
-/// scenes.
+/// Reads all scenes, or returns the errors of all files that cannot be read. With `frame`, each scene keeps only this
+/// frame. A `tolerance` in metres replaces the contact tolerances of the scenes.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -116,8 +116,8 @@ pub(crate) fn read(
     }
 }
 
-/// Reads all scenes. Returns the scenes, and separately the errors of files on which the program itself failed. If
-/// another file cannot be read, returns all problems of all files.
+/// Reads all scenes. Returns the scenes, and separately the errors of files on which the program itself failed. If any
+/// file has another error, returns the errors of all files instead.
 pub(crate) fn read_apart_from_faults(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -140,8 +140,8 @@ pub(crate) fn read_apart_from_faults(
 /// A path as given, with the scene that was read from it, or the error.
 pub(crate) type Outcome = (PathBuf, Result<Source, CliError>);
 
-/// Reads the scenes, each with its own result, in the given order. The files of a folder are read in the order of their
-/// names.
+/// Reads all scenes, and returns a scene or an error for each file. The files are in the order of `paths`, and the
+/// files of a folder in the order of their names.
 pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -198,7 +198,7 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, CliError> {
     Ok(with_text(path, tolerance)?.0)
 }
 
-/// Reads one scene and keeps its text.
+/// Reads one scene. Returns it with the text of its file.
 pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, String), CliError> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
@@ -223,13 +223,13 @@ pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, 
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
 }
 
-/// Runs `work` for one scene file. An internal fault becomes a problem of that file.
+/// Runs `work` for one scene file. A panic in `work` becomes an error of this file.
 pub(crate) fn isolated<R>(path: &Path, work: impl FnOnce() -> R) -> Result<R, CliError> {
     let name = name(path);
     isolate(&name, work).map_err(|problems| CliError::Scene { name, problems })
 }
 
-/// Returns the name of a file without folders and ending; `scene` for standard input.
+/// Returns the file name of a path without folders and extension; `scene` for standard input.
 pub(crate) fn stem(path: &Path) -> String {
     if path == Path::new("-") {
         return "scene".into();
@@ -238,7 +238,7 @@ pub(crate) fn stem(path: &Path) -> String {
     stem.to_string_lossy().into_owned()
 }
 
-/// Returns the name of a file in messages.
+/// Returns a path as text for messages; `standard input` for `-`.
 pub(crate) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "standard input".into()

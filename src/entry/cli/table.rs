@@ -33,10 +33,10 @@ const MEANINGS: [[&str; 2]; 16] = [
     ["between", "the two bodies"],
     [
         "friction",
-        "the largest share of the friction limit that a contact uses",
+        "the largest ratio of friction force to friction limit at any contact",
     ],
-    ["robots", "the largest share of a limit that a robot uses"],
-    ["-", "does not exist, because the frame falls"],
+    ["robots", "the largest ratio of a robot's force or torque to its limit"],
+    ["-", "no value, because the frame falls"],
     [
         "comes off",
         "the two bodies separate; the number is the pull that would have to hold them together",
@@ -69,7 +69,7 @@ const MEANINGS: [[&str; 2]; 16] = [
 /// The indentation of the meanings, and the width of their lines on wide terminals, in columns.
 const MEANING: [usize; 2] = [10, 68];
 
-/// Explains the words of the table, for a terminal of `width` columns.
+/// Returns the words of the tables with their meanings, in lines of at most `width` columns.
 pub(crate) fn explained(width: Option<usize>) -> Page {
     let [indent, most] = MEANING;
     let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
@@ -171,7 +171,8 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     (0..heads.len()).map(widest).collect()
 }
 
-/// Shortens titles and names so that rows have at most `width` columns. Returns false if that is not possible.
+/// Shortens the titles of frames and the names of bodies so that rows have at most `width` columns. Returns false if
+/// that is not possible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
     let least = [SHORTEST.max(seen(&heads[0])), seen(&heads[BETWEEN])];
     for (column, least) in [
@@ -212,7 +213,7 @@ fn taken(widths: &[usize]) -> usize {
 }
 
 /// Writes the cells of a row. Words are aligned to the left of their columns, and numbers to the right. The second
-/// style is for the verdict.
+/// style is for the verdict, the first for all other cells.
 fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
@@ -229,7 +230,7 @@ fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2])
     page.end();
 }
 
-/// Writes the cells of a row below each other: the frame, and then each value after its name.
+/// Writes the cells of a row on separate lines: first the frame, then each value after the name of its column.
 fn record(page: &mut Page, heads: &[String], cells: &[String], styles: [Style; 2]) {
     page.line(&format!("  {}", cells[0]));
     let widest = heads.iter().map(|head| seen(head)).max().unwrap_or(0);
@@ -242,7 +243,7 @@ fn record(page: &mut Page, heads: &[String], cells: &[String], styles: [Style; 2
     }
 }
 
-/// Shortens text to at most `most` columns; the mark `…` replaces the rest.
+/// Shortens text to at most `most` columns. The character `…` replaces the rest.
 fn shortened(words: &str, most: usize) -> String {
     if seen(words) <= most {
         return words.into();
@@ -258,7 +259,8 @@ fn shortened(words: &str, most: usize) -> String {
     short + "…"
 }
 
-/// Names a frame by its title, and by its letter if there are several frames.
+/// Returns the name of a frame: its title, with its letter if there are several frames, or `all` for a single frame
+/// without a title.
 fn label(scene: &Scene, number: usize, title: &str) -> String {
     let title = heading(title, TITLE);
     match (scene.frames.len(), title.is_empty()) {
@@ -269,8 +271,7 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
 }
 
 fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
-    // A frame that falls has no balanced forces: the forces found include the missing forces. Therefore they are not
-    // shown.
+    // The forces of a frame that falls are balanced only together with the missing forces, so they are not shown.
     let stands = frame.verdict == Verdict::Stable;
     let exists = |cell: String| if stands { cell } else { "-".into() };
     let force = |contact: &Contact| contact.resultant.force.norm();
@@ -298,7 +299,7 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
     ]
 }
 
-/// Writes the sums, the proof and the time in one line.
+/// Returns a line with the sum of all forces, the sum of the missing forces, the proof and the time.
 fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
     let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
         (true, _) => "unknown".into(),
@@ -316,7 +317,7 @@ fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
     words
 }
 
-/// True if a frame falls and its missing forces were not computed.
+/// True if a frame falls but its missing forces were not computed.
 fn is_left_out(frame: &FrameAnalysis) -> bool {
     let falls = frame.verdict == Verdict::Unstable;
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()

@@ -38,7 +38,7 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// Returns the streams of the process with these output options.
+    /// Returns the standard output and standard error of the process, with these options for messages and colours.
     pub(crate) fn new(voice: OutputArgs) -> Terminal {
         let choice = match voice.color {
             Colour::Auto => ColorChoice::Auto,
@@ -69,7 +69,7 @@ impl Terminal {
         columns(terminal_size::terminal_size_of(io::stdout()))
     }
 
-    /// Prints a result for people, at most as wide as the terminal.
+    /// Prints a page to standard output, in lines that are at most as wide as the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
@@ -80,7 +80,7 @@ impl Terminal {
         )
     }
 
-    /// Prints bytes unchanged: a picture, or JSON that is already escaped.
+    /// Prints bytes to standard output unchanged: a picture, or JSON that is already escaped.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
         let mut stream = io::stdout().lock();
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
@@ -98,12 +98,12 @@ impl Terminal {
         }
     }
 
-    /// Prints an error of a command to standard error.
+    /// Prints the message of an error to standard error.
     pub(crate) fn refuse(&self, complaint: &CliError) {
         self.complain(&complaint.page(error_width()));
     }
 
-    /// Prints an error message to standard error.
+    /// Prints a page to standard error, also with `--quiet`.
     pub(crate) fn complain(&self, page: &Page) {
         let page = fitted(page, error_width());
         let mut stream = anstream::stderr().lock();
@@ -129,7 +129,8 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
     }
 }
 
-/// Converts an error of writing. A closed pipe counts as success: its reader needs no more output.
+/// Converts the result of writing to standard output. A closed pipe counts as success, because its reader needs no more
+/// output.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {

@@ -17,9 +17,9 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// The time of change and the size of a file in bytes; `None` while an editor replaces the file.
 type Mark = Option<(SystemTime, u64)>;
 
-/// Runs a command, and runs it again after every change of a file, until the process is ended.
+/// Runs a command, and runs it again whenever one of the files changes, until the process is stopped.
 ///
-/// Errors are printed, and watching continues: the next change may correct them.
+/// Errors of a run are printed, and the next change of a file starts the next run.
 pub(crate) fn repeat(
     files: &[PathBuf],
     terminal: &Terminal,
@@ -32,7 +32,7 @@ pub(crate) fn repeat(
                 terminal.refuse(complaint);
             }
         }
-        // A change during the run counts too. If a file is still being written, wait until it is complete.
+        // A change during the run counts too. If a file is still being written, wait until it stays unchanged.
         let mut last = marks(files);
         loop {
             thread::sleep(PAUSE);

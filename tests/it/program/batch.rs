@@ -379,7 +379,7 @@ fn what_was_made_from_something_else_is_not_resumed() {
     for (input, said) in [
         (
             other.concat(),
-            "line 5 of out.ndjson answers another scene than in.ndjson, line 5 has now",
+            "line 5 of out.ndjson answers another scene than in.ndjson, line 5 now contains",
         ),
         (
             towers[..7].concat(),

@@ -55,7 +55,7 @@ fn crossings_and_what_has_no_place_are_told_apart() {
 fn the_refusal_offers_the_picture_where_there_is_something_to_see() {
     let bench = Bench::new();
     fs::write(bench.path("door.json"), doorway("")).expect("written");
-    let offer = "drystone render --broken draws its outlines";
+    let offer = "drystone render --broken draws the outlines";
     assert!(bench.run("check door.json").err.contains(offer));
     assert!(bench.run("render door.json -o a.svg").err.contains(offer));
     fs::write(bench.path("empty.json"), "{}").expect("written");

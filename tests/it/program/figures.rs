@@ -180,7 +180,7 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
     for (line, said) in [
         (
             "render stone.json -o s.png --font stone.json",
-            "it is no font",
+            "it is not a font",
         ),
         ("render stone.json -o s.png --font none.ttf", "none.ttf"),
     ] {

@@ -19,8 +19,8 @@ pub(super) struct Inputs {
     pub bytes: Option<u64>,
 }
 
-/// Collects the inputs of some paths. If pictures are drawn, it refuses inputs whose pictures would have the same
-/// name.
+/// Lists the input files for the paths of the command line. A folder is replaced by the scene files in it. If `drawn`
+/// is true, returns an error for files whose pictures would have the same name.
 pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>> {
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
@@ -43,7 +43,8 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         return Err(complaints);
     }
     let sizes = files.iter().map(|path| match path == stdin {
-        // A file that a shell redirects to standard input has a size too, if the system has a path for it.
+        // If a shell redirects a file to standard input, `/dev/stdin` has the size of this file. Not all systems have
+        // this path.
         true => size(Path::new("/dev/stdin")),
         false => size(path),
     });
@@ -71,7 +72,7 @@ pub(super) fn origin(record: &Record) -> Origin {
     }
 }
 
-/// Describes the place of a record in messages.
+/// Returns the file and the line of a record as text for messages, such as `scenes.ndjson, line 3`.
 pub(super) fn shown(record: &Record) -> String {
     let file = match &record.file {
         Some(file) => file.display().to_string(),
@@ -83,7 +84,7 @@ pub(super) fn shown(record: &Record) -> String {
     }
 }
 
-/// Returns the file name of a record's picture, without its ending.
+/// Returns the file name of a record's picture without the extension, such as `scenes-0000003` for line 3.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);
     match (stem, record.line) {
@@ -117,7 +118,7 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// Returns the path itself, or, for a folder, the scene files in it in the order of their names.
+/// Returns the scene files in a folder, sorted by name. Any other path is returned unchanged.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),
@@ -147,7 +148,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     }
 }
 
-/// Reports files whose pictures would have the same name.
+/// Returns an error for each pair of files whose pictures would have the same name.
 fn one_name(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut complaints = Vec::new();

@@ -71,7 +71,7 @@ impl Output {
             output.waiting.extend_from_slice(csv::HEADER.as_bytes());
             return Ok(output);
         }
-        // A device or a pipe does not keep the answers, so a later run cannot continue them.
+        // A device or a pipe does not store the answers, so a later run could not continue them.
         let is_kept = file.metadata().map_err(not_written)?.is_file();
         let log = match is_kept {
             true => Some(ResumeFile::create(path, &target.settings)?),
@@ -99,8 +99,7 @@ impl Output {
         self.done
     }
 
-    /// Writes the line that answers a scene. `scene` is the hash of the scene. Returns `Break` if the reader has closed the
-    /// output.
+    /// Writes the output line of one scene, whose hash is `scene`. Returns `Break` if the reader has closed the pipe.
     pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
         self.waiting.extend_from_slice(line);
         if let Some(resume) = &mut self.resume {
@@ -112,7 +111,7 @@ impl Output {
         }
     }
 
-    /// Writes everything that is still in memory, so that a reader sees it.
+    /// Writes all lines that are still in memory. Returns `Break` if the reader has closed the pipe.
     pub fn flush(&mut self) -> Result<ControlFlow<()>, CliError> {
         if let Some(resume) = &mut self.resume {
             resume.flush()?;

@@ -32,7 +32,8 @@ pub(super) struct Pace<'t> {
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> Pace<'t> {
-    /// Starts to measure the time.
+    /// Starts the clock. `every` is the interval between two reports in seconds, `all` the size of the inputs in bytes,
+    /// and `read` counts the bytes read so far.
     pub fn begin(
         terminal: &'t Terminal,
         every: Option<f64>,
@@ -54,7 +55,7 @@ impl<'t> Pace<'t> {
         }
     }
 
-    /// Counts scenes that an earlier run has answered.
+    /// Sets the number of scenes that an earlier run has answered, and restarts the clock.
     pub fn skipped(&mut self, scenes: usize) {
         self.before = scenes;
         self.read_before = self.read.load(Ordering::Relaxed);
@@ -125,7 +126,7 @@ impl<'t> Pace<'t> {
     }
 }
 
-/// Describes a duration.
+/// Returns a duration in at most two units: `59 s`, `3 min 20 s` or `1 h 2 min`.
 fn span(seconds: f64) -> String {
     let whole = seconds.round().max(0.0) as u64;
     match (whole / 3600, whole / 60 % 60, whole % 60) {
@@ -135,7 +136,7 @@ fn span(seconds: f64) -> String {
     }
 }
 
-/// Parses the interval between two reports, in seconds.
+/// Parses the interval between two progress reports, in seconds.
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),

@@ -1,4 +1,5 @@
-//! [`ResumeFile`]: a file next to the output with the options of the run and hashes of each line and its scene.
+//! [`ResumeFile`]: a file next to the output. It stores the options of the run, and for each output line the hash of
+//! the scene and the hash of the line.
 //!
 //! The output contains only one line of JSON for each scene, so the record has a file of its own:
 //! `answers.ndjson.resume` for `answers.ndjson`. It begins with the options, one `name: value` per line, and an empty
@@ -38,8 +39,8 @@ impl Settings {
         header
     }
 
-    /// Compares the settings with those of an earlier run, given by its header. Describes each difference by its name,
-    /// the earlier value and the present value.
+    /// Compares the settings with those of an earlier run; `earlier` is the header of its resume file. Returns a text
+    /// for each setting that differs, with its name, its earlier value and its present value.
     fn differences(&self, earlier: &str) -> Vec<String> {
         let value_then = |name: &str| {
             let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));
@@ -70,7 +71,7 @@ fn read_header(entries: &mut impl BufRead) -> Option<String> {
     }
 }
 
-/// Returns the hash of a scene as it was read, or of the reason why it could not be read.
+/// Returns the hash of the bytes of a scene, or of the error message if the scene could not be read.
 pub(super) fn record_hash(record: &Record) -> u64 {
     match &record.bytes {
         Ok(bytes) => text::hash(bytes),
@@ -88,14 +89,14 @@ pub(super) struct ResumeFile {
 }
 
 impl ResumeFile {
-    /// Returns the path of the resume file of an output.
+    /// Returns the path of the resume file of an output file: `answers.ndjson.resume` for `answers.ndjson`.
     pub fn path_for(output: &Path) -> PathBuf {
         let mut path = output.as_os_str().to_owned();
         path.push(ENDING);
         path.into()
     }
 
-    /// Creates a new resume file.
+    /// Creates the resume file of an output file, and writes the settings to it.
     pub fn create(output: &Path, settings: &Settings) -> Result<ResumeFile, CliError> {
         let path = ResumeFile::path_for(output);
         let created = File::create(&path).and_then(|mut file| {
@@ -112,14 +113,15 @@ impl ResumeFile {
         }
     }
 
-    /// Adds the entry of an answer. The entry stays in memory until [`ResumeFile::flush`] writes it.
+    /// Adds the entry of an output line; `scene` is the hash of its scene. The entry stays in memory until
+    /// [`ResumeFile::flush`] writes it.
     pub fn push(&mut self, scene: u64, line: &[u8]) {
         // Writing to a `String` cannot fail.
         let _ = writeln!(self.waiting, "{}", entry(scene, line));
     }
 
-    /// Writes the entries to the file. Call it before the answers are written. A run that is killed then leaves at
-    /// least as many entries as answers.
+    /// Writes the waiting entries to the file. Call this before the output lines are written, so that a run that is
+    /// killed leaves at least as many entries as output lines.
     pub fn flush(&mut self) -> Result<(), CliError> {
         let written = self.file.write_all(self.waiting.as_bytes());
         self.waiting.clear();
@@ -127,7 +129,8 @@ impl ResumeFile {
     }
 }
 
-/// Makes the entry of an output line. `line` has no line feed.
+/// Returns the entry of an output line, without a line feed: the hash of the scene and the hash of the line, in
+/// hexadecimal. `line` includes its line feed.
 fn entry(scene: u64, line: &[u8]) -> String {
     format!("{scene:016x} {:016x}", text::hash(line))
 }
@@ -157,11 +160,11 @@ pub(super) struct Checked {
     resume_bytes: u64,
 }
 
-/// Reads one scene from the input for each complete line of the output, and checks that the line answers this scene.
-/// Changes no file.
+/// Compares each complete line of an existing output with its entry in the resume file and with the next scene of the
+/// input. Changes no file.
 ///
 /// # Errors
-/// The first difference, with the remedy.
+/// Returns the first difference, and says what to do about it.
 pub(super) fn check(
     output: &Path,
     settings: &Settings,
@@ -210,8 +213,8 @@ pub(super) fn check(
     }
 }
 
-/// Opens the resume file of an output after its header, and checks that the options are those of the earlier run. Also
-/// returns the length of the header in bytes.
+/// Opens the resume file of an output, reads its header, and checks that this run has the same options. Returns a
+/// reader of the entries, and the length of the header in bytes.
 fn open_entries(
     output: &Path,
     path: &Path,
@@ -245,14 +248,15 @@ fn open_entries(
     Ok((entries, header.len() as u64))
 }
 
-/// Makes the error of a run that cannot be continued, with the remedy.
+/// Returns the error for an output that `--resume` cannot continue. `why` is the reason; the message also says what to
+/// do.
 fn refused(why: &str) -> CliError {
     CliError::CommandLine(format!(
         "{why}. Give another output, or leave out --resume to answer every scene again"
     ))
 }
 
-/// Checks that a line is unchanged since it was written, and that it answers this scene. The error states the
+/// Checks that an output line is unchanged since it was written, and that it answers this scene. The error states the
 /// difference.
 fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
@@ -269,12 +273,12 @@ fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> 
         ));
     }
     if found[..16] != expected[..16] {
-        return Err(format!("answers another scene than {now} has now"));
+        return Err(format!("answers another scene than {now} now contains"));
     }
     Ok(())
 }
 
-/// Opens an output and its resume file for appending. Both are truncated after the checked part.
+/// Opens an output and its resume file for appending, and deletes everything after the checked part of each file.
 pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFile), CliError> {
     let path = ResumeFile::path_for(output);
     let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;
@@ -294,7 +298,7 @@ fn cut(path: &Path, bytes: u64) -> io::Result<File> {
     Ok(file)
 }
 
-/// True if the output contains lines that a run can continue.
+/// True if the output file exists and is not empty. Returns an error if the path is not a regular file.
 pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
     match fs::metadata(output) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

@@ -61,8 +61,8 @@ impl Render {
         }
     }
 
-    /// Reads and draws one scene. The inner error means that the program itself failed on this scene; the others can
-    /// still be drawn.
+    /// Reads one scene and draws its outlines. The inner error means that the program itself failed on this scene;
+    /// other scenes can still be drawn.
     fn sketch(
         &self,
         path: &Path,
@@ -86,7 +86,7 @@ impl Render {
         }
     }
 
-    /// Writes the pictures, all or none.
+    /// Writes all picture files or none. The destination may also be standard output.
     fn write_sketches(
         &self,
         destination: &Destination,
@@ -112,7 +112,7 @@ impl Render {
     }
 }
 
-/// Returns a path for each scene; the paths are empty for standard output.
+/// Returns a path for each of `count` scenes. For standard output, which has no paths, all of them are empty.
 fn targets_of(paths: &[PathBuf], count: usize) -> Vec<PathBuf> {
     let mut paths = paths.to_vec();
     paths.resize(count, PathBuf::new());

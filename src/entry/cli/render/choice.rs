@@ -1,4 +1,4 @@
-//! The values of the options of `drystone render`, and the corresponding options of a figure.
+//! The types of the option values of `drystone render`, and their conversion to the options of a figure.
 
 use std::sync::LazyLock;
 
@@ -80,7 +80,7 @@ impl KindChoice {
         self.panels().is_some_and(figure::Kind::needs_margins)
     }
 
-    /// True if the figure shows how a margin changes.
+    /// True if the figure shows the sensitivity of a margin: how it changes with the input.
     pub(super) fn needs_sensitivity(self) -> bool {
         self.panels().is_some_and(figure::Kind::needs_sensitivity)
     }

@@ -1,4 +1,5 @@
-//! Draws figures for a caller in the same process, from the options of `render` as words and an existing analysis.
+//! Draws figures of an existing analysis for a caller in the same process, such as the Python module. The options are
+//! words, as on the command line of `render`.
 
 use clap::Parser;
 
@@ -22,7 +23,7 @@ struct Line {
     render: Render,
 }
 
-/// Parses the options. Returns them with the format of the file ending, and the fonts that they name.
+/// Parses the options of `render`. Returns them, the format for the file extension `ending`, and the fonts of `--font`.
 fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), String> {
     let output = format!("figure.{ending}");
     let head = ["figure", "scene.json", "-o", output.as_str()];
@@ -31,7 +32,7 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
         .map_err(|error| error.render().to_string())?
         .render;
     if render.panels || render.pages || render.watch || render.strict || render.frame.is_some() {
-        let why = "panels, pages, watch, strict and frame are options of the command line only";
+        let why = "the options panels, pages, watch, strict and frame are available on the command line only";
         return Err(why.into());
     }
     let format = Format::from_ending(ending).ok_or_else(|| {
@@ -49,7 +50,7 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
 /// `render`, and `ending` selects the format.
 ///
 /// # Errors
-/// A message, if `render` does not accept the words, or if the picture cannot be written.
+/// Returns a message if `render` does not accept the words, or if the picture cannot be written.
 pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result<Vec<u8>, String> {
     let (render, format, fonts) = parsed(words, ending)?;
     let drawn = || {
@@ -89,10 +90,11 @@ pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result
     drawn().map_err(|error| words_of(&error))
 }
 
-/// Draws the outlines of a scene that is not valid, with its problems marked and numbered, and returns the bytes.
+/// Draws the outlines of a scene that is not valid, with its problems marked and numbered, and returns the bytes of the
+/// picture. `text` is the scene as JSON.
 ///
 /// # Errors
-/// As [`figure`].
+/// Returns a message in the same cases as [`figure`].
 pub(crate) fn sketch(words: &[String], ending: &str, text: &str) -> Result<Vec<u8>, String> {
     let (render, format, fonts) = parsed(words, ending)?;
     let drawn = || {

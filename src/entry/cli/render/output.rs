@@ -1,4 +1,4 @@
-//! Writes rendered figures.
+//! Writes rendered figures to files or to standard output.
 
 use std::path::{Path, PathBuf};
 
@@ -21,8 +21,8 @@ pub(super) struct Rendered {
     pub(super) summary: String,
 }
 
-/// Returns the results and their paths without the scenes on which the program itself failed. The errors of these
-/// scenes are added to `faults`.
+/// Moves the errors of scenes on which the program itself failed to `faults`. Returns the other results with their
+/// paths.
 pub(super) fn without_faults(
     rendered: Vec<Result<Rendered, CliError>>,
     paths: Vec<PathBuf>,
@@ -31,7 +31,7 @@ pub(super) fn without_faults(
     let (mut results, mut targets) = (Vec::new(), Vec::new());
     let mut paths = paths.into_iter();
     for result in rendered {
-        // There is no path for standard output.
+        // Standard output has no paths, so `path` may be `None`.
         let path = paths.next();
         match result {
             Err(complaint) if complaint.is_internal_fault() => faults.push(complaint),
@@ -77,7 +77,7 @@ impl Render {
         Ok(())
     }
 
-    /// Names the files of a figure: `a.pdf`, or the first and the last of its parts: `a-1.pdf to a-3.pdf`.
+    /// Returns the name of a figure's file, `a.pdf`, or the names of its first and last file, `a-1.pdf to a-3.pdf`.
     fn written(&self, path: &Path, parts: usize) -> String {
         let first = self.target(path, 0).display().to_string();
         match parts {
@@ -87,7 +87,8 @@ impl Render {
         }
     }
 
-    /// Returns the file for one part of a figure, counted from 0; the path itself if a figure is one file.
+    /// Returns the path of one part of a figure; `number` counts the parts from 0. If the figure is one file, returns
+    /// the path unchanged.
     fn target(&self, path: &Path, number: usize) -> PathBuf {
         if self.pages {
             part_path(path, &(number + 1).to_string())
@@ -116,7 +117,7 @@ pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<Cl
     }
 }
 
-/// Counts the verdicts of the frames: `6 frames: 5 stand, 1 falls`.
+/// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`.
 pub(super) fn summary(analysis: &Analysis) -> String {
     let count = |verdict| {
         analysis

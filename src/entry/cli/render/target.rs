@@ -8,7 +8,7 @@ use crate::cli::destination::Destination;
 use crate::cli::picture::Format;
 use crate::cli::source::{name, stem};
 
-/// Returns the path of a part of a figure: `name-a.svg` for `name.svg`.
+/// Returns the path of one part of a figure: `name-a.svg` for the figure `name.svg` and the part `a`.
 pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
     let text = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
     let stem = text(path.file_stem()).unwrap_or_default();

@@ -6,7 +6,7 @@ use crate::cli::source::Source;
 use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
 
-/// Makes the entry of one scene, or of two scenes that are compared. `None` if there is no scene.
+/// Returns the report entry of one scene, or of two scenes that are compared. Returns `None` if there is no scene.
 pub(super) fn entry(
     read: &[(Source, String)],
     analyses: &[Analysis],
@@ -30,8 +30,8 @@ pub(super) fn entry(
     }
 }
 
-/// Replaces characters that drystone's fonts do not have in the figures of an entry. The other text stays unchanged:
-/// the program that shows the Markdown has its own fonts.
+/// If a scene has characters that drystone's fonts lack, draws the figures of the entry again with code points instead
+/// of these characters. The other text stays unchanged, because the program that shows the Markdown has its own fonts.
 pub(super) fn make_figures_legible(
     entry: &mut Entry,
     read: &[(Source, String)],

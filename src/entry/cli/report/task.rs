@@ -13,7 +13,8 @@ pub(super) enum Task {
 }
 
 impl Report {
-    /// Returns the tasks of the report, and notes about files without a counterpart.
+    /// Returns the tasks of the report: single scenes, or pairs to compare. Also returns notes about files that only
+    /// one of two compared folders contains.
     pub(super) fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         if self.compare {
             return self.pairs();

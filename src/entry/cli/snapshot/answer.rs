@@ -27,8 +27,8 @@ enum Pictures {
 /// The size of a part of a picture in one message to kitty, in bytes.
 const PIECE: usize = 4096;
 
-/// Asks for each snapshot that differs whether to accept it: `y` accepts, `n` keeps the reference, `s` leaves it for later,
-/// `q` ends the review.
+/// Asks for each snapshot that differs whether to accept it: `y` accepts it, `n` and `s` keep the reference, and `q`
+/// ends the review. Returns an error if an accepted snapshot could not be written.
 pub(super) fn ask(
     terminal: &Terminal,
     report: &mut CheckOutcome,
@@ -46,7 +46,7 @@ pub(super) fn ask(
             page.words(&format!("{number} of {total}, {}: ", snapshot.name));
             page.ours("accept? y(es), n(o), s(kip), q(uit) ");
             terminal.print(&page).map_err(|c| vec![c])?;
-            // The end of the input does not count as yes.
+            // At the end of the input, no further snapshot is accepted.
             let Some(Ok(answer)) = answers.next() else {
                 break 'all;
             };
@@ -109,7 +109,8 @@ fn pictures(terminal: &Terminal) -> Pictures {
     }
 }
 
-/// Returns the escape sequence with which a terminal shows a picture. The picture is encoded in base-64.
+/// Returns the escape sequences that make a terminal show a PNG picture, with the picture encoded in base64. Returns
+/// nothing for a terminal that shows no pictures.
 fn drawn(png: &[u8], pictures: Pictures) -> Vec<u8> {
     let data = STANDARD.encode(png);
     match pictures {
