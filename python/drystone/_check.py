@@ -132,7 +132,7 @@ def asked(
     else:
         names = tuple(margins)
     if for_all is not None and capacity is None:
-        raise ValueError("for_all is about the forces that a block can carry; give capacity, too")
+        raise ValueError("for_all limits the forces that a block can carry, so it needs capacity too")
     where = None if capacity is None else place(capacity)
     return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all, sensitivity)
 

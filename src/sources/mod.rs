@@ -1,4 +1,4 @@
-//! Makes scene files from drawings, contact lists and assemblies, or from a few lengths and counts.
+//! Makes scene files from drawings, contact lists and assemblies, or from the dimensions of a common structure.
 
 #[cfg(feature = "import")]
 pub mod import;

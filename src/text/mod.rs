@@ -36,8 +36,8 @@ pub fn line(text: &str) -> String {
     text.chars().map(visible).collect()
 }
 
-/// Prepares text for a heading: like [`line()`], with single spaces between words. A text longer than `max_chars`
-/// characters is shortened with an ellipsis.
+/// Returns text for a heading: like [`line()`], but with single spaces between words. A text of more than `max_chars`
+/// characters is cut and ends with an ellipsis.
 pub fn heading(text: &str, max_chars: usize) -> String {
     let line = line(text);
     let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
@@ -68,8 +68,8 @@ fn is_hidden(c: char) -> bool {
     c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Escapes text for XML, for content and for values in quotes. The result is one line, with entities for markup
-/// characters and without forbidden code points.
+/// Escapes text for the content of an XML element or for an attribute value in quotes. The result is one line, with
+/// entities for markup characters and without code points that XML forbids.
 pub fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars().map(visible) {
@@ -93,7 +93,7 @@ pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
     let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    // Lists and underlined headings can only begin at the start of a line.
+    // Only the start of a line can begin a list or underline a heading.
     let starts_block = |place: usize, c: char| match c {
         '-' | '+' | '=' => place == 0,
         _ => matches!(c, '.' | ')') && place == number && number > 0,
@@ -136,7 +136,7 @@ pub fn csv(text: &str) -> String {
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
 
-/// Prepares a word for the command line of a POSIX shell: on one line, and in quotes if necessary.
+/// Returns a word for the command line of a POSIX shell, on one line, and in quotes if necessary.
 ///
 /// ```
 /// use drystone::internals::text::shell;
@@ -163,7 +163,7 @@ pub fn shell(word: &str) -> String {
 ///
 /// In valid JSON, such characters occur only inside strings, where escapes are allowed.
 pub fn json(text: &str) -> String {
-    // Most text has no such character, and testing bytes is much faster than decoding characters.
+    // Most text has no character to replace, and testing bytes is much faster than decoding characters.
     let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
     if text.as_bytes().iter().all(is_plain) {
         return text.to_string();
@@ -180,8 +180,8 @@ pub fn json(text: &str) -> String {
     out
 }
 
-/// Escapes text for a GitHub annotation. Special characters become escapes such as `%0A`; line breaks are kept in this
-/// form.
+/// Escapes text for a GitHub annotation: `%` becomes `%25`, a line break becomes `%0A`, and invisible characters become
+/// a space or [`HIDDEN`].
 pub fn github(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(line).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")

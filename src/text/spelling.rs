@@ -1,4 +1,4 @@
-//! [`nearest`]: finds the known name that an unknown name was probably meant to be.
+//! [`nearest`]: finds the known name that the author of an unknown name probably meant.
 //!
 //! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or
 //! swap with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest
@@ -10,10 +10,10 @@ const MAX_LETTERS: usize = 80;
 /// Returns the known name that is most similar to `name`; the first if several are equally similar. `None` if no name
 /// is similar enough.
 ///
-/// The distance to a similar name is at most a third of the letters of `name` plus one. It is also less than the number
-/// of these letters, unless the known name starts with `name`.
+/// A known name is similar if its edit distance from `name` is at most 1 + n/3, where n is the number of letters of
+/// `name`. The distance must also be less than n, unless the known name starts with `name`.
 pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    // This limit keeps the time short for files with many unknown and many known names.
+    // This limit keeps the search fast if a file has many unknown names and many known ones.
     const MAX_COMPARED_NAMES: usize = 2000;
     let mut wanted = Vec::new();
     letters(name, &mut wanted);
@@ -26,7 +26,8 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
         };
         if distance < wanted.len() || other.starts_with(name) {
             best = Some(other);
-            // From here on, only a strictly smaller distance is accepted, so that the first of equally near names wins.
+            // From here on, only a smaller distance is accepted, so that the first of several equally similar names is
+            // returned.
             match distance.checked_sub(1) {
                 Some(nearer) => max_distance = nearer,
                 None => break,
@@ -89,7 +90,8 @@ impl Rows {
                 left = here;
                 least = least.min(here);
             }
-            // Stop early: each row depends only on the two rows before it, so no later value is below their minima.
+            // Stop early: each row depends only on the two rows before it, so no later value can be smaller than their
+            // minima.
             if least > max_distance && least_before + 1 > max_distance {
                 return None;
             }

@@ -164,7 +164,7 @@ impl Import {
         }
         if let (Some(DrawnAt::Metres(metres)), Some(_)) = (self.scale, self.unit) {
             let why = format!(
-                "--scale {metres} is already metres per unit, so --unit says nothing more; leave one of them out, or give the scale as 1:50"
+                "--scale {metres} is already in metres per unit, so --unit has no effect; leave one of them out, or give the scale as 1:50"
             );
             return Err(CliError::CommandLine(why));
         }

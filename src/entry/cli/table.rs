@@ -18,19 +18,19 @@ use crate::wording::{capacity, failure, margin, proof};
 const MEANINGS: [[&str; 2]; 16] = [
     [
         "stands",
-        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance that exists only by wedging counts.",
+        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance that exists only by wedging counts too.",
     ],
-    ["falls", "no such set exists, and a motion proves it."],
+    ["falls", "no set of admissible forces balances every block, and a motion proves it."],
     [
         "undecided",
-        "neither was proved; the reason is below the row.",
+        "it was proved neither that the frame stands nor that it falls; the reason is below the row.",
     ],
-    ["weight", "of all blocks that are placed, in newtons"],
+    ["weight", "the weight of all placed blocks, in newtons"],
     [
         "largest",
         "the largest force between two bodies, in newtons",
     ],
-    ["between", "the two bodies"],
+    ["between", "the two bodies between which the largest force acts"],
     [
         "friction",
         "the largest ratio of friction force to friction limit at any contact",
@@ -51,7 +51,7 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
     [
         "sticking",
-        "with --verbose: the sum of the missing forces; with them it would stand",
+        "with --verbose: the sum of the missing forces, with which the frame would stand",
     ],
     [
         "proof",
@@ -59,11 +59,11 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
     [
         "margins",
-        "with --margins: the values at which it stands, then the present one; first the factor on the loads, else the margin nearest to its end",
+        "with --margins: the values at which the frame stands, and the present value; the factor on the loads comes first, or otherwise the margin closest to its limit",
     ],
     [
         "note",
-        "an allowed input that is rarely intended, with the key that silences it",
+        "an input that is allowed but rarely intended, and how to silence this note",
     ],
 ];
 /// The indentation of the meanings, and the width of their lines on wide terminals, in columns.

@@ -17,8 +17,8 @@ use crate::report::entry::{Entry, File, ReportOptions};
 use crate::report::page::{Form, Piece, Report};
 use crate::scene::Scene;
 
-/// Draws a figure of all frames, or of the frame with this number from 0, and returns its bytes. `words` are options
-/// of `render`.
+/// Draws a figure of all frames, or only of frame number `frame`, counted from 0. Returns the bytes of the picture
+/// file. `words` are options of `render`, and the file extension `ending` selects the format.
 pub(super) fn drawn(
     found: &Analysis,
     words: &[String],
@@ -31,7 +31,7 @@ pub(super) fn drawn(
     }
 }
 
-/// Reduces an analysis to one of its frames, counted from 0.
+/// Returns a copy of an analysis with only one of its frames. `frame` is counted from 0.
 fn alone(found: &Analysis, frame: usize) -> Analysis {
     let mut one = found.clone();
     let mut scene = (*found.scene).clone();
@@ -41,7 +41,8 @@ fn alone(found: &Analysis, frame: usize) -> Analysis {
     one
 }
 
-/// Draws the outlines of a scene that is not valid, with its problems marked, and returns the bytes.
+/// Draws the outlines of a scene that is not valid, with its problems marked, and returns the bytes of the picture
+/// file. `text` is the scene as JSON.
 #[pyfunction]
 pub(super) fn sketch(
     py: Python<'_>,
@@ -53,8 +54,8 @@ pub(super) fn sketch(
         .map_err(|why| fault(py, &why))
 }
 
-/// Returns names and rings of the parts of the ground, then of the blocks, in metres. Parts of the ground have no
-/// name.
+/// Returns the name and the rings of each body, in metres: first of the parts of the ground, which have no name, then
+/// of the blocks. The first ring of a body is its outline, and the others are its holes.
 pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     let rings = |polygon: &Polygon| {
         let rings = polygon.rings().iter();
@@ -69,8 +70,8 @@ pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     ground.chain(blocks).collect()
 }
 
-/// Writes a report on one scene to the file `path`, whose ending selects the form. `name` and `text` are those of the
-/// scene file.
+/// Writes a report on one scene to the file `path`, whose extension selects the format. `name` and `text` are the name
+/// and the content of the scene file.
 pub(super) fn report(
     found: &Analysis,
     path: &str,
@@ -89,7 +90,7 @@ pub(super) fn report(
         "json" => Form::Json,
         other => {
             return Err(format!(
-                "a report is .html, .md, .pdf or .json, not {other:?}"
+                "the file name of a report must end in .html, .md, .pdf or .json, not in {other:?}"
             ));
         }
     };
@@ -102,7 +103,7 @@ pub(super) fn report(
     };
     let mut found = found.clone();
     if form == Form::Pdf {
-        // A PDF contains text in the fonts of drystone, so characters that they lack are replaced.
+        // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
         found.scene = Arc::new(script::legible(&found.scene, &Fonts::default()));
     }
     let wanted = ReportOptions {

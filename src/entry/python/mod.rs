@@ -123,7 +123,7 @@ impl Options {
 }
 
 impl Options {
-    /// Analyses a scene. If the program itself fails, this becomes a problem of the scene.
+    /// Analyses a scene, given as JSON text. An internal fault of the program becomes a problem of the scene.
     fn analysis(&self, text: &str) -> Result<analysis::Analysis, Refusal> {
         let mut asked = self.asked;
         asked.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
@@ -214,24 +214,26 @@ impl Analysis {
         })
     }
 
-    /// Returns the table with this name, for one frame or for all frames.
+    /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for one frame or for all frames.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
         table::Table::new(&self.found, name, frame)
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
-    /// Returns names, outer rings and holes of the bodies, in metres: the parts of the ground, then the blocks.
+    /// Returns the name and the rings of each body, in metres: first of the parts of the ground, then of the blocks.
+    /// The first ring of a body is its outline, and the others are its holes.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
         figure::outlines(&self.found.scene)
     }
 
-    /// Returns the numbers of the blocks that are placed in a frame; empty if there is no such frame.
+    /// Returns the numbers, counted from 0, of the blocks that are placed in a frame; empty if there is no such frame.
     fn placed(&self, frame: usize) -> Vec<usize> {
         let frame = self.found.scene.frames().get(frame);
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 
-    /// Draws a figure of one frame or of all, and returns its bytes. `words` are options of `render`.
+    /// Draws a figure of one frame or of all frames, and returns the bytes of the picture file. `words` are options of
+    /// `render`, and the file extension `ending` selects the format.
     fn figure(
         &self,
         py: Python<'_>,
@@ -243,7 +245,8 @@ impl Analysis {
             .map_err(|why| fault(py, &why))
     }
 
-    /// Writes a report.
+    /// Writes a report on the scene to the file `path`. `name` and `text` are the name and the content of the scene
+    /// file.
     fn report(
         &self,
         py: Python<'_>,
@@ -261,15 +264,16 @@ impl Analysis {
 /// Corners of an outline, metres.
 type Ring = Vec<[f64; 2]>;
 
-/// Makes an error of the package: `drystone.DrystoneError`.
+/// Returns the Python exception `drystone.DrystoneError` with the message `why`.
 fn fault(py: Python<'_>, why: &str) -> PyErr {
     raised(py, "DrystoneError", (why,))
 }
 
-/// Makes the error for the problems of a scene: `drystone.SceneError`.
+/// Returns the Python exception `drystone.SceneError` with the problems of a scene. Lines and columns are left out
+/// unless `located` is true.
 fn refused(py: Python<'_>, mut problems: SceneError, located: bool) -> PyErr {
     if !located {
-        // The author of a scene made in Python does not know its text.
+        // A scene that was made in Python has no file, so the line and column of a problem would mean nothing.
         for problem in &mut problems.list {
             (problem.line, problem.column) = (0, 0);
         }
@@ -289,7 +293,7 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
     }
 }
 
-/// Analyses a scene.
+/// Analyses a scene, given as JSON text. Raises an exception if the scene is not valid.
 #[pyfunction]
 fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
     py.detach(|| options.analysis(text))
@@ -366,7 +370,7 @@ fn check_many(
     answers.into_iter().flatten().map(one).collect()
 }
 
-/// Reads a scene, and raises an error if it is not valid.
+/// Checks a scene, given as JSON text, and raises an exception if it is not valid.
 #[pyfunction]
 fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     match py.detach(|| Scene::from_json(text)) {
@@ -375,7 +379,7 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     }
 }
 
-/// Returns a scene file as text in drystone's own layout.
+/// Returns the text of a scene file in drystone's own layout, with line breaks and spaces as drystone writes them.
 #[pyfunction]
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
     let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;

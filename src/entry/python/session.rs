@@ -1,4 +1,5 @@
-//! [`Session`]: a structure under construction, for Python.
+//! [`Session`]: the Python class for a structure under construction. Each step, such as placing a block, returns the
+//! verdict.
 
 use pyo3::prelude::*;
 
@@ -21,7 +22,7 @@ pub(super) struct Session {
 impl Session {
     #[new]
     fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
-        // Check the whole scene first: only its reader knows the places of problems.
+        // Check the text first, because only `Scene::from_json` knows the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
         let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
         let now = py.detach(|| session::Session::with(file, options.asked));
@@ -58,7 +59,7 @@ impl Session {
         self.now.verdict().word()
     }
 
-    /// Returns the placed blocks, in the order of placing.
+    /// Returns the ids of the placed blocks, in the order in which they were placed.
     #[getter]
     fn blocks(&self) -> Vec<&str> {
         let scene = self.now.scene();
@@ -66,7 +67,7 @@ impl Session {
         placed.map(|b| scene.blocks()[b.0].id.as_str()).collect()
     }
 
-    /// Returns the pairs of a robot and the block that it holds.
+    /// Returns pairs of ids: a robot, and the block that it holds.
     #[getter]
     fn holds(&self) -> Vec<(&str, &str)> {
         let scene = self.now.scene();
@@ -79,14 +80,14 @@ impl Session {
             .collect()
     }
 
-    /// Returns the complete analysis of the placed blocks.
+    /// Analyses the placed blocks with these options.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.now.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))
     }
 
-    /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` have the form
-    /// of the values of `--capacity` and `--for-all`.
+    /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written
+    /// like the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
         let request = analysis::typed_capacity(self.now.scene(), typed, for_all);
         let request = request.map_err(|why| fault(py, &why))?;

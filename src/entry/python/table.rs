@@ -1,4 +1,5 @@
-//! [`Table`]: the rows of a result, stored by column, as bytes for numpy and as a C stream of Arrow.
+//! [`Table`]: results as a table for Python, which gets the columns as bytes for numpy, or the table as an Arrow C
+//! stream.
 
 use std::sync::Arc;
 
@@ -61,7 +62,7 @@ impl Table {
         self.columns.iter().map(one).collect()
     }
 
-    /// Returns the table as a C stream of Arrow. It ignores the requested schema, as the protocol allows.
+    /// Returns the table as an Arrow C stream. It ignores the requested schema, as the protocol allows.
     #[pyo3(signature = (requested_schema = None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -101,7 +102,8 @@ impl Table {
         RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)
     }
 
-    /// Makes the table with this name, for one frame or for all; `None` if there is no such table.
+    /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for one frame or for all frames. Returns `None`
+    /// for any other name.
     pub(super) fn new(found: &Analysis, name: &str, frame: Option<usize>) -> Option<Table> {
         let numbers = (0..found.frames.len()).filter(|n| frame.is_none_or(|f| f == *n));
         let numbers: Vec<usize> = numbers.collect();
@@ -115,7 +117,7 @@ impl Table {
     }
 }
 
-/// Makes a table with a row for each frame of several analyses. Scenes that are not valid are `None` and have no row.
+/// Returns a table with a row for each frame of several analyses. A scene that is not valid is `None` and has no row.
 #[pyfunction]
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let found = analyses.iter().enumerate();
@@ -165,7 +167,7 @@ const MARGINS: [NamedMargin; 7] = [
     ("load_factor", |m| &m.load_factor),
 ];
 
-/// Converts a margin to a number: infinite if it has no end, and NaN if there is no margin.
+/// Converts a margin to a number: infinity if the margin is unbounded, and NaN if it has no value.
 fn value(margin: &Margin) -> f64 {
     match margin {
         Margin::Unbounded => f64::INFINITY,

@@ -1,4 +1,4 @@
-//! Draws figures as SVG.
+//! Draws figures as SVG for the WebAssembly module.
 
 use super::Refusal;
 use super::look::FigureOptions;
@@ -43,8 +43,8 @@ fn with_requests(
     Ok(asked)
 }
 
-/// Draws a figure of the analysis of a session, and returns the SVG. What the figure needs in addition is computed
-/// first.
+/// Draws a figure of an existing analysis, and returns the SVG. If the figure needs results that the analysis lacks,
+/// the scene is analysed again.
 pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
     let asked = with_requests(analysis::Options::default(), &found.scene, options)?;
     match options.kind()? {
@@ -55,7 +55,7 @@ pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String,
     }
 }
 
-/// Draws a figure of a complete analysis.
+/// Draws a figure of an analysis that has all results for it, and returns the SVG.
 fn page(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
     let zoom = options.zoom.as_deref();
     let zoom = zoom.map(|name| figure::named_block(&found.scene, name));

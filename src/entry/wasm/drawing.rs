@@ -1,4 +1,4 @@
-//! Turns drawings into scenes.
+//! Imports drawings as scenes for the WebAssembly module.
 
 use serde::Deserialize;
 

@@ -16,7 +16,7 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    /// Makes the refusal of an option that is not valid. `why` is the message.
+    /// Returns the refusal of an option that is not valid. `why` is the message.
     pub(super) fn of_option(why: impl Into<String>) -> Refusal {
         Refusal {
             message: why.into(),

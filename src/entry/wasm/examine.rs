@@ -5,12 +5,12 @@ use super::option::CheckOptions;
 use crate::analysis::Analysis;
 use crate::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
 
-/// Analyses a scene, and returns the same JSON as `drystone check --json`.
+/// Analyses a scene, and returns the JSON of `drystone check --json`, without times unless the options request them.
 pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {
     Ok(written(options.analysis(scene)?, options))
 }
 
-/// Writes an analysis as JSON.
+/// Returns an analysis as JSON. The options select whether it contains notes, times, blocks and the name of the file.
 pub(super) fn written(mut found: Analysis, options: &CheckOptions) -> String {
     if options.no_notes {
         found.notes.clear();

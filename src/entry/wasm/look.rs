@@ -133,7 +133,8 @@ impl FigureOptions {
         self.margin.map(|margin| margin.0)
     }
 
-    /// Returns the direction of a figure of margins.
+    /// Returns the parameter that a margin figure varies. The margins friction and kernel are an error, except in a
+    /// sensitivity figure, which does not use the parameter.
     fn toward(&self) -> Result<Toward, Refusal> {
         let is_sensitivity = self.kind()?.is_some_and(Kind::needs_sensitivity);
         match self.margin().map(Toward::from_margin) {
@@ -141,12 +142,12 @@ impl FigureOptions {
             Some(Some(toward)) => Ok(toward),
             Some(None) if is_sensitivity => Ok(Toward::default()),
             Some(None) => Err(Refusal::of_option(
-                "the margins friction and kernel have no picture of how it falls; choose the kind sensitivity",
+                "the figure `margin` cannot show the margins friction and kernel; choose the kind sensitivity",
             )),
         }
     }
 
-    /// Writes a drawing as SVG with the selected background and width.
+    /// Returns a drawing as SVG, with the background and the width that the options select.
     pub(super) fn svg(&self, drawing: Drawing) -> Result<String, Refusal> {
         let background = match self.background.as_deref() {
             None => drawing.background,

@@ -1,4 +1,5 @@
-//! The module for browsers: scenes and options come in as JSON text, and results and pictures go out as text.
+//! The WebAssembly module for browsers. Its functions take scenes and options as JSON text, and return results and
+//! pictures as text.
 //!
 //! Nothing is computed here. `examples/playground/build.sh` makes a package of it for JavaScript, with declarations for
 //! TypeScript. A function that refuses its input throws an `Error` whose property `problems` is the list that
@@ -24,7 +25,7 @@ use crate::figure::{FREEBODY, FREEBODY_HELP, Kind};
 use crate::result::quoted;
 use crate::scene::Scene;
 
-/// Prepares the module: an internal error becomes a JavaScript error with the same message.
+/// Prepares the module, so that a panic becomes a JavaScript error with the same message.
 #[wasm_bindgen(start)]
 pub fn start() {
     if cfg!(target_family = "wasm") {
@@ -70,7 +71,7 @@ pub fn kinds() -> String {
 /// `file`, the name of the file in the result.
 ///
 /// # Errors
-/// The problems of the scene, or an option that is not valid.
+/// Returns the problems of the scene, or a message about an option that is not valid.
 #[wasm_bindgen]
 pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
     examine::checked(scene, &option::read(options.as_deref())?)
@@ -78,11 +79,11 @@ pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
 
 /// Draws a scene as SVG, as `drystone render` does. `options` is a JSON object with the names of the options of
 /// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill`, `capacity`, `for_all` and others. Three
-/// more options exist. `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from 0
-/// to 1, is the position of a moving mechanism.
+/// more options exist. `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from
+/// 0 to 1, is the part of their paths that the blocks of a mechanism have moved.
 ///
 /// # Errors
-/// As [`check`].
+/// Returns the same errors as [`check`].
 #[wasm_bindgen]
 pub fn figure(scene: &str, options: Option<String>) -> Result<String, Refusal> {
     draw::figure(scene, &option::read(options.as_deref())?)
@@ -104,7 +105,7 @@ pub fn problems(scene: &str) -> String {
 /// `kernel`, `gravity`.
 ///
 /// # Errors
-/// The elements of the drawing that prevent an import, or an option that is not valid.
+/// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.
 #[wasm_bindgen(js_name = importDrawing)]
 pub fn import_drawing(
     text: &str,

@@ -39,7 +39,7 @@ pub(super) struct CheckOptions {
 }
 
 impl CheckOptions {
-    /// Reads a scene, and analyses it. A time limit is counted from this call.
+    /// Reads a scene, and analyses it. The time limit starts at this call.
     pub(super) fn analysis(&self, text: &str) -> Result<Analysis, Refusal> {
         let asked = self.asked()?;
         let scene = scene(text, self.contact_tolerance, self.frame)?;
@@ -63,7 +63,7 @@ impl CheckOptions {
     }
 }
 
-/// Adds the forces that a block can carry, if a block is given.
+/// Adds the request to compute the forces that a block can carry, if `capacity` names a block.
 pub(super) fn with_capacity(
     asked: Options,
     scene: &Scene,
@@ -73,11 +73,11 @@ pub(super) fn with_capacity(
     match (capacity, for_all) {
         (None, None) => Ok(asked),
         (None, Some(_)) => Err(Refusal::of_option(
-            "for_all is about the forces that a block can carry; give capacity, too",
+            "for_all limits the forces that a block can carry, so it needs capacity too",
         )),
         (Some(typed), cases) => match typed_capacity(scene, typed, cases) {
             Ok(request) => Ok(asked.capacity(request)),
-            // The options of the command line have these names with hyphens.
+            // The message names options as on the command line, with hyphens. Use the names of this interface.
             Err(why) => Err(Refusal::of_option(match why.strip_prefix("--for-all") {
                 Some(rest) => format!("for_all{rest}"),
                 None => why.trim_start_matches('-').to_owned(),

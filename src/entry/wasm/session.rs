@@ -1,4 +1,5 @@
-//! [`Session`]: keeps one scene with its analysis, and answers several questions about them.
+//! [`Session`]: keeps a scene with its analysis, so that the verdict, the result and the figures need only one
+//! analysis.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -21,7 +22,7 @@ impl Session {
     /// Analyses a first scene with the options of `check`. Later scenes get the same options.
     ///
     /// # Errors
-    /// The problems of the scene, or an option that is not valid.
+    /// Returns the problems of the scene, or a message about an option that is not valid.
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
         let options: CheckOptions = option::read(options.as_deref())?;
@@ -32,7 +33,8 @@ impl Session {
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
     ///
     /// # Errors
-    /// The problems of the scene, or a frame that it does not have. The session then keeps the former scene.
+    /// Returns the problems of the scene, or a message that the selected frame does not exist. The session then keeps
+    /// the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
         self.found = self.options.analysis(scene)?;
         Ok(self.verdict())
@@ -43,7 +45,7 @@ impl Session {
         word(self.found.verdict()).to_owned()
     }
 
-    /// Returns the result as JSON, in the form of `check`.
+    /// Returns the result of the analysis as JSON, as the function `check` does.
     pub fn result(&self) -> String {
         examine::written(self.found.clone(), &self.options)
     }
@@ -52,7 +54,7 @@ impl Session {
     /// effect, except `capacity` and `for_all` for the figure `capacity`.
     ///
     /// # Errors
-    /// An option that is not valid.
+    /// Returns a message about an option that is not valid.
     pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
         draw::drawn(&self.found, &option::read(options.as_deref())?)
     }

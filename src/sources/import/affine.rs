@@ -1,4 +1,4 @@
-//! [`Affine`]: affine maps, for the nested transforms of a drawing.
+//! [`Affine`]: affine maps of the plane, for the nested transforms in a drawing.
 
 use crate::geometry::{Point, Vector, sin_cos_degrees};
 
@@ -17,7 +17,7 @@ impl Affine {
         Affine([x, 0.0, 0.0, y, 0.0, 0.0])
     }
 
-    /// Makes a rotation from the x axis towards the y axis. It is exact at multiples of 90°.
+    /// Returns the rotation by an angle in degrees, from the x axis towards the y axis. Multiples of 90° are exact.
     pub(super) fn rotation(degrees: f64) -> Affine {
         let (sin, cos) = sin_cos_degrees(degrees);
         Affine([cos, sin, -sin, cos, 0.0, 0.0])

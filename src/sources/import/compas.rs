@@ -1,5 +1,5 @@
-//! Reads an assembly of `compas_assembly` from JSON. Its blocks must be prisms; the scene gets their section in a
-//! plane.
+//! Reads an assembly of the Python package `compas_assembly` from JSON. Its blocks must be prisms across one plane, and
+//! the scene gets their sections in this plane.
 //!
 //! The file is searched for the first object with nodes that have blocks, so that all versions of COMPAS are read: some
 //! wrap data as `data`, older ones as `value`.
@@ -37,10 +37,12 @@ pub(super) fn is_assembly(text: &str) -> bool {
     nodes(&value).is_some()
 }
 
-/// Reads an assembly. Also returns notes: the plane of the section, the unit of length and the thickness.
+/// Reads an assembly. Returns the scene file, and notes about the plane of the section, the unit of length and the
+/// thickness.
 ///
 /// # Errors
-/// If the blocks are not prisms perpendicular to one plane, or if they differ in thickness and `options` has none.
+/// Returns an error if the text is not an assembly with blocks, if the blocks are not prisms across one plane, or if
+/// they differ in thickness and `options` has no thickness.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let refuse = |message: String, help: &str| {
@@ -106,8 +108,8 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Returns a message that names the first block that is not a prism across any of the planes. If there is no such
-/// block, the message says that the prisms have different planes.
+/// Returns a message that names the first block that is not a prism across any coordinate plane. If there is no such
+/// block, the message says that the blocks are prisms across different planes.
 fn not_prismatic(solids: &[Solid]) -> String {
     let odd = solids
         .iter()
@@ -122,7 +124,8 @@ fn not_prismatic(solids: &[Solid]) -> String {
     }
 }
 
-/// Returns the nodes of the first graph whose nodes have blocks. `None` if there is no such graph.
+/// Searches a JSON value for the first graph whose nodes have blocks, and returns these nodes. `None` if there is no
+/// such graph.
 fn nodes(value: &Value) -> Option<&Map<String, Value>> {
     match value {
         Value::Object(object) => {
@@ -152,7 +155,7 @@ fn solid(name: &str, node: &Value) -> Option<Solid> {
         .as_object()?
         .iter()
         .map(|(key, at)| {
-            // A coordinate that is 0 may be left out.
+            // The file may leave out a coordinate that is 0.
             let place = ["x", "y", "z"].map(|axis| at[axis].as_f64().unwrap_or(0.0));
             (key.as_str(), place)
         })

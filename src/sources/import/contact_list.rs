@@ -27,10 +27,11 @@ pub(super) fn is_contact_list(text: &str) -> bool {
     value["bodies"].is_array() && value["contacts"].is_array()
 }
 
-/// Reads a contact list. Also returns notes about the units and the normals.
+/// Reads a contact list. Returns the scene file, and notes about the units and the directions of the normals.
 ///
 /// # Errors
-/// All rows that are neither a body nor a contact, or that name a body that does not exist.
+/// Returns all rows that are neither a body nor a contact, that name a body that does not exist, or whose normal has an
+/// angle of more than a full turn.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (rows, mut problems) = match text.trim_start().starts_with('{') {
@@ -116,7 +117,7 @@ fn name(number: f64, bodies: usize) -> Option<String> {
     })
 }
 
-/// Converts a direction to degrees. A direction very close to a multiple of 15° becomes that multiple.
+/// Converts an angle from radians to degrees. An angle within 0.01° of a multiple of 15° becomes that multiple.
 fn degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let near = 15.0 * (degrees / 15.0).round();
@@ -127,7 +128,7 @@ fn degrees(radians: f64) -> f64 {
 }
 
 /// Reads rows of numbers, separated by commas, semicolons, tabs or spaces. Skips comments, which begin with `#` or `%`,
-/// and lines without a number, such as headings. Also returns the problems.
+/// and lines without a number, such as headings. Returns the rows, and the problems of lines that cannot be read.
 fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     let (mut rows, mut problems) = (Vec::new(), Vec::new());
     for (number, line) in text.lines().enumerate() {
@@ -173,7 +174,7 @@ fn value(cell: &str) -> Option<f64> {
 }
 
 /// Reads the bodies and contacts of a JSON object. Each entry is a list of numbers, or an object with named numbers.
-/// Also returns the problems.
+/// Returns the rows, and the problems of entries that cannot be read.
 fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     let file: Value = match serde_json::from_str(text) {
         Ok(file) => file,
@@ -212,8 +213,8 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     (rows, problems)
 }
 
-/// Returns the number under the first of these names that the entry has. The name `centre.0` means the first entry of
-/// the list `centre`. `None` if the entry has none of the names.
+/// Returns the value of the first of these keys that has a number in the entry. The key `centre.0` means the first
+/// number of the list `centre`. `None` if no key has a number.
 fn named(entry: &Value, names: &[&str]) -> Option<f64> {
     names.iter().find_map(|name| match name.split_once('.') {
         Some((list, number)) => entry[list][number.parse::<usize>().ok()?].as_f64(),

@@ -12,10 +12,11 @@ const MAX_EXTENT: f64 = 1.0;
 /// Collections are not nested deeper.
 const MAX_DEPTH: usize = 50;
 
-/// Returns the reason why the coordinates count as degrees, with the remedy. `None` if they count as lengths.
+/// Returns a message if the coordinates are taken to be longitudes and latitudes in degrees; it says why, and what to
+/// do. `None` if they are taken to be lengths.
 pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let remedy = "drystone needs lengths: draw the structure in its own plane, or project it first, for example with \
-        ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, say so with --unit m";
+        ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, give --unit m";
     let system = object
         .get("crs")
         .and_then(|crs| crs.get("properties")?.get("name")?.as_str());
@@ -60,7 +61,7 @@ fn collect(object: &Map<String, Value>, depth: usize, points: &mut Vec<Point>) {
     }
 }
 
-/// Adds the points in nested lists to `points`. The parser limits the depth of the lists.
+/// Adds the points in nested lists to `points`. The JSON parser limits the nesting depth of the lists.
 fn numbers(value: &Value, points: &mut Vec<Point>) {
     let Some(list) = value.as_array() else { return };
     let number = |i: usize| list.get(i).and_then(Value::as_f64);

@@ -12,7 +12,7 @@ use crate::geometry::Point;
 /// scale is given.
 ///
 /// # Errors
-/// The reason why the text cannot be read as GeoJSON.
+/// Returns the reason why the text cannot be read as GeoJSON.
 pub(super) fn read(
     text: &str,
     scale: f64,
@@ -25,7 +25,7 @@ pub(super) fn read(
         return Err("its outermost value is not an object".into());
     };
     if object.contains_key("drystone") {
-        return Err("it is a scene file already, and no GeoJSON".into());
+        return Err("it is not GeoJSON but already a scene file".into());
     }
     if !is_scale_given && let Some(why) = degrees::problem(object) {
         return Err(why);
@@ -126,7 +126,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the properties of a feature: the name, the role from name, kind or ground, the fill and the physical values.
+    /// Reads the properties of a feature: its name, fill and physical values, and its role. The role follows from the
+    /// name or from the properties `kind` and `ground`.
     fn properties(&mut self, feature: &Map<String, Value>, at: &str) -> Properties {
         let none = Map::new();
         let properties = feature
@@ -178,7 +179,8 @@ impl Reader<'_> {
         about
     }
 
-    /// Reads a physical value of a feature; `None` if it is missing. A value that is not a number is reported.
+    /// Reads a physical value of a feature; `None` if it is missing or not a number. A value that is not a number is
+    /// reported.
     fn number(
         &mut self,
         properties: &Map<String, Value>,

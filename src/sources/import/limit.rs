@@ -17,8 +17,8 @@ const MAX_PAIRS_PER_BODY: usize = 10;
 /// The largest number of comparisons of a corner with an edge for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
-/// Returns the reason why a drawing is refused; `None` if it is within the limits. `boxes` are the bounding boxes of
-/// the blocks, and those of the parts of the ground.
+/// Returns a remark if a drawing has too many outlines, or too many outlines that overlap. `boxes` are the bounding
+/// boxes of the blocks, and those of the parts of the ground.
 pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
     let count: usize = boxes.iter().map(Vec::len).sum();
     if count > MAX_BODIES {
@@ -30,11 +30,11 @@ pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
         message: format!(
             "more than {max} pairs of its {count} outlines overlap, so they cannot be blocks side by side"
         ),
-        help: "delete copies in the same place".into(),
+        help: "delete outlines that lie on top of each other".into(),
     })
 }
 
-/// Makes the remark about a drawing with too many outlines.
+/// Returns the remark about a drawing with too many outlines.
 pub(super) fn too_many(count: usize) -> Remark {
     Remark {
         element: String::new(),

@@ -166,8 +166,8 @@ pub struct DrawingProblems {
 /// becomes the origin.
 ///
 /// # Errors
-/// If an option is not valid, if the text does not have the format, if no element is a block, if blocks overlap, or
-/// if [`Scene::from_json`] reports another problem.
+/// Returns an error if an option is not valid, if the text does not have the format, if no element is a block, if
+/// blocks overlap, or if [`Scene::from_json`] reports another problem.
 ///
 /// # Example
 /// ```
@@ -237,7 +237,8 @@ fn complete(
     })
 }
 
-/// Reads the drawing. A drawing without ground is read again, with words such as "abutment" for the ground.
+/// Reads the drawing. If no element is ground, reads it again, and then names such as "abutment" also make an element
+/// ground.
 fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, String> {
     let has_ground = |draft: &Draft| draft.parts.iter().any(|p| p.kind == Role::Ground);
     let naming = Naming::new(&options.ground_layers, false);
@@ -281,7 +282,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
     Ok(draft)
 }
 
-/// Performs step 1: reads the drawing with the given rules for names.
+/// Reads the drawing into a draft, with these rules for names (step 1).
 fn read_draft(
     text: &str,
     format: Format,
@@ -310,7 +311,7 @@ fn read_draft(
     }
 }
 
-/// Lists at most eight names, and counts the others.
+/// Returns at most eight names, separated by commas, and the number of the others.
 fn listed(names: &[String]) -> String {
     let shown: Vec<&str> = names.iter().take(8).map(String::as_str).collect();
     match names.len() - shown.len() {
@@ -319,7 +320,7 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// Reports options that are not valid lengths.
+/// Returns a problem for each option that is not a valid length or scale.
 fn option_problems(options: &Options) -> Vec<Remark> {
     let mut problems = Vec::new();
     let mut check = |name: &str, value: Option<f64>, zero: bool| {
@@ -344,8 +345,7 @@ fn option_problems(options: &Options) -> Vec<Remark> {
     problems
 }
 
-/// Returns the reason why the outlines are not a structure: there is no block, or too many outlines overlap. `None` if
-/// they are a structure.
+/// Returns a remark if the outlines are not a structure: if there is no block, or if too many outlines overlap.
 fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         return Some(Remark {
@@ -357,7 +357,8 @@ fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     limit::problem([Role::Block, Role::Ground].map(|kind| outlines.boxes(kind)))
 }
 
-/// Performs steps 2 to 6: makes a scene from a draft.
+/// Makes a scene from a draft (steps 2 to 6): flattens curves, finds regions, snaps edges together, and checks the
+/// scene.
 fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
@@ -389,8 +390,8 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     let text = scene.to_json();
-    // Blocks were snapped together, so a remaining overlap is an error of the drawing. Check the scene again, with
-    // the tolerance as a strict limit.
+    // Nearby edges are already snapped together, so any overlap that is left is an error of the drawing. Check the
+    // scene again, and allow no overlap beyond the tolerance.
     let read = Scene::from_json(&text).and_then(|read| match read.penetrations.is_empty() {
         true => Ok(read),
         false => Scene::from_json_within(&text, Some(read.tolerance.gap)),

@@ -12,7 +12,8 @@ pub(super) struct Names {
     pub(super) robots: Vec<String>,
 }
 
-/// Makes unique names. A duplicate gets a number after its name. The name of a body without a name is its number.
+/// Returns a unique name for each body and robot. If a name is already used, a number is added to it. A block without a
+/// name gets its number as its name.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved, because results use it for the ground.
     let mut taken = Taken::with("ground");

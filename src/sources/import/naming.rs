@@ -1,4 +1,4 @@
-//! [`Naming`]: decides by their names which elements of a drawing are ground, robots or ignored.
+//! [`Naming`]: decides from the names of elements which of them are ground or robots, and which are ignored.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -64,17 +64,17 @@ impl<'o> Naming<'o> {
         Role::from_name(name)
     }
 
-    /// Returns the names that became ground by an option or a guess, in alphabetical order.
+    /// Returns the names of elements that became ground because of an option or a guess, in alphabetical order.
     pub(super) fn made_ground(&self) -> Vec<String> {
         self.made_ground.borrow().iter().cloned().collect()
     }
 
-    /// Returns the names of the drawing, in alphabetical order.
+    /// Returns the names of elements and layers in the drawing, at most 1000, in alphabetical order.
     pub(super) fn seen(&self) -> Vec<String> {
         self.seen.borrow().iter().cloned().collect()
     }
 
-    /// Returns the names in `ground` that the drawing does not have.
+    /// Returns the names in the option `ground` that no element or layer of the drawing has.
     pub(super) fn missing(&self) -> Vec<&'o String> {
         let made = self.made_ground.borrow();
         let is_missing = |wanted: &&String| !made.iter().any(|name| same(wanted, name));

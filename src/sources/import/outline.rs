@@ -1,4 +1,4 @@
-//! [`Outlines`]: the bodies and robots of a drawing as polygons with holes, with flattened curves.
+//! [`Outlines`]: the bodies of a drawing as polygons with holes, with flattened curves, and its robots as points.
 
 use super::draft::{Draft, Form, Part, Role, Values};
 use super::region::regions;
@@ -46,7 +46,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
     let (mut kept, mut out) = (Vec::new(), Vec::new());
     for part in std::mem::take(&mut draft.parts) {
         let hull = hull(&part);
-        // The comparison is false for NaN.
+        // A coordinate that is NaN fails this test too.
         if hull
             .iter()
             .all(|p| p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE)
@@ -194,7 +194,7 @@ impl Outlines {
     }
 }
 
-/// Returns the closed outlines of a part. Open outlines are reported.
+/// Returns the flattened closed outlines of a part. Open outlines are reported and left out.
 fn closed_rings(
     draft: &mut Draft,
     part: &Part,
@@ -253,7 +253,7 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
 }
 
 impl Body {
-    /// Returns the polygon of the body. [`Outlines::new`] has checked that it is valid.
+    /// Returns the polygon of the body, which [`Outlines::new`] has found valid.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         polygon(&self.rings).ok()
     }

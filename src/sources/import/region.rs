@@ -9,7 +9,8 @@ use super::draft::FillRule;
 use crate::geometry::snap::{Corner, Rings, area};
 use crate::geometry::{Bounds, Point};
 
-/// Splits rings into the regions that they enclose by a fill rule. Each region has an outline and holes.
+/// Returns the regions that the rings enclose by the fill rule. The first ring of a region is its outline, and the
+/// others are its holes.
 pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
     let filled = |winding: i64| match rule {
         FillRule::NonZero => winding != 0,
@@ -49,7 +50,7 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
     kept
 }
 
-/// True if the outer box is large enough to contain the inner one, and intersects it.
+/// True if the outer box intersects the inner box and is large enough to contain it.
 fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     let (Some(outer), Some(inner)) = (outer, inner) else {
         return false;

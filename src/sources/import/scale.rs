@@ -12,11 +12,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Returns the metres per unit of the drawing, and a sentence with the reason. `stated` is the unit that the
-    /// drawing states, in metres, with the reason. `silent` is the reason if the drawing states no unit.
+    /// Returns the number of metres per unit of the drawing, and a sentence that explains it. `stated` is the unit that
+    /// the drawing states, in metres, with an explanation. `silent` is the explanation if the drawing states no unit.
     ///
     /// # Errors
-    /// If only a ratio is given, and the drawing states no unit.
+    /// Returns a message if the options have only a ratio and the drawing states no unit.
     pub(super) fn of(
         self,
         stated: Option<(f64, String)>,
@@ -30,7 +30,7 @@ impl Scale {
         match (self.metres, stated) {
             (Some(metres), _) => {
                 let metres = metres * ratio;
-                Ok((metres, format!("{} (as given)", unit(metres))))
+                Ok((metres, format!("{} (set by an option)", unit(metres))))
             }
             (None, Some((metres, reason))) => {
                 let metres = metres * ratio;

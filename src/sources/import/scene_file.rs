@@ -14,8 +14,8 @@ use crate::scene::format::{
 /// times larger, so rounding opens no contact.
 const COORDINATE_STEP: f64 = 1e-9;
 
-/// Makes the scene file. `size` is the size of the drawing in metres. `given` contains the properties of the whole
-/// scene.
+/// Returns the scene file of the outlines. `size` is the size of the drawing in metres, to which the rounding of
+/// coordinates is proportional. `given` contains the properties of the whole scene, such as friction.
 pub(super) fn scene(
     outlines: &Outlines,
     names: &Names,
@@ -88,7 +88,8 @@ fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
     }
 }
 
-/// Makes the robots, each with the block that contains its centre.
+/// Returns the robots, each with the block that it holds: the block that contains its centre. A robot without such a
+/// block is reported.
 fn robots(
     outlines: &Outlines,
     names: &Names,
@@ -142,12 +143,12 @@ fn material(fill: [u8; 3]) -> String {
     format!("fill-{}", &hex(fill)[1..])
 }
 
-/// Writes a length with three significant digits.
+/// Returns a length as text with three significant digits.
 pub(super) fn short(x: f64) -> String {
     rounded(format!("{x:.2e}"))
 }
 
-/// Writes a scale with six significant digits.
+/// Returns a scale as text with six significant digits.
 pub(super) fn six_digits(x: f64) -> String {
     rounded(format!("{x:.5e}"))
 }
@@ -163,7 +164,7 @@ struct Rounding {
 }
 
 impl Rounding {
-    /// Rounds to multiples of the largest power of ten that is at most `step`, in metres.
+    /// Returns a rounding to multiples of the largest power of ten that is at most `step`, in metres.
     fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
         // Factors above 10^15 would change nothing, because f64 has 16 digits. Factors below 1 would round to more

@@ -11,7 +11,7 @@ use crate::geometry::{Bounds, Tolerance};
 const MAX_LISTED_BODIES: usize = 12;
 
 impl Outlines {
-    /// Snaps edges and corners within `gap` metres together, and returns the bodies that moved.
+    /// Snaps together edges and corners that are at most `gap` metres apart. Returns the bodies that were moved.
     pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
         if !(gap > 0.0) {
             return Vec::new();
@@ -39,7 +39,7 @@ impl Outlines {
         snapped
     }
 
-    /// Adds remarks about the bodies that were left as drawn.
+    /// Adds remarks about the bodies `kept`, which were not snapped. More than 12 bodies share one remark.
     fn remark_kept(&self, draft: &mut Draft, kept: &[usize]) {
         if kept.len() > MAX_LISTED_BODIES {
             let message = format!(
@@ -59,7 +59,7 @@ impl Outlines {
         }
     }
 
-    /// Returns the depth, in metres, up to which a scene of these blocks tolerates overlaps.
+    /// Returns the depth of overlap, in metres, that a scene of these blocks tolerates.
     fn tolerance(&self) -> f64 {
         let boxes = self.boxes(Role::Block);
         let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();

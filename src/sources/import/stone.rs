@@ -62,7 +62,7 @@ pub const STONES: [Stone; 6] = [
 ];
 
 impl Stone {
-    /// Returns the material with this name, in upper or lower case.
+    /// Returns the material with this name, in upper or lower case; `None` if the name is not known.
     pub fn from_name(name: &str) -> Option<Stone> {
         let is_it = |stone: &&Stone| stone.name.eq_ignore_ascii_case(name.trim());
         STONES.iter().find(is_it).copied()

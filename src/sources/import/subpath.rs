@@ -54,8 +54,8 @@ impl Subpath {
         })
     }
 
-    /// Makes an ellipse with axes parallel to x and y. It starts at `centre` + (`rx`, 0) and
-    /// turns from x towards y.
+    /// Returns an ellipse with half axes `rx` and `ry` along x and y. It starts at `centre` + (`rx`, 0) and turns from
+    /// x towards y.
     pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Subpath {
         let start = centre + Vector::new(rx, 0.0);
         let arc = Arc {
@@ -94,7 +94,7 @@ impl Subpath {
         }
     }
 
-    /// Returns the same curve from its end to its start.
+    /// Returns the same curve in the opposite direction.
     pub(super) fn reversed(&self) -> Subpath {
         let mut ends = vec![self.start];
         ends.extend(self.segments.iter().map(Segment::end));
@@ -115,7 +115,7 @@ impl Subpath {
         }
     }
 
-    /// True if it contains a curve.
+    /// True if the subpath has a segment that is not straight.
     pub(super) fn has_curves(&self) -> bool {
         let straight = |segment: &Segment| matches!(segment, Segment::Line(_));
         !self.segments.iter().all(straight)
@@ -138,8 +138,8 @@ impl Subpath {
         points
     }
 
-    /// Returns the corners after flattening. No chord is farther than `tolerance` from its curve. A last corner
-    /// within `close` of the first corner is merged with it. `None` if the subpath is open.
+    /// Replaces curves by chords that are at most `tolerance` from them, and returns the corners. If the last corner is
+    /// at most `close` from the first, the two are merged. Returns `None` if the subpath is open.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
         let mut corners = vec![Corner {
             at: self.start,
@@ -174,7 +174,8 @@ impl Segment {
         }
     }
 
-    /// Returns the corners between the ends of a segment that begins at `from`.
+    /// Returns the corners between the ends of a segment that begins at `from`, if chords may be at most `tolerance`
+    /// from the curve.
     fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
         match self {
             Segment::Line(_) => Vec::new(),
@@ -216,7 +217,7 @@ impl Segment {
 }
 
 fn steps(wanted: f64) -> f64 {
-    // The comparison is false for NaN, which gives one step.
+    // The comparison is false if `wanted` is NaN; the result is then one step.
     if wanted > 1.0 {
         wanted.ceil().min(MAX_CHORDS)
     } else {

@@ -8,7 +8,8 @@ use crate::geometry::Point;
 /// The largest nesting depth of collections; deeper ones could overflow the stack.
 const MAX_DEPTH: usize = 50;
 
-/// Reads lines of well-known text. `scale` is in metres per unit. Lines that begin with `#` are comments.
+/// Reads lines of well-known text (WKT). `scale` is in metres per unit. Lines that begin with `#` are comments, and
+/// lines that cannot be read are reported.
 pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     let mut draft = Draft::default();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -67,7 +68,7 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     draft
 }
 
-/// Splits a line into name and geometry. The prefix `SRID=…;` of a database is not a name.
+/// Splits a line into name and geometry. The prefix `SRID=…;`, which databases write, is not a name.
 fn named(line: &str) -> (&str, &str) {
     let geometry = line.find('(').unwrap_or(line.len());
     match line[..geometry].rfind([';', '\t']) {
@@ -168,7 +169,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads two numbers. A third and fourth number (height and measure) are ignored.
+    /// Reads a point of two numbers. A third and fourth number (height and measure) are ignored.
     fn point(&mut self) -> Result<Point, String> {
         let p = Point::new(self.number()?, self.number()?) * self.scale;
         for _ in 0..2 {

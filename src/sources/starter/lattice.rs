@@ -20,7 +20,7 @@ pub struct LatticePile {
 }
 
 impl Default for LatticePile {
-    /// Returns a pile of 3 rows of cells of 1 m, with a friction coefficient of 0.7. It stands.
+    /// Returns a pile of 3 rows of triangles with edges of 1 m and a friction coefficient of 0.7. It stands.
     fn default() -> LatticePile {
         LatticePile {
             rows: 3,
@@ -31,7 +31,7 @@ impl Default for LatticePile {
 }
 
 impl LatticePile {
-    /// Makes the scene file.
+    /// Returns a scene file with the pile on the ground, of stone with 2500 kg/m³.
     ///
     /// # Example
     /// ```

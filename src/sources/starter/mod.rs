@@ -1,4 +1,4 @@
-//! Generates the scene files of common structures from a few lengths and counts.
+//! Generates the scene files of common structures from their dimensions and numbers of blocks.
 //!
 //! They are starting points for users (`drystone new arch`), benchmarks and tests. Blocks that touch share their rounded
 //! corners, so rounding opens no joint. Lengths are in metres, x points right, y up.
@@ -17,7 +17,8 @@ use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 /// joint.
 const DIGITS: f64 = 4.0;
 
-/// Rounds a coordinate, in metres, of a structure whose smallest length is `least` metres.
+/// Rounds a coordinate, in metres, to four significant digits of `least`, the smallest length of the structure in
+/// metres.
 fn rounded(x: f64, least: f64) -> f64 {
     let decimals = DIGITS - 1.0 - libm::floor(libm::log10(least));
     let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
@@ -26,7 +27,7 @@ fn rounded(x: f64, least: f64) -> f64 {
     whole + 0.0
 }
 
-/// Returns the rectangle between two opposite corners, in metres.
+/// Returns the four corners of the rectangle with the opposite corners `from` and `to`, in metres.
 fn rectangle(from: Pair, to: Pair) -> Vec<Pair> {
     vec![from, [to[0], from[1]], to, [from[0], to[1]]]
 }
@@ -39,7 +40,7 @@ fn block(id: String, polygon: Vec<Pair>) -> BlockEntry {
     }
 }
 
-/// Makes ground from `left` to `right` with its surface at y = 0, and `depth` metres thick.
+/// Returns ground from x = `left` to x = `right`, in metres, with its surface at y = 0 and `depth` metres thick.
 fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
     GroundEntry {
         polygon: Some(rectangle([left, -depth], [right, 0.0])),

@@ -1,4 +1,4 @@
-//! Boxes around outlines, to find outlines that are drawn twice.
+//! Bounding boxes of outlines, for finding outlines that are drawn twice.
 
 use crate::geometry::{Bounds, Point};
 use crate::import::draft::{Form, Part};
@@ -7,7 +7,7 @@ use crate::import::subpath::Subpath;
 /// Two outlines coincide if their boxes differ by at most this share of their size.
 const SAME_TOL: f64 = 1e-6;
 
-/// Returns the box around a curve; `None` if it is not finite.
+/// Returns the bounding box of a curve; `None` if a coordinate is not finite.
 pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
     let hull = curve.hull();
     let is_finite = hull
@@ -20,7 +20,7 @@ pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
     }
 }
 
-/// Returns the box around a part; `None` for a point.
+/// Returns the bounding box of a part; `None` for a point.
 pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     match &part.form {
         Form::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
@@ -28,7 +28,8 @@ pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     }
 }
 
-/// True if the box `own` coincides with one of `boxes` within a tolerance. `boxes` must be sorted by their left sides.
+/// True if the box `own` coincides with one of `boxes`, within a millionth of its diagonal. `boxes` must be sorted by
+/// `min.x`.
 pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
     let tolerance = SAME_TOL * own.diagonal();
     let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);

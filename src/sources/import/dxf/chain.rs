@@ -26,12 +26,12 @@ pub(super) struct Chains {
     pub(super) branch: Option<Point>,
 }
 
-/// Joins curves whose ends are at most `tolerance` apart, in the units of the curves.
+/// Joins curves into loops where their ends are at most `tolerance` apart. `tolerance` has the unit of the curves.
 pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     let mut chains = Chains::default();
     let (points, places) = numbered(&curves, tolerance);
-    // Step 2: collect the curves at each point, as the index of the curve, and whether the curve ends there or starts
-    // there.
+    // Step 2: list the curves that start or end at each point. An entry is the index of a curve, and true if the curve
+    // ends there.
     let mut ends: Vec<Vec<(usize, bool)>> = vec![Vec::new(); places.len()];
     for (i, [start, end]) in points.iter().enumerate() {
         ends[*start].push((i, false));
@@ -67,8 +67,8 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
     chains
 }
 
-/// Performs step 3: returns the loop that begins with the curve `first`. Each entry is the index of a curve, and
-/// whether the curve is reversed. `None` if the walk does not return to its start.
+/// Follows connected curves from the curve `first` until they return to its start (step 3). Returns the loop as the
+/// index of each curve, and whether the curve is reversed. `None` if the curves form no loop.
 fn walk(
     first: usize,
     points: &[[usize; 2]],
@@ -88,11 +88,12 @@ fn walk(
         walk.push((next, is_end));
         at = points[next][usize::from(!is_end)];
     }
-    // If more curves meet at the start, the loop is ambiguous.
+    // If more than two curves meet at the start, the loop is ambiguous.
     (ends[at].len() == 2).then_some(walk)
 }
 
-/// Performs step 1: returns the numbers of the start and end point of each curve, and the list of points.
+/// Numbers the end points of all curves; points within `tolerance` get the same number (step 1). Returns the numbers of
+/// the start and end point of each curve, and the list of points.
 fn numbered(curves: &[OpenCurve], tolerance: f64) -> (Vec<[usize; 2]>, Vec<Point>) {
     let mut places: Vec<Point> = Vec::new();
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();

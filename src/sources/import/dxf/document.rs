@@ -1,4 +1,4 @@
-//! [`Document`]: finds the parts of a DXF file that describe outlines.
+//! [`Document`]: the unit, the hidden layers, the blocks and the entities of a DXF file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,10 +26,10 @@ pub(super) struct Block<'r> {
 }
 
 impl<'r> Document<'r> {
-    /// Finds the sections of a file in its records.
+    /// Finds the header, the layers, the blocks and the entities in the records of a file.
     ///
     /// # Errors
-    /// If there is no section with entities.
+    /// Returns a message if the file has no section `ENTITIES`.
     pub(super) fn new(records: &'r [Record<'r>]) -> Result<Document<'r>, String> {
         let mut document = Document::default();
         let mut has_entities = false;

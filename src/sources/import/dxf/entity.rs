@@ -20,8 +20,8 @@ pub(super) enum Shape {
     Unreadable(&'static str),
 }
 
-/// Converts an entity to a curve or a point. `vertices` are the records `VERTEX` after an entity `POLYLINE`. `None`
-/// for kinds without outlines.
+/// Converts an entity to a curve or a point. `vertices` are the `VERTEX` records that follow a `POLYLINE` entity.
+/// Returns `None` for kinds of entities that have no outline.
 pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
     let shape = match entity.kind {
         "LINE" => Shape::Curve(open(
@@ -43,7 +43,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
             polyline(&corners, entity.has_flag(70, 1))
         }
         "SOLID" | "TRACE" => {
-            // The third and the fourth corner are swapped in the file.
+            // A DXF file stores the fourth corner before the third.
             let order = [10, 11, 13, 12].map(|code| point(entity, code));
             let four = entity.number(13).is_some();
             let corners = if four { &order[..] } else { &order[..2] };
@@ -59,7 +59,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => {
             Shape::Unreadable("it is not a plane outline")
         }
-        "MLINE" => Shape::Unreadable("a multiple line has no single outline"),
+        "MLINE" => Shape::Unreadable("a multiline (MLINE) has no single outline"),
         _ => return None,
     };
     Some(match (extrusion(entity), shape) {
@@ -67,7 +67,8 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve))
             if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
         {
-            // The x axis of all entities but LINE and ELLIPSE points to the left if their normal points down.
+            // If the normal of a curve points down, its x axis points to the left. Only LINE and ELLIPSE always use the
+            // axes of the drawing.
             Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
@@ -83,8 +84,8 @@ pub(super) enum Extrusion {
     Other,
 }
 
-/// Returns the direction of the normal, which has the codes 210, 220 and 230. The direction is `Other` if an x or y
-/// component exceeds a millionth.
+/// Returns the direction of an entity's normal, which has the group codes 210, 220 and 230. The direction is `Other` if
+/// the x or y component is larger than 1e-6, or if the z component is 0.
 pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
         .map(|(code, default)| entity.number(code).unwrap_or(default));
@@ -97,7 +98,7 @@ pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     }
 }
 
-/// Reads a point: x has the given code, and y the code 10 higher. A missing coordinate is NaN.
+/// Reads a point: x has the group code `code`, and y has `code` + 10. A missing coordinate becomes NaN.
 pub(super) fn point(record: &Record<'_>, code: i32) -> Point {
     let coordinate = |code| record.number(code).unwrap_or(f64::NAN);
     Point::new(coordinate(code), coordinate(code + 10))
@@ -117,7 +118,7 @@ fn corner(vertex: &Record<'_>) -> Corner {
     }
 }
 
-/// Reads the corners of an LWPOLYLINE. Code 10 (x) begins a corner; codes 20 (y) and 42 (bulge) belong to it.
+/// Reads the corners of an LWPOLYLINE. Group code 10 (x) begins a corner; codes 20 (y) and 42 (bulge) belong to it.
 fn corners(entity: &Record<'_>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::new();
     for (code, value) in &entity.groups {
@@ -134,7 +135,7 @@ fn corners(entity: &Record<'_>) -> Vec<Corner> {
     corners
 }
 
-/// Returns the curve through the corners of a polyline.
+/// Returns the curve through the corners of a polyline: straight lines, and arcs where a corner has a bulge.
 pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
         return Shape::Unreadable("it has no corners");
@@ -232,7 +233,7 @@ pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to
     }
 }
 
-/// Makes an open curve.
+/// Returns an open curve of segments that begins at `start`.
 pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
     Subpath {
         start,
@@ -241,7 +242,7 @@ pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
     }
 }
 
-/// Reads a count; 0 if the text is not a count.
+/// Parses a whole number of at least 0. Returns 0 for any other text.
 pub(super) fn count(value: &str) -> usize {
     usize::try_from(integer(value)).unwrap_or(0)
 }

@@ -12,7 +12,7 @@ const END_TOL: f64 = 1e-6;
 /// Returns the closed curves of the boundary of a hatch.
 ///
 /// # Errors
-/// The reason why the boundary cannot be read.
+/// Returns the reason why the boundary cannot be read.
 pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
     let mut groups = Groups {
         rest: &hatch.groups,
@@ -24,7 +24,7 @@ pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
         let Some(flags) = groups.value_of(92) else {
             break;
         };
-        // If the bit with value 2 is set, the boundary is a polyline.
+        // If bit 2 of the flags is set, the boundary is a polyline, otherwise a list of edges.
         let curve = match integer(flags) & 2 {
             0 => groups.edges()?,
             _ => groups.polyline()?,
@@ -49,15 +49,15 @@ impl<'t> Groups<'_, 't> {
         Some(*first)
     }
 
-    /// Skips the groups before the next group with this code. `None` if there is no such group; then nothing is
-    /// skipped.
+    /// Skips all groups before the next group with this code. Returns `None`, and skips nothing, if there is no such
+    /// group.
     fn skip_to(&mut self, code: i32) -> Option<()> {
         let skipped = self.rest.iter().position(|(c, _)| *c == code)?;
         self.rest = &self.rest[skipped..];
         Some(())
     }
 
-    /// Reads the value of the next group with a code. Groups before it are skipped.
+    /// Returns the value of the next group with this code, and skips the groups before it.
     fn value_of(&mut self, code: i32) -> Option<&'t str> {
         self.skip_to(code)?;
         self.next().map(|(_, value)| value)
@@ -71,7 +71,8 @@ impl<'t> Groups<'_, 't> {
         Point::new(self.number_of(code), self.number_of(code + 10))
     }
 
-    /// Reads a boundary in the form of a polyline. Code 93 is the number of its corners; `None` if it has none.
+    /// Reads a boundary that is stored as a polyline; group code 93 is the number of its corners. Returns `None` if it
+    /// has no corners.
     fn polyline(&mut self) -> Result<Option<Subpath>, &'static str> {
         let corners = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut list = Vec::new();
@@ -92,7 +93,8 @@ impl<'t> Groups<'_, 't> {
         })
     }
 
-    /// Reads a boundary in the form of edges. Code 93 is the number of edges, and code 72 the type of each edge.
+    /// Reads a boundary that is stored as edges: lines and arcs. Group code 93 is the number of edges, and code 72 the
+    /// type of each edge.
     fn edges(&mut self) -> Result<Option<Subpath>, &'static str> {
         let edges = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut curve: Option<Subpath> = None;
@@ -135,7 +137,8 @@ impl<'t> Groups<'_, 't> {
         self.turned(centre, major, minor, angles)
     }
 
-    /// Returns the curve in the direction that code 73 states. The angles of a clockwise edge are measured clockwise.
+    /// Returns the elliptical arc between the angles `from` and `to`, in radians, with the half axes `u` and `v`. Group
+    /// code 73 is 0 for a clockwise arc, whose angles are measured clockwise.
     fn turned(&mut self, centre: Point, u: Vector, v: Vector, [from, to]: [f64; 2]) -> Subpath {
         let is_anticlockwise = self.value_of(73).is_none_or(|value| integer(value) != 0);
         let v = if is_anticlockwise { v } else { -v };
@@ -143,8 +146,8 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Adds an edge to a curve. An edge that ends where the curve ends is reversed. The error is a message that the edge
-/// and the curve do not meet.
+/// Appends an edge to a curve. The edge, or a curve of only one edge, is reversed if they meet only then. Returns an
+/// error message if they do not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

@@ -30,7 +30,7 @@ use walk::Walk;
 /// Reads a DXF file in text form into a draft in metres, with y up.
 ///
 /// # Errors
-/// The reason why the text cannot be read as DXF.
+/// Returns the reason why the text cannot be read as DXF.
 pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draft, String> {
     let records = record::records(text)?;
     let document = Document::new(&records)?;
@@ -50,8 +50,8 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
     Ok(walk.finish())
 }
 
-/// Returns the unit that the header variable `$INSUNITS` states, in metres, and the reason for the note. `None` if the
-/// variable states no known unit of length.
+/// Returns the length in metres of the unit with this `$INSUNITS` code, and a text that names the unit. `None` if the
+/// code is not a known unit of length.
 fn unit(code: i64) -> Option<(f64, String)> {
     let (metres, name) = match code {
         1 => (0.0254, "inches"),

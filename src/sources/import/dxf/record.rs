@@ -22,7 +22,8 @@ pub(super) struct Record<'t> {
 /// Splits the text of a file into records. Comments (code 999) are left out.
 ///
 /// # Errors
-/// The first line that is not part of a group, or a hint that the file is binary.
+/// Returns a message if the file is binary, is not complete, has too many records, or has a line that is not part of a
+/// group.
 pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.starts_with("AutoCAD Binary DXF") {
@@ -72,24 +73,25 @@ pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
 }
 
 impl<'t> Record<'t> {
-    /// Returns the first value with a code; `None` if there is none.
+    /// Returns the value of the first group with this code; `None` if there is none.
     pub(super) fn text(&self, code: i32) -> Option<&'t str> {
         let group = self.groups.iter().find(|(c, _)| *c == code)?;
         Some(group.1)
     }
 
-    /// Returns the first value with a code as a number. A value that is not a number counts as NaN, so that the
-    /// entity is reported.
+    /// Returns the value of the first group with this code as a number; `None` if there is none. A value that is not a
+    /// number becomes NaN, so that the entity is reported.
     pub(super) fn number(&self, code: i32) -> Option<f64> {
         self.text(code).map(number)
     }
 
-    /// Returns the first value with a code as a whole number; 0 if it is absent or not a whole number.
+    /// Returns the value of the first group with this code as a whole number; 0 if there is none, or if it is not a
+    /// whole number.
     pub(super) fn integer(&self, code: i32) -> i64 {
         self.text(code).map_or(0, integer)
     }
 
-    /// True if one of the given bits of a flag is set.
+    /// True if the value with this code has at least one of `bits` set.
     pub(super) fn has_flag(&self, code: i32, bits: i64) -> bool {
         self.integer(code) & bits != 0
     }

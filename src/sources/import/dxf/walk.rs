@@ -1,4 +1,4 @@
-//! [`Walk`]: visits the entities, inserts blocks, and groups the curves by layer.
+//! [`Walk`]: visits the entities of a DXF drawing, inserts blocks, and groups the curves by layer.
 
 use std::collections::BTreeMap;
 
@@ -73,7 +73,7 @@ impl<'d> Walk<'d> {
     /// Reads the entities of the drawing, and those of the blocks that they insert.
     ///
     /// # Errors
-    /// If the drawing has too many outlines.
+    /// Returns a message if the drawing has too many outlines.
     pub(super) fn drawing(&mut self) -> Result<(), String> {
         let place = Place {
             map: Affine::scale(self.metres, self.metres),
@@ -110,7 +110,8 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    /// Returns the place of an entity. `None` if the entity must be left out.
+    /// Returns the transform, layer and role of an entity, which depend on those of the block around it. Returns
+    /// `None`, and counts the entity as left out, if it is in paper space or on a hidden or ignored layer.
     fn place(&mut self, entity: &Record<'_>, around: &Place) -> Option<Place> {
         if entity.integer(67) == 1 {
             self.leave("entities in paper space");
@@ -173,7 +174,7 @@ impl<'d> Walk<'d> {
         self.draft.parts.push(new_part(place, form, element));
     }
 
-    /// Inserts a block, possibly in rows and columns.
+    /// Reads the entities of the block that an INSERT entity inserts, once for each of its rows and columns.
     fn insert(&mut self, insert: &Record<'_>, around: &Place) -> Result<(), String> {
         let name = insert.text(2).unwrap_or("");
         let element = described(insert, around);
@@ -185,7 +186,7 @@ impl<'d> Walk<'d> {
             self.draft.remark(element, why, "");
             return Ok(());
         };
-        // With the flag 4 or 8 in code 70, the block is another drawing.
+        // If flag 4 or 8 is set in group code 70, the block refers to another drawing file.
         if block.head.has_flag(70, 4 | 8) {
             let help = "bind the external drawing, or explode it";
             self.draft
@@ -249,7 +250,8 @@ impl<'d> Walk<'d> {
         *self.left_out.entry(reason.to_owned()).or_default() += 1;
     }
 
-    /// Joins open curves into loops, adds hatches that fill no outline, and writes the notes.
+    /// Joins open curves into loops, adds hatches that do not fill a drawn outline, adds the notes, and returns the
+    /// draft.
     pub(super) fn finish(mut self) -> Draft {
         let boxes = self
             .open
@@ -260,7 +262,7 @@ impl<'d> Walk<'d> {
             .chain(self.draft.parts.iter().map(part_box))
             .flatten()
             .reduce(Bounds::union);
-        // Ends of lines meet within the same share of the drawing's size as edges.
+        // Two ends meet if their distance is at most `LENGTH_TOL` times the size of the drawing.
         let tolerance = LENGTH_TOL * size.map_or(0.0, Bounds::diagonal);
         for ((layer, _), (place, list)) in std::mem::take(&mut self.open) {
             self.chain(&layer, &place, list, tolerance);
@@ -350,14 +352,14 @@ fn new_part(place: &Place, form: Form, element: String) -> Part {
     }
 }
 
-/// Describes an entity, so that the user finds it in the drawing.
+/// Returns the kind, layer and line of an entity as text, so that the user finds it in the drawing.
 fn described(entity: &Record<'_>, place: &Place) -> String {
     let layer = crate::text::heading(&place.layer, 60);
     format!("{} on layer {layer} in line {}", entity.kind, entity.line)
 }
 
-/// Returns the map from the coordinates of a block to those around its INSERT: scale, shift to the cell of the array,
-/// rotate, move. A normal that points down mirrors the result.
+/// Returns the map from the coordinates of a block to the coordinates in which it is inserted. The order is: subtract
+/// the base point, scale, shift to the row and column, rotate, move. A normal that points down mirrors the result.
 fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) -> Affine {
     let number = |code, default| insert.number(code).unwrap_or(default);
     let base = point(block.head, 10);

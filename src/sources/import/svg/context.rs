@@ -32,7 +32,7 @@ pub(super) struct UseElement {
 }
 
 impl Context {
-    /// Makes the context of a page. It contains no inherited properties yet.
+    /// Returns the context of the root element: a transform, a style and a viewport, but no role and no names.
     pub(super) fn of_page(map: Affine, style: Style, viewport: Viewport) -> Context {
         Context {
             map,

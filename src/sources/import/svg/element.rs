@@ -10,10 +10,10 @@ use super::viewport::{Viewport, length};
 use crate::geometry::{Point, Vector};
 use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// Returns the subpaths of a shape, in its own coordinates.
+/// Returns the subpaths of a shape, in the coordinates of its element.
 ///
 /// # Errors
-/// A message if the shape has no valid size, no points, or path data that cannot be read.
+/// Returns a message if the shape has no valid size, has no points, or has path data that cannot be read.
 pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     match node.tag_name().name() {
         "rect" => rect(node, viewport),
@@ -33,7 +33,7 @@ pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Sub
     }
 }
 
-/// Reads a point from two attributes; a missing attribute counts as 0.
+/// Reads a point from two attributes. A coordinate whose attribute is missing is 0.
 fn point(node: Node<'_, '_>, viewport: Viewport, [x, y]: [&str; 2]) -> Point {
     Point::new(
         length(node, x, viewport.width).unwrap_or(0.0),

@@ -1,4 +1,4 @@
-//! Reads a figure by drystone: blocks, ground and robots, but not forces.
+//! Imports the blocks, ground and robots of an SVG figure that drystone drew, but not the forces.
 
 use roxmltree::{Node, NodeType};
 
@@ -14,7 +14,7 @@ use crate::import::draft::{FillRule, Form, Part, Role, Values};
 const SCALE: &str = "data-drystone-scale";
 const ORIGIN: &str = "data-drystone-origin";
 
-/// Returns the frames of a figure by drystone, in order; `None` for other drawings.
+/// Returns the frames of a figure that drystone drew, in order. Returns `None` for other drawings.
 pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
@@ -25,7 +25,8 @@ pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     (!found.is_empty()).then_some(found)
 }
 
-/// Returns the map from the pixels of a frame to metres, with y up. `scale` is in metres per pixel.
+/// Returns the map from the pixels of a frame to metres, with y up. `scale`, in metres per pixel, replaces the scale
+/// that the figure contains.
 fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String> {
     let numbers = |name: &str| -> Option<Vec<f64>> {
         let text = picture.attribute(name)?;
@@ -48,7 +49,8 @@ fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    /// Reads one frame of a figure, counted from 0; by default the last.
+    /// Reads one frame of a figure; `frame` is counted from 0, and the default is the last frame. Returns a message if
+    /// there is no such frame.
     pub(super) fn figure(
         &mut self,
         pictures: &[Node<'a, 'd>],
@@ -91,7 +93,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn read_groups(&mut self, node: Node<'a, 'd>, around: &Context) {
-        // Groups in figures by drystone are not nested deeper.
+        // Figures that drystone draws have no deeper nested groups.
         if around.depth > 4 {
             return;
         }

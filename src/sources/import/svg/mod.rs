@@ -34,10 +34,11 @@ use super::scale::Scale;
 /// The largest number of comparisons of a style rule with an element.
 const MAX_RULE_MATCHES: usize = 150_000_000;
 
-/// Reads an SVG into a draft in metres, with y up. `frame` is the frame of a figure by drystone, from 0.
+/// Reads an SVG into a draft in metres, with y up. `frame` selects a frame of a figure that drystone drew, counted from
+/// 0.
 ///
 /// # Errors
-/// The reason why the text cannot be read as SVG.
+/// Returns the reason why the text cannot be read as SVG.
 pub(super) fn read(
     text: &str,
     scale: Scale,
@@ -96,7 +97,7 @@ pub(super) fn read(
     Ok(walk.draft)
 }
 
-/// Returns the text of all style sheets.
+/// Returns the text of all `<style>` elements.
 fn style_text(document: &Document<'_>) -> String {
     let mut css = String::new();
     for node in document.descendants().filter(|n| is(*n, "style")) {
@@ -108,7 +109,7 @@ fn style_text(document: &Document<'_>) -> String {
     css
 }
 
-/// Returns the elements by their ids. If several have the same id, the first one counts.
+/// Returns a map from ids to elements. If several elements have the same id, the map contains the first of them.
 fn ids<'a, 'd>(document: &'a Document<'d>) -> BTreeMap<&'a str, Node<'a, 'd>> {
     let mut ids = BTreeMap::new();
     for node in document.descendants() {

@@ -1,4 +1,4 @@
-//! Parses SVG path data into subpaths: all commands, absolute and relative.
+//! Parses SVG path data into subpaths. It reads all commands, absolute and relative.
 
 use core::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::import::subpath::{Arc, Segment, Subpath};
 /// Returns the subpaths of a `d` attribute.
 ///
 /// # Errors
-/// The message of the parser.
+/// Returns the message of the parser if the path data is not valid.
 pub(super) fn subpaths(text: &str) -> Result<Vec<Subpath>, String> {
     let mut builder = SubpathBuilder {
         subpaths: Vec::new(),
@@ -37,7 +37,7 @@ struct SubpathBuilder {
 }
 
 impl SubpathBuilder {
-    /// Ends the open subpath.
+    /// Ends the current subpath. A subpath without segments is dropped.
     fn finish(&mut self) {
         self.subpaths.extend(
             self.open
@@ -46,7 +46,8 @@ impl SubpathBuilder {
         );
     }
 
-    /// Adds a segment. After a `Z` without an `M`, it begins a new subpath at the current point.
+    /// Adds a segment to the current subpath. After a `Z` that no `M` follows, the segment begins a new subpath at the
+    /// current point.
     fn add(&mut self, segment: Segment) {
         let start = self.at;
         let subpath = self.open.get_or_insert(Subpath {
@@ -58,7 +59,7 @@ impl SubpathBuilder {
         self.at = segment.end();
     }
 
-    /// Adds a command of the path.
+    /// Adds the segments of one path command.
     fn draw(&mut self, segment: PathSegment) {
         let base = if segment.is_abs() {
             Vector::zeros()
@@ -119,7 +120,7 @@ impl SubpathBuilder {
         }
     }
 
-    /// Begins a subpath.
+    /// Ends the current subpath and begins a new one at `start`.
     fn begin(&mut self, start: Point) {
         self.finish();
         self.at = start;
@@ -130,7 +131,7 @@ impl SubpathBuilder {
         });
     }
 
-    /// Closes the open subpath.
+    /// Closes the current subpath and ends it.
     fn close(&mut self) {
         if let Some(mut subpath) = self.open.take() {
             self.at = subpath.start;
@@ -140,13 +141,14 @@ impl SubpathBuilder {
         }
     }
 
-    /// Adds a cubic curve.
+    /// Adds a cubic Bézier curve with the control points `first` and `second`.
     fn cubic(&mut self, first: Point, second: Point, to: Point) {
         self.handle = Some(second);
         self.add(Segment::Cubic(first, second, to));
     }
 
-    /// Adds a quadratic curve as a cubic one: its control points are at 2/3 of the way to the quadratic control point.
+    /// Adds a quadratic Bézier curve as a cubic one. The cubic control points are at 2/3 of the way from each end to
+    /// `handle`.
     fn quadratic(&mut self, handle: Point, to: Point) {
         let towards = |from: Point| from + (handle - from) * (2.0 / 3.0);
         self.quadratic = Some(handle);
@@ -154,7 +156,8 @@ impl SubpathBuilder {
     }
 }
 
-/// Converts an arc from its end points to its centre (SVG 2, appendix B.2.4). `None` if it is a straight line.
+/// Converts an elliptical arc from end points to a centre and angles (SVG 2, appendix B.2.4). Returns `None` if the arc
+/// is a straight line.
 ///
 /// 1. Map the ellipse to the unit circle; h is half the chord.
 /// 2. If the chord is longer than the diameter, enlarge the radii (B.2.5).
@@ -174,21 +177,21 @@ fn arc(
     }
     let (sin, cos) = libm::sincos(turn);
     let (along, across) = (Vector::new(cos, sin), Vector::new(-sin, cos));
-    // Steps 1 and 2.
+    // Steps 1 and 2: map the ellipse to the unit circle, and enlarge radii that are too small.
     let half = (from - to) / 2.0;
     let h = Vector::new(half.dot(&along) / rx, half.dot(&across) / ry);
     let length = h.norm();
     let scale = length.max(1.0);
     let (rx, ry) = (rx * scale, ry * scale);
     let h = h / scale;
-    // Step 3.
+    // Step 3: compute the centre.
     let off = ((1.0 - h.norm_squared()).max(0.0)).sqrt() / h.norm();
     let side = if large == clockwise { -off } else { off };
     let centre = Vector::new(h.y, -h.x) * side;
     let (u, v) = (along * rx, across * ry);
     let middle = from + (to - from) / 2.0;
     let (start, end) = (h - centre, -h - centre);
-    // Step 4.
+    // Step 4: compute the angles.
     let begin = libm::atan2(start.y, start.x);
     let mut sweep = libm::atan2(cross(start, end), start.dot(&end));
     if clockwise && sweep < 0.0 {
@@ -196,7 +199,7 @@ fn arc(
     } else if !clockwise && sweep > 0.0 {
         sweep -= TAU;
     }
-    // The sweep of a half circle may have either sign, and both are correct up to the corrections above.
+    // A half circle gives +π or −π before the correction, and the correct sign after it. A sweep of 0 is not an arc.
     if sweep == 0.0 || !(rx.is_finite() && ry.is_finite()) {
         return None;
     }

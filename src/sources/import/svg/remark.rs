@@ -1,4 +1,5 @@
-//! The kinds of remarks about elements of an SVG. Each kind has a limit of its own.
+//! The kinds of remarks about SVG elements. Of each kind, only the first remarks are listed, and the others are
+//! counted.
 
 /// At most this many remarks of one kind are listed; the others are counted.
 pub(super) const MAX_LISTED: usize = 20;
@@ -22,8 +23,8 @@ pub(super) enum RemarkKind {
 }
 
 impl RemarkKind {
-    /// Returns the plural for a summary. `None` for elements that are hidden or that are ignored because of their
-    /// names.
+    /// Returns the plural noun with which a summary counts the remarks of this kind. `None` for elements that are
+    /// hidden or that are ignored because of their names.
     pub(super) fn plural(self) -> Option<&'static str> {
         Some(match self {
             RemarkKind::Skipped => return None,

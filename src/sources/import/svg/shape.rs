@@ -1,4 +1,4 @@
-//! Adds shapes to the draft.
+//! Adds the shapes of an SVG to the draft, with their names, roles and fills.
 
 use roxmltree::Node;
 use svgtypes::{TransformListParser, TransformListToken};
@@ -13,7 +13,7 @@ use crate::import::draft::{Form, Part, Role, Values};
 use crate::import::limit::MAX_BODIES;
 
 impl<'a, 'd> Walk<'a, 'd> {
-    /// Adds a shape to the draft.
+    /// Adds a shape to the draft, in metres. A hidden shape is left out, and a shape that cannot be read is reported.
     pub(super) fn shape(&mut self, node: Node<'a, 'd>, around: &Context) {
         if !around.style.visible {
             self.skip(node, around, "it is hidden");
@@ -65,7 +65,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         None
     }
 
-    /// Reads the `transform` of an element.
+    /// Returns the `transform` attribute of an element as an affine map. If it has an error, the error is reported and
+    /// only the part before it is used.
     pub(super) fn transform(&mut self, node: Node<'a, 'd>, around: &Context) -> Affine {
         let mut map = Affine::IDENTITY;
         for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {

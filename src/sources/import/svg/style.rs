@@ -47,7 +47,7 @@ impl Style {
         masked: false,
     };
 
-    /// Returns the style of a child element.
+    /// Returns the style of a child element: inherited from this style, and changed by its own declarations.
     pub(super) fn of_child(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
         let mut style = Style {
             displayed: true,

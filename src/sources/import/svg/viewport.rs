@@ -1,4 +1,4 @@
-//! [`Viewport`]: computes lengths, view boxes and the physical size of a drawing.
+//! [`Viewport`]: converts the lengths and view boxes of an SVG, and finds its physical size.
 
 use core::str::FromStr;
 
@@ -26,7 +26,7 @@ pub(super) struct Page {
     pub(super) unit: Option<(f64, String)>,
 }
 
-/// Reads the page from the attributes of the root element.
+/// Reads the viewport, the position of the page and its physical size from the attributes of the root element.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
     let sizes =
         ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
@@ -67,7 +67,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// Describes the size from which the scale was computed.
+/// Returns the size from which the scale was computed as text, such as `210mm wide`.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")
@@ -77,7 +77,8 @@ fn described(root: Node<'_, '_>, by_width: bool) -> String {
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
-/// Reads a length in user units; `None` if it is missing or not valid. Percentages refer to `whole`.
+/// Reads an attribute as a length in user units. A percentage is taken of `whole`. Returns `None` if the attribute is
+/// missing or not valid.
 pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
     in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
 }
@@ -91,7 +92,8 @@ pub(super) fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
         .then_some(view)
 }
 
-/// Returns the map from a view box to its viewport, by `preserveAspectRatio`.
+/// Returns the map from a view box to a viewport of this width and height. `ratio` is the attribute
+/// `preserveAspectRatio`.
 pub(super) fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
     let (sx, sy) = (width / view.w, height / view.h);
     if ratio.align == Align::None {
@@ -141,7 +143,7 @@ fn physical(length: Length) -> Option<f64> {
     Some(length.number * metres)
 }
 
-/// Rounds a scale to 15 digits, which removes the error of a division: 0.21 m / 210 gives 0.001.
+/// Rounds a scale to 15 digits. This removes the rounding error of a division, so that 0.21 m / 210 gives 0.001.
 fn neat(scale: f64) -> f64 {
     format!("{scale:.14e}").parse().unwrap_or(scale)
 }

@@ -41,7 +41,7 @@ pub(super) struct Walk<'a, 'd> {
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    /// Reads a drawing that is not a figure by drystone.
+    /// Reads an SVG that is not a figure of drystone.
     pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Scale) -> Result<(), String> {
         let page = viewport::page(root);
         let stated = page
@@ -133,7 +133,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         false
     }
 
-    /// Reads an element and its children. `around` is its context, and `inner` the context of its children.
+    /// Reads an element and its children. `around` is the context of the element, and `inner` the context of its
+    /// children.
     fn draw(&mut self, node: Node<'a, 'd>, around: &Context, mut inner: Context) {
         let tag = node.tag_name().name();
         match tag {
@@ -222,7 +223,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             });
         }
         if matches!(target.tag_name().name(), "svg" | "symbol") {
-            // A `<use>` element may set the size of a symbol.
+            // A `<use>` element may set the size of the symbol that it copies.
             inner.viewport.copied = (
                 viewport::length(node, "width", inner.viewport.width),
                 viewport::length(node, "height", inner.viewport.height),
@@ -231,7 +232,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         self.element(target, &inner);
     }
 
-    /// Describes an element for messages; for a copy, describes its `<use>` element.
+    /// Returns the description of an element for messages. For a copy, this is the description of its `<use>` element.
     pub(super) fn element_label(&self, node: Node<'a, 'd>, around: &Context) -> String {
         match &around.copy {
             Some(copy) => copy.element.clone(),
@@ -266,7 +267,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    /// Adds a remark or a note for each kind of remarks that are not all listed. It states the number of the others.
+    /// For each kind of remarks that are not all listed, adds a remark or note with the number of the unlisted ones.
     pub(super) fn count_unlisted(&mut self) {
         for (kind, times) in &self.remarked {
             let Some(more) = times.checked_sub(MAX_LISTED).filter(|more| *more > 0) else {

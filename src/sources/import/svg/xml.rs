@@ -1,4 +1,4 @@
-//! Functions for SVG elements.
+//! Tests the tags of SVG elements, and reads their text.
 
 use roxmltree::Node;
 
@@ -12,7 +12,7 @@ pub(super) fn is(node: Node<'_, '_>, tag: &str) -> bool {
         && node.tag_name().namespace().is_none_or(|n| n == SVG)
 }
 
-/// True if elements with this tag are never drawn at their own place.
+/// True for tags such as `defs` and `clipPath`, whose elements are not drawn where they stand in the file.
 pub(super) fn is_never_drawn(tag: &str) -> bool {
     matches!(
         tag,
