@@ -93,7 +93,7 @@ pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
     let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    // Only the start of a line can begin a list or underline a heading.
+    // Lists and heading underlines can begin only at the start of a line.
     let starts_block = |place: usize, c: char| match c {
         '-' | '+' | '=' => place == 0,
         _ => matches!(c, '.' | ')') && place == number && number > 0,

@@ -177,7 +177,7 @@ impl Default for Doorway {
 }
 
 impl Doorway {
-    /// Returns a scene file with the doorway, built in three steps on the ground, of stone with 2500 kg/m³.
+    /// Returns a scene file with the doorway on the ground, built in three steps, of stone with 2500 kg/m³.
     ///
     /// # Example
     /// ```

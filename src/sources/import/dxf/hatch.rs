@@ -24,7 +24,7 @@ pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
         let Some(flags) = groups.value_of(92) else {
             break;
         };
-        // If bit 2 of the flags is set, the boundary is a polyline, otherwise a list of edges.
+        // If the flag with the value 2 is set, the boundary is a polyline, otherwise a list of edges.
         let curve = match integer(flags) & 2 {
             0 => groups.edges()?,
             _ => groups.polyline()?,

@@ -199,7 +199,7 @@ fn arc(
     } else if !clockwise && sweep > 0.0 {
         sweep -= TAU;
     }
-    // A half circle gives +π or −π before the correction, and the correct sign after it. A sweep of 0 is not an arc.
+    // For a half circle, `atan2` may give +π or −π, and the correction has chosen the sign. A sweep of 0 is not an arc.
     if sweep == 0.0 || !(rx.is_finite() && ry.is_finite()) {
         return None;
     }

@@ -12,7 +12,7 @@ pub(super) fn is(node: Node<'_, '_>, tag: &str) -> bool {
         && node.tag_name().namespace().is_none_or(|n| n == SVG)
 }
 
-/// True for tags such as `defs` and `clipPath`, whose elements are not drawn where they stand in the file.
+/// True for tags such as `defs` and `clipPath`, whose content is never drawn directly.
 pub(super) fn is_never_drawn(tag: &str) -> bool {
     matches!(
         tag,
