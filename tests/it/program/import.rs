@@ -68,7 +68,7 @@ fn standard_input_and_output_want_the_format() {
     assert!(
         untold
             .err
-            .contains("say --format svg, dxf, geojson, wkt, contacts or compas"),
+            .contains("give --format svg, dxf, geojson, wkt, contacts or compas"),
         "{}",
         untold.err
     );
@@ -145,7 +145,7 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
         ),
         (
             "import stands.json -o scene.json",
-            "it is a scene file already",
+            "already a scene file",
         ),
         ("import drawing.svgz -o scene.json", "unpack it first"),
     ] {

@@ -164,7 +164,7 @@ fn scales_and_units_are_read_as_people_write_them() {
         &bench,
         "import drawing.svg --scale 1:0",
         2,
-        &["give 1:50, or metres per unit"],
+        &["give a ratio such as 1:50, or metres per unit"],
     );
     says(
         &bench,
