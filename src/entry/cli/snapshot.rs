@@ -135,7 +135,9 @@ impl Snapshot {
             }
         }
         if asks && accepts {
-            return refuse("--accept accepts all changes, and --review asks about each; leave one of them out");
+            return refuse(
+                "--accept accepts all changes, and --review asks about each; leave one of them out",
+            );
         }
         if store::in_ci() && !self.accept_in_ci && (self.accept || asks) {
             return refuse(

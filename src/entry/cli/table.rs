@@ -20,7 +20,10 @@ const MEANINGS: [[&str; 2]; 16] = [
         "stands",
         "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance that exists only by wedging counts too.",
     ],
-    ["falls", "no set of admissible forces balances every block, and a motion proves it."],
+    [
+        "falls",
+        "no set of admissible forces balances every block, and a motion proves it.",
+    ],
     [
         "undecided",
         "it was proved neither that the frame stands nor that it falls; the reason is below the row.",
@@ -30,12 +33,18 @@ const MEANINGS: [[&str; 2]; 16] = [
         "largest",
         "the largest force between two bodies, in newtons",
     ],
-    ["between", "the two bodies between which the largest force acts"],
+    [
+        "between",
+        "the two bodies between which the largest force acts",
+    ],
     [
         "friction",
         "the largest ratio of friction force to friction limit at any contact",
     ],
-    ["robots", "the largest ratio of a robot's force or torque to its limit"],
+    [
+        "robots",
+        "the largest ratio of a robot's force or torque to its limit",
+    ],
     ["-", "no value, because the frame falls"],
     [
         "comes off",

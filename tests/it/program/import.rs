@@ -143,10 +143,7 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
             "import drawing.svg --gravity down -o scene.json",
             "give one number",
         ),
-        (
-            "import stands.json -o scene.json",
-            "already a scene file",
-        ),
+        ("import stands.json -o scene.json", "already a scene file"),
         ("import drawing.svgz -o scene.json", "unpack it first"),
     ] {
         let ran = bench.run(line);

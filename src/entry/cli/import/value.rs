@@ -61,7 +61,8 @@ pub(super) fn stone(typed: &str) -> Result<Stone, String> {
 /// Parses a scale: `1:50` is a ratio, and `0.02` is the number of metres per unit of the drawing.
 pub(super) fn scale(typed: &str) -> Result<DrawnAt, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
-    let wrong = || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
+    let wrong =
+        || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
     match typed.split_once(':') {
         Some((drawn, real)) => match (number(drawn), number(real)) {
             (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
