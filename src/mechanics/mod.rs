@@ -1,4 +1,5 @@
-//! Decides whether a structure stands, and why. Leads from a scene file to an analysis, and uses no module that draws.
+//! Decides whether a structure stands, and explains why. Contains all steps from a scene file to its analysis, but no
+//! drawing.
 //!
 //! The modules are listed in the order of dependency: each uses only those above it.
 

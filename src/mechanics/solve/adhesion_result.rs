@@ -1,4 +1,4 @@
-//! [`LeastAdhesion`]: the result of the program of least adhesion.
+//! [`LeastAdhesion`]: the least tension and excess friction that contacts would need for a structure to stand.
 
 use super::amounts::{Amounts, Effort};
 

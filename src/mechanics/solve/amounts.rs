@@ -1,5 +1,5 @@
-//! [`Amounts`], the forces of a program for each contact and grip; and [`Effort`], which counts programs and
-//! iterations.
+//! [`Amounts`]: the forces at all contacts and grips of a program. [`Effort`]: the number of programs and iterations
+//! that a result needed.
 
 use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -18,7 +18,7 @@ pub struct Amounts {
 }
 
 impl Amounts {
-    /// Returns zero for every force of a program.
+    /// Returns amounts in which every force of the program is zero.
     pub fn none(program: &Program) -> Amounts {
         Amounts {
             normal: vec![[0.0; 2]; program.contacts.len()],
@@ -39,7 +39,8 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
-    /// Returns the largest entry of the residual loads − Σ force, in program units: 0 if every block is balanced.
+    /// Returns the largest absolute entry of the residual, loads − Σ force, in program units. It is 0 if every block is
+    /// balanced.
     pub fn unbalanced(&self, program: &Program) -> f64 {
         let mut residual = program.loads.clone();
         // Subtracts a force and its moment from the three rows of a block.
@@ -52,7 +53,7 @@ impl Amounts {
             let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
             let [first, second] = self.normal[k].map(|amount| normal * amount);
             let first = first + tangent * self.friction[k];
-            // The contact acts on one block and, with the opposite sign, on the other.
+            // The contact force acts on the block `on` and, with the opposite sign, on the block `from`.
             let both = [(contact.on, 1.0)].into_iter();
             for ((block, arms), sign) in both.chain(contact.from.map(|from| (from, -1.0))) {
                 let moment = cross(arms[0], first) + cross(arms[1], second);
@@ -66,7 +67,7 @@ impl Amounts {
         largest(&residual)
     }
 
-    /// Multiplies every amount by a number.
+    /// Multiplies every force by the factor `by`.
     pub(super) fn multiply(&mut self, by: f64) {
         let friction = self.friction.iter_mut();
         let (normal, grip) = (self.normal.iter_mut(), self.grip.iter_mut());
@@ -74,7 +75,7 @@ impl Amounts {
         pairs.chain(grip.flatten()).for_each(|v| *v *= by);
     }
 
-    /// Adds `amount` to the amount of one force.
+    /// Adds `amount` times a unit force to the forces of its contact or grip.
     pub fn add(&mut self, force: Force, amount: f64) {
         match force {
             Force::Ray {
@@ -114,7 +115,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Returns the sum of two efforts.
+    /// Returns the sum of two efforts: their iterations and their programs are added up.
     pub fn and(self, other: Effort) -> Effort {
         Effort {
             iterations: self.iterations + other.iterations,

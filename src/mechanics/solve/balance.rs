@@ -40,7 +40,8 @@ const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 /// The largest relative difference of cost between the optimum and a balance on the face of optima.
 ///
 /// On the true face every balance has the same cost, up to the solver's error. A larger difference shows that the face
-/// has a column too many. Ten times this tolerance would accept such a column; a tenth is within the solver's error.
+/// has a column too many. If the tolerance were ten times larger, it would accept such a column; if it were ten times
+/// smaller, it would be within the solver's error.
 const COST_TOL: f64 = 2e-8;
 
 /// The relative difference of cost up to which a balance is accepted if none meets [`COST_TOL`]; the cheapest one is
@@ -80,8 +81,8 @@ const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 /// The finer tolerance, as a fraction of the normal one.
 const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// Returns the fraction of the basic columns that are doubtful: their amount and slack differ by a factor of less than
-/// 1000. The fraction is 0 if the dual is not solved.
+/// Returns the fraction of the basic columns that are doubtful, because their amount and slack differ by a factor of
+/// less than 1000. The fraction is 0 if the dual is not solved.
 fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
@@ -93,12 +94,12 @@ fn doubtful_share(solved: &Dual) -> f64 {
     }
 }
 
-/// Solves the program of least force.
+/// Finds forces of least sum that balance every block, or a motion that no contact opposes.
 pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
 }
 
-/// Solves the program of least force with given solver settings.
+/// Like [`balance`], but with all solver settings.
 pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_MANY)
 }
@@ -108,11 +109,11 @@ pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Bal
     balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
 }
 
-/// Computes steps 1 to 4 for a program. If the program has many blocks, step 1 takes at most `max_iterations`
-/// iterations.
+/// Solves the program of least force (steps 1 to 4 of the module header). With plain conditioning and many blocks, the
+/// solver of step 1 stops after `max_iterations` iterations.
 fn balance_within(program: &Program, settings: SolverSettings, max_iterations: usize) -> Balance {
     let mut effort = Effort::default();
-    // Step 1: solve the dual.
+    // Step 1: solve the kinematic dual.
     let whole = Face::whole(&program.loads, columns(program));
     let (solved, face_settings) =
         solve_dual(program, &whole, settings, max_iterations, &mut effort);
@@ -126,7 +127,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     match solved.status {
         Status::Solved => {
             let effort = &mut found.effort;
-            // Steps 2 to 4: choose among the optima, or repair the optimum that the solver found.
+            // Steps 2 to 4: choose the optimum of least Σ force², or repair the optimum that the solver found.
             if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
                 return balance;
             }
@@ -167,8 +168,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     found
 }
 
-/// Computes the least force of few blocks whose loads differ by many powers of ten, accurate relative to each block's
-/// own load.
+/// Computes the least force for few blocks whose loads differ by many powers of ten. The result is accurate relative to
+/// the load of each block.
 ///
 /// `None` if the loads are of similar size, if there are many blocks, or if the refinement fails.
 fn balance_by_levels(
@@ -183,7 +184,8 @@ fn balance_by_levels(
     if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
         return None;
     }
-    // Refine the optimum level by level. Then choose the forces of least Σ force² on its face.
+    // Refine the optimum, one order of magnitude of the loads after the other. Then choose the forces of least Σ force²
+    // on its face.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.narrowed(&optimum, 1.0);
@@ -196,7 +198,8 @@ fn balance_by_levels(
     })
 }
 
-/// Step 1: solves the dual. Also returns the settings for the least squares on the face of its optima.
+/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least squares on the face of its
+/// optima.
 fn solve_dual(
     program: &Program,
     whole: &Face,
@@ -236,10 +239,10 @@ fn solve_dual(
     (solved, settings)
 }
 
-/// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if no margin gives such a
-/// balance.
+/// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if none of the
+/// [`MARGINS`] gives such a balance.
 ///
-/// `settings` holds two settings: for repairing a balance, and for the least squares.
+/// `settings` contains the settings for the repair of a balance, followed by the settings for the least squares.
 fn least_squares_balance(
     program: &Program,
     whole: &Face,
@@ -252,7 +255,7 @@ fn least_squares_balance(
     let mut best: Option<(f64, Face)> = None;
     let mut tried = Vec::with_capacity(MARGINS.len());
     for margin in MARGINS {
-        // Step 2: the face of optima.
+        // Step 2: select the columns of the face of optima.
         let face = whole.narrowed(solved, margin);
         // The face of a larger margin contains the face of a smaller margin. If both have equally many columns, they
         // are the same face.
@@ -267,7 +270,7 @@ fn least_squares_balance(
         else {
             continue;
         };
-        // Step 4: compare the cost and the balance.
+        // Step 4: check the cost and the residual.
         let cost = face.cost(&amounts);
         let difference = (cost - solved.objective).abs() / solved.objective.abs();
         let is_balanced = |amounts: &[f64]| {

@@ -27,14 +27,14 @@ use crate::program::{Column, Force, Program, columns};
 
 /// A column may enter the passive set if its gradient exceeds this fraction of |column|·|residual|.
 ///
-/// The gradient of a passive column is 0 up to a rounding of about 1e-13 of that product. At 1e-12, rounding would make
-/// columns enter; at 1e-10, small contributions that the proof needs would be missed.
+/// The gradient of a passive column is 0 up to a rounding of about 1e-13 of that product. If the fraction were 1e-12,
+/// rounding would make columns enter; if it were 1e-10, small contributions that the proof needs would be missed.
 const DUAL_TOL: f64 = 1e-11;
 
 /// A residual below this fraction of the loads counts as 0.
 ///
-/// It is far below what a proof requires (1e-7) and above the rounding in the amounts of a few hundred bodies. At a
-/// tenth, that rounding would make columns enter and leave without end.
+/// It is far below what a proof requires (1e-7) and above the rounding in the amounts of a few hundred bodies. If it
+/// were ten times smaller, that rounding would make columns enter and leave without end.
 const RESIDUAL_TOL: f64 = 1e-12;
 
 /// A gradient per unit of |column| below this fraction of the largest load is rounding.
@@ -43,8 +43,8 @@ const GRADIENT_FLOOR: f64 = 1e-13;
 /// A column depends linearly on the passive columns if its part orthogonal to them has at most this fraction of its
 /// squared length.
 ///
-/// At this fraction the new pivot still has about five digits. Ten times larger, needed columns that are nearly
-/// parallel to others would be refused; at a tenth, the factor would lose one more digit.
+/// At this fraction the new pivot still has about five digits. If it were ten times larger, needed columns that are
+/// nearly parallel to others would be refused; if it were ten times smaller, the factor would lose one more digit.
 const DEPENDENCE_TOL: f64 = 1e-11;
 
 /// The passive set may change at most this many times the number of columns.
@@ -63,8 +63,8 @@ pub struct BoundedNnls {
     at_limit: Vec<usize>,
 }
 
-/// Returns the columns of a program without redundant columns. With friction, a pure normal force is redundant: it is a
-/// sum of the two rays of the friction cone.
+/// Returns the columns (unit forces) of a program, without redundant ones. At a contact with friction, the pure normal
+/// force is redundant: it is a sum of the two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
         Force::Ray {
@@ -78,7 +78,8 @@ pub fn generators(program: &Program) -> Vec<Column> {
 }
 
 impl BoundedNnls {
-    /// Renumbers the columns for a changed program. Columns for which `number` is `None` are removed.
+    /// Renumbers the columns for a changed program: column k becomes `number(k)`. It is removed if `number(k)` is
+    /// `None`.
     pub fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
         for place in (0..self.passive.len()).rev() {
             match number(self.passive[place]) {
@@ -98,12 +99,12 @@ impl BoundedNnls {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut search = Search::new(self, loads, columns);
         if !self.passive.is_empty() {
-            // The passive set of the start may already be the optimum.
+            // The initial passive set may already be optimal.
             self.solve_passive(&mut search, Digits::All)?;
         }
         let (mut entry, mut digits) = (Entry::Several, Digits::All);
         loop {
-            // Step 1: the gradient, and the candidates.
+            // Step 1: compute the gradient and find the candidates.
             let residual = self.residual(loads, columns);
             let length = residual.iter().map(|v| v * v).sum::<f64>().sqrt();
             let is_balanced = !(length > RESIDUAL_TOL * size);
@@ -113,7 +114,8 @@ impl BoundedNnls {
             }
             if search.candidates.is_empty() {
                 if entry == Entry::Several && !is_balanced {
-                    // Columns may have left at once because others entered at the same time. Try each column alone.
+                    // A column may have left again because other columns entered together with it. Now let one column
+                    // enter at a time.
                     entry = Entry::One;
                     search.rejected.fill(false);
                 } else if digits == Digits::All {
@@ -159,7 +161,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// Returns the columns with an amount above 0: the passive columns, and the columns at their limits.
+    /// Returns the indices of the columns with an amount above 0: the passive columns and the columns at their limits.
     pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
         self.passive.iter().chain(&self.at_limit).copied()
     }
@@ -185,13 +187,13 @@ impl BoundedNnls {
         Some(entered)
     }
 
-    /// Moves the amounts to the least squares of the passive set, and removes each column whose amount meets a bound
-    /// before that.
+    /// Moves the amounts to the least-squares solution of the passive set, and removes each column whose amount meets a
+    /// bound on the way. `None` after too many pivots.
     fn solve_passive(&mut self, search: &mut Search, digits: Digits) -> Option<Progress> {
         let (loads, columns) = (search.loads, search.columns);
         let mut progress = Progress::Stayed;
         loop {
-            // Step 3: least squares on the passive set. Step 4: the ratio test.
+            // Step 3: solve the least squares on the passive set. Step 4: do the ratio test.
             let optimum = self.least_squares(loads, columns, digits);
             let Some((step, first)) = self.ratio_test(&optimum, columns) else {
                 self.amounts = optimum;
@@ -242,7 +244,7 @@ impl BoundedNnls {
         shortest
     }
 
-    /// Returns the amounts of the passive columns with the least residual, without regard to bounds.
+    /// Returns the amounts of the passive columns that give the least residual if their bounds are ignored.
     ///
     /// The normal equations give half of the digits. With [`Digits::All`], one step of iterative refinement gives the
     /// rest.
@@ -281,7 +283,8 @@ impl BoundedNnls {
         residual
     }
 
-    /// Adds a column to the passive set. Returns false if it depends linearly on the columns in the set.
+    /// Adds column `k` to the passive set. Returns false, and adds nothing, if it depends linearly on the columns in
+    /// the set.
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
         // Append the column's row to the Cholesky factor of the Gram matrix.
         let new = &columns[k];
@@ -302,7 +305,7 @@ impl BoundedNnls {
         true
     }
 
-    /// Removes a column from the passive set.
+    /// Removes the column at position `place` of the passive set.
     fn remove_at(&mut self, place: usize) {
         self.passive.remove(place);
         self.amounts.remove(place);

@@ -19,7 +19,7 @@ use super::settings::{Conditioning, SolverSettings};
 use crate::clock::Instant;
 use crate::program::QuadraticProgram;
 
-/// Solves a conic problem of any size with clarabel. All its numbers must be finite.
+/// Solves a quadratic program of any size with clarabel. All numbers of the program must be finite.
 pub fn by_clarabel(
     problem: &QuadraticProgram,
     settings: SolverSettings,
@@ -98,7 +98,8 @@ fn clarabel_settings(
     }
 }
 
-/// Builds a compressed sparse column matrix from (row, column, value) entries; entries at the same place are added.
+/// Builds a compressed sparse column matrix from (row, column, value) entries. Entries with the same row and column are
+/// added up.
 fn compressed_columns(
     rows: usize,
     columns: usize,
@@ -118,7 +119,7 @@ fn compressed_columns(
         list[next[*column]] = (*row, *value);
         next[*column] += 1;
     }
-    // Sort each column by row, and add entries at the same place.
+    // Sort each column by row, and add up entries of the same row.
     let (mut colptr, mut rowval, mut nzval) = (
         vec![0],
         Vec::with_capacity(list.len()),

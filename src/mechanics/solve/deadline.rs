@@ -1,4 +1,4 @@
-//! [`DeadlineGuard`]: a time limit for all programs that a thread solves.
+//! [`DeadlineGuard`]: a time limit for all optimisation programs that a thread solves.
 
 use std::cell::Cell;
 

@@ -1,4 +1,5 @@
-//! [`Dual`]: the optimum of a linear program in columns, found from its kinematic (dual) form or from its static form.
+//! [`Dual`]: the optimum of the linear program of forces, found from its static (primal) form or from its kinematic
+//! (dual) form.
 //!
 //! ```text
 //! static:     min Σ cost·amount                   s.t.  Σ amount·column = loads,  0 ≤ amount ≤ limit
@@ -32,7 +33,7 @@ pub struct Dual {
 }
 
 impl Dual {
-    /// Creates a solution in which all numbers are 0, for a program of this size.
+    /// Creates a solution with the given status and size, in which all numbers are 0.
     fn zero(status: Status, unknowns: usize, columns: usize) -> Dual {
         Dual {
             status,
@@ -55,8 +56,8 @@ impl Dual {
     }
 }
 
-/// Solves the kinematic dual of some columns. If plain conditioning gives no status, solves it again with full
-/// conditioning.
+/// Finds the forces of least cost that balance the loads, by solving the kinematic dual. If plain conditioning ends
+/// without a status, solves the dual again with full conditioning.
 ///
 /// `cost` returns the cost of one unit of a column.
 pub fn dual(
@@ -71,7 +72,8 @@ pub fn dual(
     of_velocities(loads, columns, &conic, &row_of, &answer)
 }
 
-/// Converts the solution of a kinematic dual to amounts and slacks of columns; `row_of` gives the row of each column.
+/// Converts a solver's answer for a kinematic dual to velocities, and to the amounts and slacks of the columns.
+/// `row_of` gives the row of each column.
 pub(super) fn of_velocities(
     loads: &[f64],
     columns: &[Column],
@@ -87,8 +89,8 @@ pub(super) fn of_velocities(
     }
     for (k, row) in row_of.iter().enumerate() {
         if *row == usize::MAX {
-            // This is the second column of an opposite pair that shares one equality. Both columns are basic, even if
-            // their amount is 0.
+            // This column and the previous one are the opposite directions of one grip component, and share one
+            // equality. Both are basic, even if their amount is 0.
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, -answer.z[row_of[k - 1]]);
         } else if *row < conic.equalities {
             solved.amounts[k] = f64::max(f64::MIN_POSITIVE, answer.z[*row]);
@@ -103,7 +105,7 @@ pub(super) fn of_velocities(
     for (k, multiplier) in limited.zip(&answer.x[loads.len()..]) {
         solved.multipliers[k] = multiplier.max(0.0);
     }
-    // The solver minimises, but the dual is a maximum.
+    // The solver minimises the negative of the dual's objective.
     solved.objective = -conic
         .linear
         .iter()
@@ -126,11 +128,11 @@ pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
     .collect()
 }
 
-/// Solves the same program in its static form: the forces are the unknowns, the rows are the balance, and the
-/// multipliers of the rows are the velocities.
+/// Finds the forces of least cost that balance the loads, by solving the static form: the forces are the unknowns, the
+/// rows are the balance, and the multipliers of the rows are the velocities.
 ///
-/// Near the limit of stability it takes about half the iterations of the kinematic form, and each takes a third
-/// longer. It separates basic columns from the others less clearly.
+/// Near the limit of stability, the static form takes about half the iterations of the kinematic form, and each
+/// iteration takes a third longer. The static form separates basic columns from the others less clearly.
 pub(super) fn in_forces(
     loads: &[f64],
     columns: &[Column],
@@ -171,7 +173,7 @@ pub(super) fn in_forces(
     solved
 }
 
-/// Solves a program. If plain conditioning gives no status, solves it again with full conditioning.
+/// Solves a program. If plain conditioning ends without a status, solves it again with full conditioning.
 pub(super) fn solved_with_retry(
     conic: &QuadraticProgram,
     settings: impl Into<SolverSettings>,
@@ -189,7 +191,7 @@ pub(super) fn solved_with_retry(
     answer
 }
 
-/// Solves a program once, with the given conditioning.
+/// Solves a program once, without a retry, and adds the work to `effort`.
 pub(super) fn once(
     conic: &QuadraticProgram,
     settings: SolverSettings,
@@ -198,7 +200,7 @@ pub(super) fn once(
     once_within(conic, settings, MAX_ITERATIONS, effort)
 }
 
-/// Solves a program once, with the given conditioning and at most the given number of iterations.
+/// Solves a program once, in at most `iterations` iterations, and adds the work to `effort`.
 pub(super) fn once_within(
     conic: &QuadraticProgram,
     settings: SolverSettings,

@@ -13,8 +13,8 @@ const MAX_ROWS: usize = 120;
 
 /// The smallest pivot. With a smaller one the columns are linearly dependent, and the balance is not unique.
 ///
-/// The entries are near 1. At a tenth of this value the amounts could lose one more digit; ten times larger, columns of
-/// short contacts would be refused.
+/// The entries are near 1. If this value were ten times smaller, the amounts could lose one more digit; if it were ten
+/// times larger, columns of short contacts would be refused.
 const PIVOT_TOL: f64 = 1e-7;
 
 /// Residuals and negative amounts up to this fraction of the largest load are rounding. It equals the solver's
@@ -26,9 +26,11 @@ const ROUNDING_TOL: f64 = 1e-9;
 /// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if it fails.
 const STRICT_TOL: f64 = 1e-12;
 
-/// Computes the unique amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
+/// Computes the amounts of the columns that balance the loads, if they are unique, by Gaussian elimination with partial
+/// pivoting.
 ///
-/// `None` if the columns are linearly dependent, an amount is outside its bounds, or no amounts balance the loads.
+/// `None` if the columns are linearly dependent, an amount is outside its bounds, no amounts balance the loads, or
+/// there are more than 120 rows.
 pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let (rows, n) = (loads.len(), columns.len());
     if n > rows || rows > MAX_ROWS {
@@ -61,7 +63,7 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
     (is_balanced && is_admissible).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
 }
 
-/// Performs the forward elimination of the first `n` columns of a table with n + 1 columns; `None` if a pivot is too
+/// Performs the forward elimination of the first `n` columns of a table with n + 1 columns. `None` if a pivot is too
 /// small.
 fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
     let width = n + 1;
@@ -91,8 +93,8 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
     Some(())
 }
 
-/// Computes the amounts ≥ 0 of least Σ force² that balance the loads; `None` if a few rounds of an active-set method
-/// do not find them.
+/// Computes the amounts ≥ 0 of least Σ force² that balance the loads, by an active-set method. `None` if a few rounds
+/// of the method do not find them, or if it does not apply.
 ///
 /// The method applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the
 /// square of a unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j
@@ -112,7 +114,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
     let mut in_use = vec![true; columns.len()];
     for _ in 0..MAX_ROUNDS {
         let y = solve_semidefinite(gram(rows, columns, &squares, &in_use), loads)?;
-        // The amounts of the stationary point of these columns: λ = gᵀy / p.
+        // The amounts at the stationary point for these columns are λ = gᵀy / p.
         let both = columns.iter().zip(&squares);
         let amounts: Vec<f64> = both.map(|(c, square)| c.dot(&y) / square).collect();
         let is_negative = |k: &usize| in_use[*k] && amounts[*k] < -STRICT_TOL * scale;
@@ -142,8 +144,8 @@ fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Ve
     gram
 }
 
-/// Returns the amounts of all columns, 0 for columns that are not in use. `None` if the columns in use do not meet the
-/// conditions of an optimum.
+/// Returns the amounts of all columns, with 0 for the columns that are not in use. `None` if these amounts do not meet
+/// the conditions of an optimum.
 fn proved_optimum(
     loads: &[f64],
     columns: &[Column],
@@ -155,8 +157,8 @@ fn proved_optimum(
     let kept: Vec<f64> = both()
         .map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 })
         .collect();
-    // Dropped columns must have a multiplier of the right sign. The amounts of the other columns must be admissible and
-    // balance the loads.
+    // Dropped columns must have gᵀy ≤ 0. The amounts of the other columns must be within their limits and balance the
+    // loads.
     let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);
     let is_admissible = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
     let mut residual = loads.to_vec();
@@ -170,7 +172,8 @@ fn proved_optimum(
 /// entries are sums of products, whose rounding is about 10⁻¹⁵.
 const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
 
-/// Solves a symmetric positive semidefinite system by Cholesky factorization; unknowns without a pivot become 0.
+/// Solves the symmetric positive semidefinite system a·x = b by Cholesky factorization. Unknowns without a pivot become
+/// 0. `None` if the result is not finite.
 fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let has_pivot = factor_semidefinite(&mut a, n);
@@ -191,8 +194,8 @@ fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
     x.iter().all(|v| v.is_finite()).then_some(x)
 }
 
-/// Replaces the lower triangle by the Cholesky factor. Returns, for each column, whether it has a pivot. Columns
-/// without a pivot become 0.
+/// Replaces the lower triangle of a semidefinite matrix by its Cholesky factor. Returns, for each column, whether it
+/// has a pivot. Columns without a pivot are set to 0.
 fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
     let max_diagonal = (0..n).map(|i| a[i * n + i]).fold(0.0, f64::max);
     let mut has_pivot = vec![false; n];
@@ -202,7 +205,8 @@ fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
             d -= a[j * n + k] * a[j * n + k];
         }
         if d <= SEMIDEFINITE_PIVOT_TOL * max_diagonal {
-            // If the loads need a force along this row, the test of the balance fails later.
+            // No column in use acts along this row. If the loads need a force there, the later check of the balance
+            // fails.
             for i in j..n {
                 a[i * n + j] = 0.0;
             }

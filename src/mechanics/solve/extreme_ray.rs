@@ -16,7 +16,8 @@ pub(crate) type Row = Vec<(usize, f64)>;
 
 /// A row is tight if its value is at most this fraction of the motion's size: a hundred times the solver's tolerance.
 ///
-/// Ten times this value would close hinges that open slightly; at a tenth, a solver's error would count as an opening.
+/// If this value were ten times larger, hinges that open slightly would be closed; if it were ten times smaller, a
+/// solver's error would count as an opening.
 const TIGHT_TOL: f64 = 1e-7;
 
 /// A projection onto the null space shorter than this counts as 0: the row depends on rows that were removed before.
@@ -25,10 +26,11 @@ const TIGHT_TOL: f64 = 1e-7;
 /// by an angle above it count as independent.
 const DEPENDENCE_TOL: f64 = 1e-8;
 
-/// Returns a motion on an extreme ray of the cone, with the same power as the unit vector along `start`.
+/// Returns a motion on an extreme ray of the cone {y : row·y ≥ 0 for all rows}. Its power is that of `start` scaled to
+/// length 1.
 ///
-/// `None` if `start` has no power. `start` need not lie exactly in the cone: rows that it violates by a solver's error
-/// count as tight.
+/// `None` if the power of `start` is not positive. `start` may lie slightly outside the cone: rows that it violates by
+/// a solver's error count as tight.
 pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -> Option<Vec<f64>> {
     let (size, given) = (norm(start), dot(power, start));
     if size.is_nan() || size <= 0.0 || given.is_nan() || given <= 0.0 {
@@ -47,13 +49,13 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         } else {
             unit(first)
         };
-        // Step 2: move forwards, or backwards if no row closes forwards.
+        // Step 2: find the step forwards to the next tight row, or backwards if no row becomes tight forwards.
         let back = negated(&along);
         let (step, direction) = match (max_step(&open, &y, &along), max_step(&open, &y, &back)) {
             (Some(step), _) => (step, along),
             (None, Some(step)) => (step, back),
-            // No row closes in either direction: the bodies that move along it touch nothing. Remove this direction
-            // from the motion.
+            // No row becomes tight in either direction: the bodies that move in this direction touch nothing. Remove
+            // the direction from the motion.
             (None, None) => {
                 let share: f64 = along.iter().zip(&y).map(|(d, v)| d * v).sum();
                 null_space.remove(&dense(&along));
@@ -71,7 +73,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
             null_space.remove(row);
         }
         open = still_open;
-        // If no new row became tight, drop a direction. Otherwise the same step would be repeated without end.
+        // If no new row became tight, drop one direction, or else the same step would be repeated without end.
         if null_space.basis.len() == dimension {
             null_space.basis.pop();
         }
@@ -79,7 +81,8 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     Some(y)
 }
 
-/// Returns the directions that keep the power and the tight rows, and the rows that are open.
+/// Returns the null space of the power and of the rows that are tight at `y`, and the list of the other rows, which are
+/// open.
 fn tight_rows_removed<'r>(
     rows: &'r [Row],
     power: &[(usize, f64)],
@@ -107,7 +110,8 @@ fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
     openings
 }
 
-/// Ratio test: returns the longest step along a direction until an open row becomes 0; `None` if no open row becomes 0.
+/// Ratio test: returns the step from `y` along `direction` at which the first open row becomes 0. `None` if no open row
+/// becomes 0.
 fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     let step = |row: &&Row| {
         let (change, now) = (dot(row, direction), dot(row, y));
@@ -147,14 +151,14 @@ impl NullSpace {
     /// A Householder reflection rotates the basis until its last vector lies along the row's projection; then that
     /// vector is removed (Golub and Van Loan, Matrix Computations, 2013, §5.1).
     fn remove(&mut self, row: &[(usize, f64)]) {
-        // The components of the row in the basis.
+        // Compute the components of the row in the basis.
         let mut components: Vec<f64> = self.basis.iter().map(|b| dot(row, b)).collect();
         let length = norm(&components);
         if length <= DEPENDENCE_TOL {
             return;
         }
         let Some(last) = self.basis.pop() else { return };
-        // The reflection that maps the row's components to the last axis.
+        // Apply the Householder reflection that maps the row's components to the last axis.
         for v in &mut components {
             *v /= length;
         }
@@ -206,7 +210,7 @@ fn unit(y: &[f64]) -> Vec<f64> {
     y.iter().map(|v| v / size).collect()
 }
 
-/// Returns a dense vector as a row.
+/// Converts a dense vector to a sparse row.
 fn dense(y: &[f64]) -> Row {
     y.iter().copied().enumerate().collect()
 }

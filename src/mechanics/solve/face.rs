@@ -26,7 +26,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// Returns the face of all balances of some columns, with amounts of 0.
+    /// Returns the face of all balances: it contains all columns, with amounts of 0.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {
@@ -42,7 +42,8 @@ impl Face {
         Face { amounts, ..self }
     }
 
-    /// Returns the face of optima, from a solved dual of this face: its basic columns (see [`Dual::active`]).
+    /// Returns the face of optima of a linear program on this face. `solved` is the solution of the program; its basic
+    /// columns (see [`Dual::active`]) belong to the face of optima.
     ///
     /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance of its amount
     /// from the limit. Such columns are fixed; otherwise not every balance on the face would be an optimum.
@@ -82,7 +83,7 @@ impl Face {
         face
     }
 
-    /// Returns the cost of given amounts, plus the cost of the columns at their limits.
+    /// Returns the total cost of the given amounts and of the columns at their limits.
     pub fn cost(&self, amounts: &[f64]) -> f64 {
         let chosen: f64 = self
             .columns
@@ -100,12 +101,12 @@ impl Face {
         both.filter(|(c, _)| c.force.is_adhesion()).map(|(_, a)| *a)
     }
 
-    /// Returns the objective of stage 1: the sum of the amounts of the adhesion columns.
+    /// Returns the sum of the amounts of the adhesion columns: the objective of stage 1 of the least adhesion.
     pub fn adhesion_sum(&self, amounts: &[f64]) -> f64 {
         self.adhesion_amounts(amounts).sum()
     }
 
-    /// Converts the amounts to forces of contacts and grips: the admissible forces, and the adhesion.
+    /// Converts the amounts to forces of contacts and grips. Returns the admissible forces, and the adhesion.
     pub fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
         let (mut admissible, mut adhesion) = (Amounts::none(program), Amounts::none(program));
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
@@ -122,7 +123,7 @@ impl Face {
     }
 }
 
-/// Computes the amounts ≥ 0 of least Σ force² on given columns; `None` if the columns cannot balance the loads.
+/// Computes the amounts ≥ 0 of least Σ force² that balance the loads. `None` if the solver finds none.
 ///
 /// If the balance is unique, or [`exact`] can prove its optimum, elimination finds it to machine precision. Otherwise a
 /// quadratic program is solved.

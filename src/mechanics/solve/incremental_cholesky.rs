@@ -68,15 +68,15 @@ impl IncrementalCholesky {
         true
     }
 
-    /// Removes the row and the column of one variable from the factored matrix.
+    /// Removes row and column `place` from the factored matrix.
     ///
-    /// Each row below then has one entry to the right of the diagonal. Givens rotations of neighbouring columns make
-    /// the factor triangular again.
+    /// Each later row of the factor then has one entry to the right of the diagonal. Givens rotations of adjacent
+    /// columns make the factor triangular again.
     pub fn remove(&mut self, place: usize) {
         self.rows.remove(place);
         for k in place..self.rows.len() {
             let (a, b) = (self.rows[k].at(k), self.rows[k].at(k + 1));
-            // The rotation that moves the entry right of the diagonal onto it.
+            // Compute the Givens rotation that sets the entry to the right of the diagonal to 0.
             let length = libm::hypot(a, b);
             let (c, s) = (a / length, b / length);
             for row in &mut self.rows[k..] {
@@ -97,7 +97,7 @@ impl Row {
         }
     }
 
-    /// Returns entry k, or 0 if it is not stored.
+    /// Returns the entry in column k, or 0 if it is not stored.
     fn at(&self, k: usize) -> f64 {
         let place = k.checked_sub(self.first);
         let entry = place.and_then(|place| self.entries.get(place));

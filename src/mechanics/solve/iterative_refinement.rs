@@ -1,5 +1,5 @@
-//! Refines amounts iteratively: scales the residual to size 1, solves for a correction that removes it, and adds this
-//! correction.
+//! Iterative refinement of force amounts: scales the residual to size 1, solves for a correction that removes it, and
+//! adds this correction to the amounts.
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
@@ -13,7 +13,7 @@ const MAX_ROUNDS: usize = 2;
 /// A residual up to this fraction of the largest load is rounding, and is not refined further.
 const ROUNDING: f64 = 1e-14;
 
-/// Applies the least change (in the sum of squares) that removes the residual of some amounts: one linear system.
+/// Adds to the amounts the change of least Σ change² that removes their residual. This takes one linear system.
 ///
 /// An amount that would become negative is set to 0, which may leave a residual. If the system is not solved, the
 /// amounts are returned unchanged.
@@ -74,7 +74,7 @@ pub(super) fn refine_balance(
             .zip(&answer.x)
             .map(|(a, d)| (a + d * size).max(0.0))
             .collect();
-        // Keep a correction only if it improves the balance.
+        // Keep a correction only if it reduces the residual.
         if largest(&remainder(loads, columns, &better)) >= size {
             break;
         }

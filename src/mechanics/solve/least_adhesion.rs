@@ -1,5 +1,5 @@
-//! The program of least adhesion. Its objectives are, in this order: least adhesion, least force, and fewest points
-//! with adhesion.
+//! Computes the least adhesion: the least tension and excess friction that contacts would need for a structure to
+//! stand. Further objectives, in this order: least force, and fewest points with adhesion.
 //!
 //! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number. Each stage
 //! keeps only the columns on the face of optima of the previous stage. Its objective can therefore not worsen the
@@ -93,19 +93,19 @@ const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
 /// Two sums of adhesion count as equal if their relative difference is at most this.
 ///
-/// It is the solver's tolerance of 1e-9 for sums of a few tens of terms. At a tenth, valid later stages would be
-/// rejected; at ten times, stage 2 could trade adhesion for a smaller force.
+/// It is the solver's tolerance of 1e-9 for sums of a few tens of terms. If it were ten times smaller, valid later
+/// stages would be rejected; if it were ten times larger, stage 2 could accept more adhesion to reduce the force.
 const SUM_TOL: f64 = 3e-8;
 
 /// [`SUM_TOL`] for many blocks, where the sum that the solver returns is itself less accurate.
 const SUM_TOL_MANY: f64 = 3e-7;
 
-/// Solves the program of least adhesion.
+/// Computes the least adhesion with which forces balance every block, or a motion that no adhesion prevents.
 pub fn least_adhesion(program: &Program, conditioning: Conditioning) -> LeastAdhesion {
     least_adhesion_in(program, conditioning.into())
 }
 
-/// Solves the program of least adhesion with given settings.
+/// Like [`least_adhesion`], but with all solver settings.
 ///
 /// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts to solve a wall of
 /// 410 bricks slightly beyond its limit each ended without a status after a hundred iterations; with loads of 1 it is
@@ -127,13 +127,14 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     let mut all = columns_in(program, load);
     all.extend(adhesion_columns(program));
     let whole = Face::whole(&loads, all);
-    // Stage 1. If no adhesion balances the blocks, the dual is unbounded along a motion.
+    // Stage 1: least adhesion. If no adhesion balances the blocks, the dual is unbounded along a motion.
     let (first, priced) = first_stage(&whole, size, settings, &mut effort);
     if first.status != Status::Solved {
         return without_balance(program, first, priced, effort);
     }
     let mut motion = Some(first.y.iter().map(|v| -v).collect());
-    // If sizes differ by many powers of ten, refine the optimum of stage 1 level by level.
+    // If loads or adhesion differ by many powers of ten, refine the optimum of stage 1, one order of magnitude after
+    // the other.
     let many = size == Size::Many;
     let precise = least_adhesion_levels::precise_optimum(&whole, &first, many, &mut effort);
     let mut face = match &precise {
@@ -160,7 +161,8 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     }
 }
 
-/// Returns the result if no balance was found. It has a motion if the dual is unbounded.
+/// Returns the result for a stage 1 that found no balance. The result contains a motion if the dual of stage 1 is
+/// unbounded.
 fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort) -> LeastAdhesion {
     let none = Amounts::none(program);
     let fallen = first.status == Status::Unbounded;
@@ -174,7 +176,7 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: computes the least Σ adhesion. Returns the optimum, and whether admissible forces had a cost.
+/// Stage 1: computes the least Σ adhesion. Returns the optimum, and whether admissible forces had a small cost in it.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -224,10 +226,10 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
     }
 }
 
-/// Stage 1 for many blocks: leaves out redundant columns. If the kinematic form ends without a status, the static form
-/// is solved.
+/// Stage 1 for many blocks: solves the kinematic form without redundant columns. If it ends without a status, the
+/// static form is solved.
 fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
-    // Solve the kinematic form without redundant columns. If it ends without a status, solve the static form.
+    // Without redundant columns, the kinematic form has fewer rows.
     let slanted = Slanted::new(&whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     let (conic, row_of) = kinematic_dual(&whole.loads, &slanted.columns, cost);
@@ -260,7 +262,7 @@ fn later_stages(
         Size::Many => (SUM_TOL_MANY, &MARGINS[..1]),
         Size::Few => (SUM_TOL, &MARGINS[..]),
     };
-    // Sums below the solver's tolerance count as equal.
+    // Sums that differ by less than the solver's tolerance count as equal.
     let slight = TOLERANCE * largest(&whole.loads);
     let unchanged = |face: &Face, amounts: &[f64]| {
         (face.adhesion_sum(amounts) - least).abs() <= same * least + slight
@@ -306,7 +308,7 @@ fn later_stages(
     face
 }
 
-/// Stage 2: returns the face of least force among the balances of least adhesion.
+/// Stage 2: returns the face of the balances that have the least force among those of least adhesion.
 ///
 /// `None` if the solver finds no balance with the same sum of adhesion for any of the margins.
 fn least_force_face(
@@ -334,7 +336,7 @@ fn least_force_face(
     })
 }
 
-/// Solves the dual of a later stage.
+/// Solves the kinematic dual of stage 2 or 3.
 ///
 /// With many blocks, a stage that ends without a status also does so with full conditioning, after two to four times as
 /// long. It is therefore not solved again; the caller keeps the result of the previous stage.
@@ -391,7 +393,8 @@ fn concentrate(
         let solved = solve_stage(&face, size, settings, effort, |c| {
             if c.force.is_adhesion() { c.cost } else { 0.0 }
         });
-        // The columns have no balance. The least squares would take ten times as long to show it.
+        // These columns cannot balance the loads. The least squares of stage 4 would take ten times as long to show
+        // this.
         if size == Size::Many && solved.status == Status::Unbounded {
             return None;
         }

@@ -1,6 +1,6 @@
 //! Stages 2 to 4 of the least adhesion, for loads that differ by more powers of ten than a solver has digits.
 //!
-//! The stages are those of [`super::least_adhesion`], but each is solved level by level ([`super::level`]). The
+//! The stages are those of [`super::least_adhesion`], but each is solved in refinement levels ([`super::level`]). The
 //! adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
 //! optima if its amount is exactly 0; no threshold relative to the largest force is used.
 
@@ -45,11 +45,11 @@ fn smallest_accurate_force(loads: &[f64], least: f64, many: bool) -> Option<f64>
     (force_size < WIDE_LOAD_RATIO * most && force_size > 0.0).then_some(force_size)
 }
 
-/// Returns the optimum of stage 1, refined level by level, and the size of the smallest forces that are accurate in it.
+/// Returns the refined optimum of stage 1, and the size of the smallest forces that are accurate in it.
 ///
-/// `None` if sizes do not differ by many powers of ten, or if the refinement fails. `first` is the optimum of stage 1;
-/// `many` says whether the program has many blocks. Before the refinement, a small sum of adhesion is noise. If the
-/// refined sum is far smaller, the optimum is refined again.
+/// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is the optimum
+/// of stage 1; `many` says whether the program has many blocks. Before the refinement, a small sum of adhesion is
+/// noise. If the refined sum is far smaller, the optimum is refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
@@ -83,8 +83,8 @@ pub(super) fn chosen(
 ) -> Face {
     let face = whole.narrowed(first, 1.0);
     let least = face.adhesion_sum(&face.amounts);
-    // A column whose slack is below the solver's digits is on the face by mistake. A later stage that uses much of this
-    // column adds adhesion, and is skipped.
+    // A column whose true slack is smaller than the solver's error may be on the face by mistake. If a later stage
+    // increases the adhesion by using such a column, its result is rejected.
     let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SAME_SUM) * least;
     // Stage 2: least force.
     let second = optimum(&face, force_size, settings, effort, |c| c.cost);
@@ -97,8 +97,8 @@ pub(super) fn chosen(
     Some(squares).filter(unchanged).unwrap_or(face)
 }
 
-/// Computes the optimum of a face for given costs, accurate relative to each body's own load; `None` if it is not
-/// found.
+/// Computes the optimum on a face for the given costs, accurate relative to the load of each body. `None` if no optimum
+/// is found.
 fn optimum(
     face: &Face,
     force_size: f64,
@@ -136,7 +136,8 @@ fn concentrated(
         if before < 2 {
             break;
         }
-        // Reweighting: the cost of adhesion is about 1/share, at most a thousand times the cost of the largest share.
+        // Reweighting: the cost of a column is proportional to about 1/share, where share = amount / smaller load. It
+        // is at most a thousand times the cost of the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
             .map(|(column, amount)| match column.force.is_adhesion() {

@@ -1,4 +1,5 @@
-//! Two programs that also decide components near the limit of stability: any balance, and least residual.
+//! Two linear programs that decide components near the limit of stability, where the program of least force fails: any
+//! balance, and least residual.
 //!
 //! Near that limit the program of least force ends without a status: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:
@@ -102,7 +103,7 @@ pub fn any_balance(program: &Program) -> Residual {
             found.forces = scaled.forces(&amounts);
         }
         Status::Unbounded => {
-            // The program is infeasible. Its certificate is the motion.
+            // No forces balance the loads. The motion is the certificate of infeasibility.
             let power: f64 = loads.iter().zip(&any.y).map(|(n, v)| n * v).sum();
             let way: f64 = any.y.iter().map(|v| v.abs()).sum();
             found.nearest = power > MIN_POWER * way;
@@ -113,8 +114,8 @@ pub fn any_balance(program: &Program) -> Residual {
     found
 }
 
-/// Finds the forces of least residual and the motion that proves that this residual is the least; `None` if the solver
-/// ends without a status.
+/// Finds the forces of least residual, and the motion that proves that no smaller residual is possible. `None` if the
+/// solver finds no optimum.
 pub fn least_residual(program: &Program) -> Option<Residual> {
     let scaled = ScaledProgram::new(program);
     let mut effort = Effort::default();

@@ -64,7 +64,7 @@ pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the smallest load above 0 of a body; infinite if no body has a load.
+/// Returns the load of the lightest body, where bodies without a load do not count. Infinite if no body has a load.
 pub(super) fn lightest(loads: &[f64]) -> f64 {
     let own = own_loads(loads).into_iter().filter(|load| *load > 0.0);
     own.fold(f64::INFINITY, f64::min)
@@ -108,8 +108,8 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     sums.into_iter().map(CompensatedSum::value).collect()
 }
 
-/// Refines an optimum until forces of size `force_size` are accurate; `None` if a level fails or if the largest number
-/// of levels is not enough.
+/// Refines an optimum until forces of size `force_size` are accurate. `None` if a level fails, or if 8 levels are not
+/// enough.
 ///
 /// The resulting amounts balance every body. Every column has an amount of exactly 0 or a slack of exactly 0.
 pub(super) fn refined_optimum(
@@ -181,7 +181,7 @@ impl Level {
     fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Dual) -> Option<Level> {
         // Step 1: compute the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
-        // Step 2: classify each column, and choose the amount with which it enters the level.
+        // Step 2: classify each column, and choose its initial amount for this level.
         let given = |k: usize| {
             let (column, amount) = (&columns[k], at.amounts[k]);
             let slack = costs[k] - column.dot(&at.y);
@@ -195,7 +195,7 @@ impl Level {
             }
         };
         let (mut places, kept): (Vec<Place>, Vec<f64>) = (0..columns.len()).map(given).unzip();
-        // The loads of this level are the residual of these starting amounts.
+        // The loads of this level are the residual of these initial amounts.
         let left = residual(loads, columns, &kept);
         let size = largest(&left);
         if size == 0.0 || !size.is_finite() {
@@ -213,7 +213,7 @@ impl Level {
         })
     }
 
-    /// Writes the program of step 3: min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
+    /// Builds the linear program of step 3: min Σ reduced cost·change s.t. the changes balance the loads of the level.
     fn program_of_changes(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> QuadraticProgram {
         let n = columns.len();
         let mut program = QuadraticProgram {
@@ -250,7 +250,8 @@ impl Level {
         program
     }
 
-    /// Steps 3 and 4: solves the level, and returns the corrected optimum. `None` if the solver finds no optimum.
+    /// Steps 3 and 4: solves the program of changes, and returns the corrected optimum. `None` if the solver finds no
+    /// optimum.
     fn solved(
         &self,
         columns: &[Column],
@@ -263,7 +264,7 @@ impl Level {
         if answer.status != Status::Solved {
             return None;
         }
-        // Correct the velocities by the multipliers of the balance.
+        // Correct the velocities by the multipliers of the balance rows.
         for (y, multiplier) in at.y.iter_mut().zip(&answer.z) {
             *y -= multiplier;
         }

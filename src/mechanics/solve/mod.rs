@@ -1,4 +1,5 @@
-//! Solves the optimisation programs of an assembly: least force if it stands, least adhesion if it falls.
+//! Solves the linear and quadratic programs of an assembly: for the least force if it stands, for the least adhesion if
+//! it falls.
 //!
 //! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts:
 //! [`crate::proof`] checks the forces and the motion and decides. Among several optima, the one of least Σ force² is

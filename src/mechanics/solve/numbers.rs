@@ -5,7 +5,7 @@
 pub(super) struct Numbers(pub u64);
 
 impl Numbers {
-    /// Returns the next number, from −1 to below 1.
+    /// Returns the next pseudo-random number: at least −1 and below 1.
     pub fn next(&mut self) -> f64 {
         self.0 = self
             .0
@@ -14,7 +14,7 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Returns a whole number from 0 to below `end`.
+    /// Returns a pseudo-random integer: at least 0 and below `end`.
     pub fn below(&mut self, end: usize) -> usize {
         ((0.5 + 0.5 * self.next()) * end as f64) as usize
     }

@@ -1,4 +1,4 @@
-//! [`Search`]: which columns may enter the passive set, and how often this set may still change.
+//! [`Search`]: the columns that may enter the passive set, and the number of times this set may still change.
 
 use super::{BoundedNnls, MAX_PIVOTS_PER_COLUMN};
 use crate::program::Column;
@@ -20,12 +20,12 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Creates the state before the first step, from the passive set of an earlier call.
+    /// Creates the initial state of a search. `set` is the result of an earlier search, or empty.
     pub(super) fn new(set: &BoundedNnls, loads: &'a [f64], columns: &'a [Column]) -> Search<'a> {
         let mut state = vec![State::AtZero; columns.len()];
         set.passive.iter().for_each(|k| state[*k] = State::Passive);
         set.at_limit.iter().for_each(|k| state[*k] = State::AtLimit);
-        // The constant gives small programs enough pivots.
+        // The constant 16 gives small programs enough pivots.
         let max_pivots = MAX_PIVOTS_PER_COLUMN * columns.len() + 16;
         Search {
             loads,
@@ -56,7 +56,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Counts a change of the passive set; `None` if there were too many changes.
+    /// Counts one change of the passive set. `None` if the maximum number of changes is exceeded.
     pub(super) fn count_pivot(&mut self) -> Option<()> {
         self.pivots_left = self.pivots_left.checked_sub(1)?;
         Some(())
@@ -82,7 +82,8 @@ pub(super) enum Entry {
 }
 
 impl Entry {
-    /// Chooses the columns that enter and empties the list of candidates; `rows` is the number of rows of the problem.
+    /// Chooses the columns that enter the passive set, and empties the list of candidates. `rows` is the number of rows
+    /// of the problem.
     pub(super) fn choose(
         self,
         candidates: &mut Vec<(f64, usize)>,
@@ -93,7 +94,8 @@ impl Entry {
         if self == Entry::One {
             candidates.truncate(1);
         }
-        // Choose in the order of the gradients; each chosen column blocks the bodies that it acts on.
+        // Go through the candidates in the order of decreasing gradient. Skip a column that acts on the same body as a
+        // column already chosen.
         let mut is_taken = vec![false; rows.div_ceil(3)];
         let mut chosen = Vec::new();
         for (_, k) in candidates.drain(..) {
@@ -107,7 +109,7 @@ impl Entry {
     }
 }
 
-/// Returns the length |column| of a column.
+/// Returns the Euclidean length |column| of a column.
 pub(super) fn norm(column: &Column) -> f64 {
     column.dot_column(column).sqrt()
 }

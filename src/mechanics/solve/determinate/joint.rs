@@ -1,4 +1,5 @@
-//! [`Joint`]: a contact of a tree of blocks. The contacts are listed from the ground outwards.
+//! [`Joint`]: one contact of a structure in which the contacts form a tree. The joints are listed from the ground
+//! outwards.
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};
@@ -37,16 +38,16 @@ pub(super) struct Joint<'a> {
 }
 
 impl Joint<'_> {
-    /// Returns the moments about the body's centroid of unit forces: along the normal at each of the two points, and
-    /// along the face.
+    /// Returns the moments of unit forces about the body's centroid: of a normal force at each of the two points, and
+    /// of a tangential force.
     fn levers(&self) -> ([f64; 2], f64) {
         let normal = self.contact.normal;
         let levers = self.arms.map(|arm| cross(arm, normal));
         (levers, cross(self.arms[0], quarter_turn(normal)))
     }
 
-    /// Computes the contact forces that together exert a given wrench on the body. These are three equations for three
-    /// unknowns.
+    /// Computes the contact forces that together exert a given wrench (force and moment) on the body: three equations
+    /// for three unknowns.
     pub fn forces(&self, wrench: Wrench) -> ContactForces {
         let (levers, lever) = self.levers();
         let normal = self.contact.normal;
@@ -60,12 +61,12 @@ impl Joint<'_> {
         ([first, second], along)
     }
 
-    /// Writes the body's velocities into `motion`: the velocities of the body below plus the opening and sliding of the
-    /// joint.
+    /// Writes the body's velocities into `motion`: those of the body below, plus the speeds at which the joint opens
+    /// and slides.
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);
-        // Computes the velocity of a point of a rigid body.
+        // Computes the velocity of the point at `arm` from the centroid of a rigid body.
         let at = |[x, y, spin]: [f64; 3], arm: Vector| Vector::new(x, y) + quarter_turn(arm) * spin;
         let below = self.below.map_or([[0.0; 2].into(); 2], |(body, between)| {
             let velocity = [0, 1, 2].map(|row| motion[3 * body + row]);
@@ -91,8 +92,7 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
         return None;
     }
-    // List the contacts of each body. Put the contacts with the ground into the queue, because the search starts from
-    // them.
+    // List the contacts of each body. The search starts from the contacts with the ground, so put these into the queue.
     let mut touching = vec![Vec::new(); program.blocks];
     let mut queue = Vec::new();
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -139,8 +139,8 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     (joints.len() == program.blocks).then_some(joints)
 }
 
-/// Returns the arm of a contact's first point about the centroid of one of its bodies. `None` if the body does not
-/// belong to the contact.
+/// Returns the vector from the centroid of `body` to the first point of a contact. `None` if the contact does not touch
+/// the body.
 fn first_arm(contact: &ContactTerm, body: Option<usize>) -> Option<Vector> {
     let sides = [Some(contact.on), contact.from].into_iter().flatten();
     let of_body = |side: &(usize, [Vector; 2])| Some(side.0) == body;

@@ -22,8 +22,8 @@ use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
 
 /// A missing force up to this fraction of the contact's forces is rounding: the contact does not fail.
 ///
-/// A tower of 1000 blocks sums 1000 loads, each with a rounding of 1e-16. At a tenth of this value, some of its joints
-/// would seem to fail. At ten times, real failures of the size that proofs accept (1e-7) are still far above it.
+/// A tower of 1000 blocks sums 1000 loads, each with a rounding of 1e-16. If this value were ten times smaller, some of
+/// its joints would seem to fail. Real failures, of the size that proofs accept (1e-7), are far above it.
 const ROUNDING_TOL: f64 = 1e-12;
 
 /// The additional opening of every joint in a motion, relative to the largest velocity.
@@ -50,7 +50,8 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
             moment: load[2],
         })
         .collect();
-    // Go from the ends towards the ground. Each wrench that a joint must exert on its body also acts on the body below.
+    // Go from the leaves of the tree towards the ground. The wrench that a joint must exert on its body is added to the
+    // wrench that the body below needs.
     for joint in joints.iter().rev() {
         let wrench = needed[joint.body];
         if let Some((below, between)) = joint.below {
@@ -62,7 +63,8 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     forces.collect()
 }
 
-/// Computes the least adhesion, and the motion that proves that it is the least; `None` if the forces are not unique.
+/// Computes the least adhesion, and the motion that proves that it is the least. `None` if the forces are not unique or
+/// a friction coefficient exceeds 1.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     Split::new(program, &joints)?.stuck(program, &joints)
@@ -70,15 +72,15 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
 ///
-/// On each path from the ground, only the first failing contact moves; the blocks beyond it move as one body. `None` if
-/// the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
+/// On each path from the ground, only the first failing contact opens or slides; the blocks beyond it move as one body.
+/// `None` if the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
-        // If the body below moves, the joint stays closed: its own body moves with the body below.
+        // If the body below moves, the joint stays closed, and its own body moves with the body below.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
         let (opens, slides) = match rests {
             true => split.speeds(joint),
@@ -94,10 +96,10 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     Some((motion, split.stuck(program, &joints)?))
 }
 
-/// Computes the velocities of the bodies, from the speeds at which the joints open and slide; `None` if a velocity is
+/// Computes the velocities of the bodies from the speeds at which the joints open and slide. `None` if a velocity is
 /// not finite.
 ///
-/// Every joint opens by an additional [`EXTRA_OPENING`], unless this costs half of the loads' power or more.
+/// Every joint opens by an additional [`EXTRA_OPENING`], unless this takes away half of the loads' power or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
     let opened = |extra: f64| {
         let mut motion = vec![0.0; program.loads.len()];
@@ -148,7 +150,7 @@ impl Split {
         Some(Split { forces, adhesion })
     }
 
-    /// Computes the optimum of the program of least adhesion, with the motion of all joints that fail.
+    /// Returns the optimum of the program of least adhesion. In its motion, all failing joints open or slide.
     ///
     /// `None` if a friction coefficient exceeds 1: the closed form is then not always the least adhesion.
     fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
@@ -170,8 +172,8 @@ impl Split {
         })
     }
 
-    /// Returns the speeds at which the points of a joint open and its face slides once its adhesion fails; 0 if the
-    /// joint needs no adhesion.
+    /// Returns the speeds at which the two points of a joint open and its face slides if it loses its adhesion. All are
+    /// 0 if the joint needs no adhesion.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
         let (pull, missing) = (
             self.adhesion.normal[joint.number],
