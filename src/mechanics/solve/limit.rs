@@ -1,4 +1,5 @@
-//! Limit analysis: the largest load factor, and the least sufficient limit of a robot, by one linear program each.
+//! Limit analysis: computes the largest load factor, or the smallest force or torque limit of a robot that suffices.
+//! Each takes one linear program.
 //!
 //! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
 //! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier
@@ -85,7 +86,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// Returns the number of the last rows of the program, whose multipliers give λ.
+    /// Returns how many of the last rows of the program have multipliers that give λ.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,
@@ -103,7 +104,7 @@ impl Extremum {
     }
 }
 
-/// Solves the program for the largest or the nearest λ along a direction.
+/// Finds the largest λ, or the λ nearest to 0, for which admissible forces balance `program.loads + λ·direction`.
 fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Extreme {
     let size = largest(direction);
     if size == 0.0 {
@@ -144,7 +145,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            // The loads do work along this motion for every λ.
+            // No λ allows a balance: along this motion, the loads do work for every λ.
             (Status::Unbounded, _) => {
                 return Extreme {
                     motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
@@ -175,7 +176,7 @@ pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -
     balance_by_least_change(loads, columns, amounts, settings, &mut Effort::default())
 }
 
-/// Returns the columns of a program, with their limits divided by `unit`, a load.
+/// Returns the columns of a program, with limits in multiples of the load `unit`.
 pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     let mut columns = columns(program);
     for column in &mut columns {
@@ -184,10 +185,11 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     columns
 }
 
-/// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other
-/// limits stay as given.
+/// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other limits
+/// stay as in `program`.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
-    // The component has no limit, and each unit costs 1. The solution therefore has the least amount.
+    // Remove the limit of the component, and give each unit of it a cost of 1. The optimum then has the least amount of
+    // this component.
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
     let is_own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
@@ -200,8 +202,7 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
         |c| f64::from(u8::from(is_own(&c.force))),
     );
     match solved.status {
-        // The objective also contains the costs of other limits. Therefore, the amounts of this component are added
-        // instead.
+        // The objective also contains the costs of other limits, so add up the amounts of this component instead.
         Status::Solved => {
             let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);

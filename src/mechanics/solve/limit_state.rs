@@ -1,7 +1,7 @@
-//! [`LimitState`]: the forces and the mechanism at the largest load factor, column by column.
+//! [`LimitState`]: the largest load factor, and the mechanism and the amount of every column at this factor.
 //!
-//! [`largest_factor`](super::largest_factor) returns forces of contacts. To find out whether forces and mechanism are
-//! unique, the amount and the slack of every column are needed.
+//! [`largest_factor`](super::largest_factor) returns only the forces of contacts. To find out whether forces and
+//! mechanism are unique, the amount and the slack of every column are needed.
 
 use super::dual::amounts_of_rows;
 use super::limit::{attempts, columns_in, rebalanced};

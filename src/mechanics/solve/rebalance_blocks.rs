@@ -23,7 +23,8 @@ const MAX_ROUNDS: usize = 4;
 
 /// The weight of the remaining residual of a block, compared with the relative changes of forces (a quadratic penalty).
 ///
-/// Ten times smaller, some residual would remain; ten times larger, the linear system loses digits.
+/// If it were ten times smaller, some residual would remain; if it were ten times larger, the linear system would lose
+/// digits.
 const IMBALANCE_WEIGHT: f64 = 1e8;
 
 /// A relative residual up to this is rounding.
@@ -83,8 +84,8 @@ fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
-/// Returns the amounts of a program's columns that add up to given forces, with every ray of the friction cone used
-/// if possible.
+/// Divides given forces into amounts of the program's columns. If possible, every ray of a friction cone gets an amount
+/// above 0.
 ///
 /// A contact force (N, T) with s = |T|/(μN) is divided into three parts: (1 − s)/2 of N along the normal, (1 + 3s)/4
 /// along the ray on the side of T, and (1 − s)/4 along the other ray.
@@ -139,8 +140,8 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     changed
 }
 
-/// Returns a factor for each row. The residual times this factor is relative to the forces on the block: 1/Σ|force|,
-/// for moments also divided by the longest arm.
+/// Returns, for each row, the factor that makes its residual relative to the forces on the block: 1/Σ|force|, and for a
+/// moment 1/(Σ|force|·longest arm).
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     // Find the longest arm of each block.
     let mut reach = vec![0.0; program.blocks];
@@ -160,13 +161,13 @@ fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the largest entry of a residual after each row is multiplied by its scale.
+/// Returns the largest absolute entry of a residual after each row is multiplied by its scale.
 fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
     let off = residual.iter().zip(scales).map(|(v, d)| (v * d).abs());
     off.fold(0.0, f64::max)
 }
 
-/// Changes given forces slightly so that blocks balance better, relative to the forces on them; `None` if no change
+/// Changes given forces slightly to reduce the residual of each block relative to the forces on it. `None` if no change
 /// improves the balance.
 ///
 /// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D the diagonal matrix of the scales of
@@ -180,7 +181,7 @@ pub fn rebalance_relative(
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
-        // Compute the residual, scaled for each block by the forces on it.
+        // Compute the residual of each block, relative to the forces on it.
         let (left, total) = residual(program, &best);
         let scales = row_scales(program, &total);
         let size = largest_scaled(&left, &scales);
@@ -215,8 +216,8 @@ pub fn rebalance_relative(
     better.then_some(best)
 }
 
-/// Writes the program for one round of [`rebalance_relative`]: the unknowns are the relative changes ε of the columns
-/// `used` and the remaining residual v of each row.
+/// Builds the quadratic program for one round of [`rebalance_relative`]: its unknowns are the relative changes ε of the
+/// columns `used` and the remaining residual v of each row.
 ///
 /// `left` is the residual, and `size` its largest scaled entry.
 fn relative_changes(
@@ -261,8 +262,8 @@ fn digits(left: &[f64], scales: &[f64]) -> f64 {
         .sum()
 }
 
-/// Changes given forces by as little as possible until they balance a program to rounding; `None` if no change improves
-/// the balance.
+/// Changes given forces by as little as possible until they balance every block to rounding. `None` if no change
+/// improves the balance.
 pub fn rebalance_absolute(
     program: &Program,
     amounts: &Amounts,

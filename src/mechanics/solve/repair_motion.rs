@@ -1,4 +1,5 @@
-//! Removes a solver's error from a motion. Afterwards every contact opens a little, or stays closed to rounding.
+//! Removes a solver's error from a motion. In the corrected motion, every contact opens a little or stays closed to
+//! rounding.
 //!
 //! A motion from an interior-point method violates contacts by a billionth of its speed. Forces of a billion times the
 //! loads could exploit that. The method is iterative refinement: each round scales the violations to size 1 and finds
@@ -12,8 +13,8 @@ use crate::program::{Column, Force, Program, columns, least_change};
 
 /// The speed at which every contact is made to open, relative to the largest velocity (about 1).
 ///
-/// It is several thousand times the rounding of a velocity. At a tenth, rounding would matter in long chains; ten times
-/// larger, the power of the loads would change in digits that are shown.
+/// It is several thousand times the rounding of a velocity. If it were ten times smaller, rounding would matter in long
+/// chains; if it were ten times larger, the power of the loads would change in digits that are shown.
 const EXTRA_OPENING: f64 = 1e-12;
 
 /// A round constrains the contacts that open by less than this multiple of the worst violation. The others cannot
@@ -60,7 +61,8 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
         .find_map(|extra| open_contacts(motion, &held, &contacts, extra, effort))
 }
 
-/// Changes a motion until every contact opens by at least `extra` and the components in `held` do not move.
+/// Changes a motion until every contact opens at a speed of at least `extra` and the grip components in `held` do not
+/// move. `None` if no such motion is found.
 fn open_contacts(
     motion: &[f64],
     held: &[Column],
@@ -71,7 +73,7 @@ fn open_contacts(
     let mut motion = motion.to_vec();
     let small = if extra == 0.0 { ROUNDING } else { 0.5 * extra };
     for round in 0..=MAX_ROUNDS {
-        // Convergence test: compute the worst violation.
+        // Convergence test: stop if the worst violation is small.
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| extra - c.dot(&motion));
         let worst = torn.chain(closing).fold(0.0, f64::max);
@@ -96,7 +98,7 @@ fn open_contacts(
                 rows.push((column, wanted));
             }
         }
-        // Find the shortest change of the scaled problem and add it.
+        // Find the shortest change that removes the scaled violations, and add it to the motion.
         let conic = least_change(motion.len(), &rows, held.len());
         let settings = SolverSettings {
             tolerance: (TOLERANCE_SHARE * small / worst).clamp(TOLERANCE, MAX_TOLERANCE),
@@ -110,7 +112,7 @@ fn open_contacts(
             *v += worst * d;
         }
     }
-    // Columns whose length is far from 1 have larger rounding errors than others. The proof checks the remaining
-    // violation.
+    // A violation above the rounding may remain, because columns whose length is far from 1 have larger rounding
+    // errors. The proof checks it.
     (extra == 0.0).then_some(motion)
 }

@@ -62,7 +62,7 @@ pub enum Choice {
 }
 
 impl From<Conditioning> for SolverSettings {
-    /// Returns settings with the default tolerance and the unique balance.
+    /// Returns settings with this conditioning, the default tolerance and [`Choice::Unique`].
     fn from(conditioning: Conditioning) -> SolverSettings {
         SolverSettings {
             tolerance: TOLERANCE,

@@ -1,4 +1,4 @@
-//! [`Slanted`]: the columns of a program without redundant columns.
+//! [`Slanted`]: the columns of a program, without the pure normal forces that are sums of two rays of a friction cone.
 //!
 //! If admissible forces have no cost, a pure normal force is redundant. It is half the sum of the two rays of its
 //! friction cone times 1 + μ. The rays are (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Omitting these columns
@@ -16,7 +16,7 @@ pub(super) struct Slanted {
 }
 
 impl Slanted {
-    /// Selects the columns, without every pure normal force that is followed by the two rays of its friction cone.
+    /// Selects all columns except the pure normal forces that are followed by the two rays of their friction cone.
     pub fn new(all: &[Column]) -> Slanted {
         let places: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
         Slanted {
@@ -34,8 +34,8 @@ impl Slanted {
         full
     }
 
-    /// Converts an optimum to all columns. Half of the common amount of the two rays of a cone becomes a pure normal
-    /// force.
+    /// Converts an optimum for the remaining columns to an optimum for all columns. Half of the common amount of the
+    /// two rays of a cone becomes a pure normal force.
     pub fn in_all_columns(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
             amounts: self.amounts_of_all(all, &solved.amounts),

@@ -12,7 +12,7 @@ use super::normal;
 use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria};
 use crate::program::QuadraticProgram;
 
-/// Solves a conic problem.
+/// Solves a linear or quadratic program to the given tolerance.
 ///
 /// # Panics
 /// Panics if the data contain a number that is not finite. Scenes are checked when they are read, so this would be a
@@ -25,7 +25,7 @@ pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Condition
     solve_within(problem, settings, MAX_ITERATIONS)
 }
 
-/// Solves a conic problem in at most the given number of iterations. If this number is not enough, the status is
+/// Solves a linear or quadratic program in at most `iterations` iterations. If they are not enough, the status is
 /// `Unsolved`.
 ///
 /// # Panics
@@ -35,8 +35,8 @@ pub fn solve_within(
     settings: SolverSettings,
     iterations: usize,
 ) -> Answer {
-    // The ordering and the first factorisation of a large program take as long as many iterations. After the deadline,
-    // do not start them.
+    // Do not start after the deadline: the ordering and the first factorisation of a large program take as long as many
+    // iterations.
     if is_late() {
         return Answer::without_status(problem);
     }
@@ -55,7 +55,7 @@ pub fn solve_within(
     by_clarabel(problem, settings, iterations)
 }
 
-/// True if every number of a problem is finite.
+/// True if every number of a program is finite.
 pub(super) fn all_finite(problem: &QuadraticProgram) -> bool {
     let mut entries = problem.matrix.iter().chain(&problem.quadratic);
     is_finite(&problem.linear)

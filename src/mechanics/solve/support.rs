@@ -1,4 +1,5 @@
-//! Computes the largest force of an unlimited grip in a direction, by one linear program.
+//! Computes the largest force that a grip without limits can exert in a direction while all blocks stay balanced, by
+//! one linear program.
 //!
 //! max d·F s.t. Σ amount·column = loads, where F is the force of the grip. The dual is kinematic: max loadsᵀy s.t.
 //! columnᵀy ≤ 0, and the grip point moves along −y with the velocity d. The multipliers of the rows of this last
@@ -38,8 +39,8 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. Set
-/// `is_again` if the result with plain conditioning had no proof: this conditioning is then left out.
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. If
+/// `is_again` is true, plain conditioning is skipped, because its result could not be proved.
 pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,

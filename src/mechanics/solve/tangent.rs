@@ -1,4 +1,4 @@
-//! [`Tangent`]: the least residual of a program, and how it changes with the contacts.
+//! [`Tangent`]: the least residual of a program, and a linear estimate of how it changes with the contacts.
 //!
 //! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|. It is 0 if the structure stands and above
 //! 0 if it falls. A *sibling* of the program has another friction coefficient or other application points. To first
@@ -29,7 +29,7 @@ pub struct Tangent {
 }
 
 impl Tangent {
-    /// Solves the program of the least residual; `None` if there are no loads, or if the solver ends without a status.
+    /// Solves the program of least residual. `None` if there are no loads, or if the solver finds no optimum.
     pub fn new(program: &Program) -> Option<Tangent> {
         let load = match largest(&program.loads) {
             0.0 => return None,
@@ -67,7 +67,7 @@ impl Tangent {
         self.y.iter().map(|v| -v).collect()
     }
 
-    /// Returns the contact forces, after the least change that removes their residual.
+    /// Returns the forces of least residual, after the least change that removes the residual.
     pub fn forces(&self, program: &Program) -> Amounts {
         let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
         let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
@@ -76,7 +76,8 @@ impl Tangent {
         face.gathered(program).0
     }
 
-    /// Returns the work along y of the contact forces with full friction, with the contacts of a given program.
+    /// Returns the work of the contact forces along y, if each contact has full friction and the normal, points and
+    /// friction coefficient that it has in `program`.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {
@@ -90,7 +91,7 @@ impl Tangent {
                 continue;
             };
             let contact = &program.contacts[contact];
-            // The velocity of one body's point relative to the other body's point.
+            // Compute the velocity of the contact point on one body, relative to the contact point on the other body.
             let speed = |(block, arms): (usize, [Vector; 2])| {
                 let [u, v, spin] = [0, 1, 2].map(|row| self.y[3 * block + row]);
                 Vector::new(u, v) + quarter_turn(arms[point]) * spin

@@ -36,7 +36,7 @@ impl BlockDiagonal {
         let mut entries = vec![0.0; begin[blocks.len()]];
         for (i, j, value) in &problem.quadratic {
             let k = block_of[*i];
-            // The problem stores the upper triangle; fill both.
+            // The problem stores only the upper triangle; fill both triangles.
             let (start, width) = (blocks[k].start, blocks[k].len());
             entries[begin[k] + (i - start) * width + (j - start)] += value;
             if i != j {
@@ -55,7 +55,7 @@ impl BlockDiagonal {
         self.begin[k]..self.begin[k + 1]
     }
 
-    /// Computes P·x.
+    /// Writes P·x into `product`, where P is this matrix.
     pub fn multiply(&self, x: &[f64], product: &mut [f64]) {
         for (k, block) in self.blocks.iter().enumerate() {
             let rows = self.entries[self.range(k)].chunks_exact(block.len());
@@ -66,7 +66,8 @@ impl BlockDiagonal {
     }
 }
 
-/// Returns the finest division of the columns into consecutive blocks that no entry of the objective crosses.
+/// Divides the columns into as many consecutive blocks as possible, so that no entry of the quadratic objective couples
+/// two blocks.
 fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     let n = problem.unknowns;
     // For each column, find the first column with which it is coupled.
@@ -106,7 +107,7 @@ pub(super) fn cholesky_in_place(matrix: &mut [f64], width: usize) {
     }
 }
 
-/// Replaces a list by L⁻¹·list.
+/// Replaces `list` by L⁻¹·list. `lower` is L, stored row by row.
 pub(super) fn forward_substitute(lower: &[f64], width: usize, list: &mut [f64]) {
     for i in 0..width {
         let known: f64 = (0..i).map(|k| lower[i * width + k] * list[k]).sum();
@@ -114,7 +115,7 @@ pub(super) fn forward_substitute(lower: &[f64], width: usize, list: &mut [f64]) 
     }
 }
 
-/// Replaces a list by L⁻ᵀ·list.
+/// Replaces `list` by L⁻ᵀ·list. `lower` is L, stored row by row.
 pub(super) fn backward_substitute(lower: &[f64], width: usize, list: &mut [f64]) {
     for i in (0..width).rev() {
         let known: f64 = (i + 1..width).map(|k| lower[k * width + i] * list[k]).sum();

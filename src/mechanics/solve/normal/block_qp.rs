@@ -1,5 +1,5 @@
-//! An interior-point method for least squares of amounts with lower bounds: a quadratic program with a block-diagonal
-//! matrix.
+//! An interior-point method for the least squares of force amounts with lower bounds: a quadratic program with a
+//! block-diagonal matrix.
 //!
 //! ```text
 //! min ½ xᵀPx + linearᵀx   s.t.   A x = loads,   s = x + floor ≥ 0,   multipliers z ≥ 0 of the bounds
@@ -46,10 +46,11 @@ const STALLED_SHARE: f64 = 0.8;
 /// After this number of consecutive steps without progress the method stops: no amounts balance the loads.
 const MAX_IDLE_STEPS: usize = 3;
 
-/// Solves the program; `None` if it has another form, or if the method ends without an optimum.
+/// Solves a least-squares program in forces with lower bounds. `None` if the program has another form, or if the method
+/// ends without an optimum.
 ///
-/// It also solves long chains of blocks. For an arch of 10 000 stones, whose thrust is thousands of times a stone's
-/// weight, clarabel reports that the least squares are infeasible.
+/// The method also solves long chains of blocks, such as an arch of 10 000 stones, whose thrust is thousands of times a
+/// stone's weight. clarabel reports that the least squares of this arch are infeasible.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     if !has_only_floors(problem) {
         return None;
@@ -57,7 +58,8 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     let tolerance = criteria.tolerance;
     let mut run = BlockQp::new(BlockDiagonal::quadratic_of(problem)?, problem)?;
     run.set_starting_point();
-    // Iterate until the fine tolerance is met. If the iterations end before, the normal tolerance is enough.
+    // Iterate until the duality gap meets a finer tolerance. If the iterations end before that, the normal tolerance is
+    // enough.
     let (mut iterations, mut idle_steps) = (0, 0);
     while !run.is_optimal(tolerance, GAP_FACTOR * tolerance) {
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
@@ -185,7 +187,8 @@ impl BlockQp {
         })
     }
 
-    /// Sets the starting point: x is the least squares without bounds, s and z are at least the mean size of x.
+    /// Sets the starting point: x is the least-squares solution without bounds, s is at least the mean size of x, and
+    /// each product s·z is the square of this mean.
     fn set_starting_point(&mut self) {
         self.factor_system();
         let mut side: Vec<[f64; 1]> = self.loads.iter().map(|v| [*v]).collect();
@@ -195,7 +198,7 @@ impl BlockQp {
         let mut x = std::mem::take(&mut self.x);
         self.apply_weight(&mut x);
         self.x = x;
-        // Shift s and z into the interior; their products are about the squared mean size of x.
+        // Choose s and z in the interior: each product s·z is the square of the mean size of x.
         let mean = self.x.iter().map(|x| x.abs()).sum::<f64>() / self.x.len().max(1) as f64;
         let inside = if mean > 0.0 { mean } else { 1.0 };
         for k in 0..self.x.len() {
@@ -230,7 +233,8 @@ impl BlockQp {
         dot(&self.s, &self.z) / self.s.len().max(1) as f64
     }
 
-    /// True if the primal residual is at most the tolerance, relative to the largest entry of A x or 1.
+    /// True if the primal residual is at most the tolerance, relative to the largest entry of A x, or to 1 if that is
+    /// larger.
     fn is_balanced(&self, tolerance: f64) -> bool {
         max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
     }
@@ -286,8 +290,8 @@ impl BlockQp {
         }
     }
 
-    /// Computes the Newton direction along which each product s·z changes by `target` and the given share of the
-    /// residuals is removed.
+    /// Computes the Newton direction along which each product s·z changes by its entry of `target`, and the given share
+    /// of the residuals is removed.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
         // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.

@@ -1,4 +1,5 @@
-//! [`Cholesky`]: the factor L·Lᵀ of A·W·Aᵀ = Σ weight·column·columnᵀ, supernode by supernode.
+//! [`Cholesky`]: the sparse factorization A·W·Aᵀ = L·Lᵀ, computed supernode by supernode. A·W·Aᵀ is Σ
+//! weight·column·columnᵀ.
 //!
 //! The multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder
 //!
@@ -93,7 +94,7 @@ impl Cholesky {
         self.supernodes.list.iter().map(of).sum()
     }
 
-    /// Permutes a list of unknowns into the order of elimination.
+    /// Permutes a list from the order of the program's unknowns into the order of elimination.
     pub fn to_elimination_order(&self, list: &[f64]) -> Vec<f64> {
         let mut ordered = vec![0.0; list.len()];
         for (value, position) in list.iter().zip(&self.supernodes.position) {
@@ -102,13 +103,14 @@ impl Cholesky {
         ordered
     }
 
-    /// Permutes a list from the order of elimination back to that of the program.
+    /// Permutes a list from the order of elimination back into the order of the program's unknowns.
     pub fn to_program_order(&self, list: &[f64]) -> Vec<f64> {
         let positions = self.supernodes.position.iter();
         positions.map(|position| list[*position as usize]).collect()
     }
 
-    /// Factors A·W·Aᵀ + diagonal·1, with one weight for each column.
+    /// Computes the Cholesky factor of A·W·Aᵀ + diagonal·I. `weights` is the diagonal of W, one weight for each column
+    /// of A.
     pub fn factor(&mut self, columns: &ColumnGroups, weights: &[f64], diagonal: f64) {
         let Workspace {
             local,
@@ -118,14 +120,14 @@ impl Cholesky {
             packed,
         } = &mut self.workspace;
         update_stack.clear();
-        // These are the supernodes whose update matrices are on the stack.
+        // The supernodes whose update matrices are on the stack.
         let mut on_stack: Vec<usize> = Vec::new();
         for (p, node) in self.supernodes.list.iter().enumerate() {
             let rows = &self.supernodes.rows[node.rows.clone()];
             let (width, below) = (node.width, rows.len());
             let height = width + below;
             let values = &mut self.values[self.begin[p]..self.begin[p + 1]];
-            // Step 1: assemble the front.
+            // Step 1: assemble the frontal matrix.
             values.fill(0.0);
             for k in 0..width {
                 local[node.first + k] = k as u32;
@@ -165,7 +167,7 @@ impl Cholesky {
             }
             // Step 2: factor the supernode's own columns.
             factor_columns(front.values, height, width, packed);
-            // Step 3: the update matrix is the front's lower part less L₂₁·L₂₁ᵀ.
+            // Step 3: the update matrix is the lower part of the front minus L₂₁·L₂₁ᵀ.
             if below > 0 {
                 packed.pack(front.values, height, width);
                 packed.subtract_gram(front.update, below, |c| packed_begin(below, c));
@@ -176,7 +178,8 @@ impl Cholesky {
         }
     }
 
-    /// Solves for N right-hand sides at once, in place, in the order of elimination.
+    /// Solves L·Lᵀ·x = b for N right-hand sides at once. `x` contains b at the start and the solution at the end, both
+    /// in the order of elimination.
     pub fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
         self.forward(x);
         self.backward(x);
@@ -193,7 +196,7 @@ impl Cholesky {
             sums.resize(height, [0.0; N]);
             for (k, column) in values.chunks_exact(height).enumerate() {
                 let at = node.first + k;
-                // `column[k]` is the inverse of the pivot.
+                // `column[k]` is 1/L(k, k).
                 for n in 0..N {
                     x[at][n] = (x[at][n] - sums[k][n]) * column[k];
                 }
@@ -248,7 +251,8 @@ struct RowRun {
 }
 
 impl RowRun {
-    /// Splits the rows of a child into runs; `local` maps each position to the local row in the parent's front.
+    /// Splits the rows of a child's update matrix into runs that are consecutive in the parent's front too. `local`
+    /// maps each position to its row in that front.
     fn find(rows: &[u32], local: &[u32], runs: &mut Vec<RowRun>) {
         runs.clear();
         for (k, row) in rows.iter().enumerate() {
@@ -274,7 +278,7 @@ struct Front<'a> {
 }
 
 impl Front<'_> {
-    /// Adds the Gram matrix of a group of columns whose entries are in the given rows.
+    /// Adds the weighted Gram matrix of a group of columns, whose entries are in the given rows.
     fn assemble(&mut self, rows: &[u32], gram: &[f64], local: &[u32]) {
         for (i, column) in rows.iter().enumerate() {
             let mut column = self.column(local[*column as usize] as usize);
@@ -329,7 +333,7 @@ struct FrontColumn<'a> {
 }
 
 impl FrontColumn<'_> {
-    /// Adds a list to consecutive rows, starting at `row`.
+    /// Adds the numbers of a list to consecutive rows of the column, starting at `row`.
     fn add(&mut self, row: usize, list: &[f64]) {
         let begin = row - self.first_row;
         for (v, w) in self.list[begin..begin + list.len()].iter_mut().zip(list) {

@@ -67,7 +67,7 @@ impl ColumnGroups {
         sparse.grouped(unknowns, &groups)
     }
 
-    /// Builds the columns from (column, row, value) entries; the ranges of the groups are given.
+    /// Builds the columns from (column, row, value) entries. `groups` contains the range of columns of each group.
     pub fn with_groups(
         unknowns: usize,
         groups: &[Range<usize>],
@@ -77,7 +77,7 @@ impl ColumnGroups {
         SparseColumns::new(columns, entries).grouped(unknowns, groups)
     }
 
-    /// Returns the number of rows.
+    /// Returns the number of rows, which are the unknowns of the normal equations.
     pub fn unknowns(&self) -> usize {
         self.unknowns
     }
@@ -102,7 +102,7 @@ impl ColumnGroups {
         }
     }
 
-    /// Returns the entries of a group, column by column.
+    /// Returns the entries of group k for changes, column by column.
     pub fn values_mut(&mut self, k: usize) -> &mut [f64] {
         &mut self.values[self.groups[k].values.clone()]
     }
@@ -115,7 +115,7 @@ impl ColumnGroups {
 
     /// Permutes the rows: row k becomes row `position[k]`.
     pub fn permute_rows(&mut self, position: &[u32]) {
-        // (new row, former index in the group), sorted by the new row.
+        // The pairs (new row, former index in the group), sorted by the new row.
         let mut order: Vec<(u32, usize)> = Vec::new();
         let mut former: Vec<f64> = Vec::new();
         for group in &self.groups {
@@ -281,7 +281,8 @@ impl SparseColumns {
             .copied()
     }
 
-    /// Gathers columns into groups. A group has all rows in which its columns have entries; repeated entries are added.
+    /// Gathers columns into groups. A group has all rows in which its columns have entries. Entries with the same row
+    /// and column are added up.
     fn grouped(&self, unknowns: usize, groups: &[Range<usize>]) -> ColumnGroups {
         let mut grouped = ColumnGroups {
             unknowns,
@@ -291,7 +292,7 @@ impl SparseColumns {
         };
         let mut rows: Vec<u32> = Vec::new();
         for columns in groups {
-            // The rows of the group: all rows of its columns, sorted, each once.
+            // The rows of the group are all rows of its columns, sorted and without duplicates.
             rows.clear();
             let entries = columns.clone().flat_map(|k| self.entries(k));
             rows.extend(entries.map(|(row, _)| row));

@@ -8,8 +8,9 @@
 /// A pivot up to this fraction of the diagonal entry before elimination is rounding. Its column is set to zero, so that
 /// the unknown becomes 0: nothing holds the body in that direction.
 ///
-/// It is some hundred times the relative rounding of an f64. Ten times larger, weak but real supports would be dropped;
-/// ten times smaller, the rounding of a sum of many terms would count as a support and make the unknown very large.
+/// It is some hundred times the relative rounding of an f64. If it were ten times larger, weak but real supports would
+/// be dropped; if it were ten times smaller, the rounding of a sum of many terms would count as a support and make the
+/// unknown very large.
 const LOST_PIVOT: f64 = 1e-13;
 
 /// The number of columns that are factored one by one before all columns to their right are updated together.
@@ -25,7 +26,8 @@ pub(super) struct PackedRows {
 }
 
 impl PackedRows {
-    /// Packs the rows from `from` to the end of columns that have `height` rows each.
+    /// Packs the rows of a matrix from row `from` to the last one. The matrix is stored as columns of `height` rows
+    /// each.
     pub fn pack(&mut self, columns: &[f64], height: usize, from: usize) {
         self.columns = columns.len() / height;
         self.rows = height - from;
@@ -39,8 +41,8 @@ impl PackedRows {
         }
     }
 
-    /// Subtracts rows·rowsᵀ from the first `columns` columns of a lower triangle, a symmetric update of rank
-    /// `self.columns`.
+    /// Subtracts R·Rᵀ from the first `columns` columns of a lower triangle, where R are the packed rows: a symmetric
+    /// update of rank `self.columns`.
     ///
     /// Row r of column c of the triangle is at `begin(c)` + r in `target`.
     pub fn subtract_gram(
@@ -79,7 +81,7 @@ impl PackedRows {
     }
 }
 
-/// Returns the sums Σ leftᵢ·rightⱼ for four rows by four rows.
+/// Returns the dot products of four rows with four rows: entry (i, j) is Σ leftᵢ·rightⱼ over the columns.
 fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
     let mut sums = [[0.0; 4]; 4];
     for (a, b) in left.iter().zip(right) {
@@ -92,7 +94,7 @@ fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
     sums
 }
 
-/// Factors the first `width` columns, of `height` rows each, in place.
+/// Replaces the first `width` columns of a front, of `height` rows each, by those of its Cholesky factor.
 ///
 /// The diagonal entry becomes the inverse of the pivot's root, 1/L(k, k). If the pivot is lost to rounding, the whole
 /// column becomes 0.
@@ -102,7 +104,7 @@ pub(super) fn factor_columns(
     width: usize,
     packed: &mut PackedRows,
 ) {
-    // The diagonal before elimination, with which the pivots are compared.
+    // The diagonal before elimination; the pivots are compared with it.
     let diagonal: Vec<f64> = (0..width).map(|k| values[k * height + k]).collect();
     let mut begin = 0;
     while begin < width {

@@ -36,12 +36,12 @@ impl Graph {
         }
         let mut graph = Graph {
             starts: Vec::with_capacity(n + 1),
-            // `amd` expects the diagonal entry, and subtracts it from the count itself.
+            // Includes the diagonal entries, which `amd` expects and does not count as neighbours.
             list: Vec::new(),
         };
         graph.starts.push(0);
-        // The neighbours of an unknown: the union of the rows of its groups. `seen` marks those that are already in the
-        // list.
+        // The neighbours of an unknown are the union of the rows of its groups. `seen` marks the neighbours that are
+        // already in the list.
         let mut seen = vec![usize::MAX; n];
         for unknown in 0..n {
             let first = graph.list.len();
@@ -65,7 +65,8 @@ impl Graph {
         self.starts.len() - 1
     }
 
-    /// Returns the pattern as the 32-bit integers that `amd` expects; `None` if there are too many entries for them.
+    /// Converts the pattern to the 32-bit integers that `amd` expects. `None` if there are too many entries for 32
+    /// bits.
     fn as_i32(&self) -> Option<(Vec<i32>, Vec<i32>)> {
         let starts = self.starts.iter().map(|k| i32::try_from(*k).ok());
         let list = self.list.iter().map(|k| i32::try_from(*k).ok());
@@ -125,8 +126,8 @@ impl<'a> OrderedGraph<'a> {
     /// Returns the elimination tree: the parent of a column is the first row below the diagonal in which the factor
     /// has an entry.
     ///
-    /// `ancestor` leads from a column towards the root of its present subtree. The paths are shortened during the
-    /// search (Liu 1986).
+    /// `ancestor` leads from a column towards the root of the subtree that contains it so far. The search shortens
+    /// these paths (Liu 1986).
     fn elimination_tree(&self) -> Vec<Option<usize>> {
         let n = self.order.len();
         let (mut parent, mut ancestor) = (vec![None; n], vec![None; n]);
@@ -149,8 +150,8 @@ impl<'a> OrderedGraph<'a> {
 
     /// Returns the number of entries in each column of the factor, the diagonal included.
     ///
-    /// The pattern of row k of the factor is a subtree of the elimination tree: the paths from the entries of row k to
-    /// k.
+    /// The pattern of row k of the factor is a subtree of the elimination tree: the paths from the entries of row k of
+    /// the matrix to node k.
     pub fn column_counts(&self) -> Vec<usize> {
         let n = self.order.len();
         let (mut counts, mut seen) = (vec![1; n], vec![usize::MAX; n]);

@@ -42,8 +42,8 @@ const MAX_RESTORATIONS: usize = 3;
 
 /// A column is taken to be basic if its amount exceeds its slack by this factor.
 ///
-/// At 10, centring, which keeps all products near μ, would make non-basic columns look basic; at 1000, basic columns
-/// would be dropped.
+/// If it were 10, non-basic columns would look basic, because centring keeps all products near μ; if it were 1000,
+/// basic columns would be dropped.
 const BASIC_RATIO: f64 = 100.0;
 
 /// If τ/κ is below this, [`EXTRA_ITERATIONS`] more iterations are allowed: a certificate of infeasibility is then
@@ -53,7 +53,7 @@ const CERTIFICATE_RATIO: f64 = 1e-4;
 /// The number of iterations beyond the limit in which a certificate may still be reached.
 const EXTRA_ITERATIONS: usize = 3;
 
-/// Solves a linear program. `factor` must have been analysed for the columns of this program.
+/// Solves a linear program. `factor` must contain the symbolic analysis for the columns of this program.
 pub(super) fn solve(
     lp: &LinearProgram,
     factor: &mut Cholesky,
@@ -80,7 +80,7 @@ pub(super) fn solve(
                 break Some(Termination::Optimal);
             }
         }
-        // If only the balance of the loads is not met, remove its residual instead of taking another step.
+        // If only the balance of the loads is not met, remove its residual instead of taking another Newton step.
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
         if restorations < MAX_RESTORATIONS && optimality.lacks_only_balance(lp, final_tolerance) {
             run.restore_balance();
@@ -93,12 +93,13 @@ pub(super) fn solve(
         };
         let is_over = iterations >= max_iterations || is_late || !optimality.mu.is_finite();
         if is_over || !run.step(&optimality) {
-            // The finer tolerance of the crossover is not met, but the normal tolerance may be met.
+            // The iterations end here. The finer tolerance of the crossover is not met, but the normal tolerance may
+            // be.
             break optimality.termination(lp, criteria.tolerance);
         }
         iterations += 1;
     };
-    // Scale the iterate. An optimum is scaled to τ = 1, a certificate to a gain of 1.
+    // Scale an optimum to τ = 1, and a certificate to loadsᵀy = 1 or costᵀf = −1.
     let at = run.at;
     let scale = match termination {
         Some(Termination::PrimalInfeasible) => 1.0 / dot(lp.loads, &at.y),
@@ -145,8 +146,8 @@ impl<'a> InteriorPoint<'a> {
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
     }
 
-    /// True if the slack of the basic columns, extrapolated by its trend, will still be too large at the final
-    /// tolerance.
+    /// True if the optimum will probably not be strictly complementary: the slack of the basic columns, extrapolated to
+    /// the final tolerance, exceeds `crossover.max_slack`.
     fn is_never_complementary(
         &self,
         optimality: &Optimality,
@@ -166,7 +167,7 @@ impl<'a> InteriorPoint<'a> {
     /// residual of 10⁻⁶ of the loads remains after every step. The amounts f differ less, so weights of f² remove the
     /// residual. This is needed only at the end, when the residual consists of rounding.
     fn restore_balance(&mut self) {
-        // Solve A·F²·Aᵀ·multipliers = residual; the change is f² Aᵀ·multipliers.
+        // Solve A·F²·Aᵀ·multipliers = residual, where F is the diagonal matrix of f. The change is F²·Aᵀ·multipliers.
         let weights: Vec<f64> = self.at.f.iter().map(|f| f * f).collect();
         (self.factor).factor(self.lp.columns, &weights, REGULARIZATION);
         let mut side: Vec<[f64; 1]> = self.residuals.primal.iter().map(|v| [*v]).collect();
@@ -186,7 +187,7 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
-    /// Sets the amounts of columns that have a cost and are not clearly basic to 0.
+    /// Sets the amounts to 0 for the columns that have a cost and are not clearly basic.
     ///
     /// The former amounts are restored if the remaining amounts are not an optimum to the given tolerance.
     fn drop_non_basic(&mut self, tolerance: f64) {

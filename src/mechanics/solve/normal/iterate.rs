@@ -5,14 +5,15 @@ use super::column_groups::ColumnGroups;
 
 /// A number added to the diagonal of the normal equations, so that the velocity of an unsupported body has a pivot too.
 ///
-/// The entries of the columns are near 1. Ten times this value would reduce the accuracy of the last steps, whose
-/// weights differ by many powers of ten; a tenth would vanish in the rounding of a diagonal entry of a thousand.
+/// The entries of the columns are near 1. If it were ten times larger, the last steps, whose weights differ by many
+/// powers of ten, would be less accurate; if it were ten times smaller, it would vanish in the rounding of a diagonal
+/// entry of a thousand.
 pub(super) const REGULARIZATION: f64 = 1e-12;
 
 /// The fraction of the distance to the nearest bound that a step covers, so that all variables stay positive.
 ///
-/// Closer to 1, variables come too close to their bounds and the next steps are short; at 0.9, each iteration gains at
-/// most one digit.
+/// If it were closer to 1, variables would come too close to their bounds and the next steps would be short; if it were
+/// 0.9, each iteration would gain at most one digit.
 pub(super) const STEP_TO_BOUNDARY: f64 = 0.99;
 
 /// min costᵀf  s.t.  A f = loads, f ≥ 0, and its dual max loadsᵀy − ½ velocity_weight |y|²  s.t.  Aᵀy + z = cost, z ≥ 0.
@@ -75,7 +76,7 @@ impl Iterate {
         for (z, c) in at.z.iter_mut().zip(lp.cost) {
             *z = c - *z;
         }
-        // Add one constant to f and another constant to z.
+        // Shift f and z into the interior: add one constant to all f and another constant to all z.
         for list in [&mut at.f, &mut at.z] {
             let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;
@@ -91,7 +92,7 @@ impl Iterate {
         at
     }
 
-    /// Returns the sum of the slacks of the basic columns, which are those whose amount exceeds their slack.
+    /// Returns the sum of the slacks of the basic columns, whose amounts exceed their slacks.
     pub fn basic_slack(&self) -> f64 {
         let both = self.f.iter().zip(&self.z);
         both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
@@ -112,7 +113,7 @@ impl Iterate {
         step
     }
 
-    /// Moves the iterate along a direction by a step.
+    /// Adds `step` times a direction to the iterate.
     pub fn advance(&mut self, direction: &Iterate, step: f64) {
         let lists = [
             (&mut self.f, &direction.f),
@@ -126,7 +127,7 @@ impl Iterate {
         }
         self.tau += step * direction.tau;
         self.kappa += step * direction.kappa;
-        // The homogeneous form determines only the ratios of the numbers. Scale them before they leave the range of
+        // The homogeneous form determines only the ratios of these numbers. Rescale them before they leave the range of
         // f64.
         let size = self.tau.max(self.kappa);
         if !(1e-3..1e3).contains(&size) {

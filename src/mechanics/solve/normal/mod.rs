@@ -63,7 +63,7 @@ const CHAIN_OPERATIONS: f64 = 1e3;
 /// factor.
 const MAX_ENTRIES: usize = 12;
 
-/// Solves a program: returns an optimum, a certificate, or an answer without a status.
+/// Solves a program. Returns an optimum, a certificate that there is no optimum, or an answer without a status.
 ///
 /// Returns `None` if clarabel should solve the program. This is the case if it has few blocks or another form, or if
 /// no order of elimination was found. It is also the case if the method ended without a status for a chain or for a
@@ -79,7 +79,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     solve_any_size(problem, criteria, CHAIN_OPERATIONS)
 }
 
-/// True if a problem is a least-squares problem in forces.
+/// True if a problem is a least-squares problem in forces: it has balance equations and a quadratic objective.
 pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
     problem.equalities > 0 && !problem.quadratic.is_empty()
 }
@@ -143,8 +143,7 @@ fn solve_least_norm(
             s: vec![0.0; loads.len()],
             iterations: 1,
         }),
-        // If this method loses too many digits for a chain, clarabel finds no optimum either, even after two hundred
-        // iterations.
+        // If a chain loses too many digits here, clarabel finds no optimum either, even after two hundred iterations.
         None => is_chain.then(|| Answer::without_status(problem)),
     }
 }
@@ -208,7 +207,7 @@ impl ProblemKind {
 }
 
 impl LinearForm {
-    /// Returns the columns, their costs and the loads.
+    /// Returns the columns of the linear program, their costs, and the loads.
     fn pair(self, problem: &QuadraticProgram) -> (ColumnGroups, Vec<f64>, Vec<f64>) {
         match self {
             LinearForm::Kinematic | LinearForm::ShortestVelocities => (

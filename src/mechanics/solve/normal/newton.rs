@@ -27,7 +27,8 @@ const MAX_CORRECTORS: usize = 3;
 
 /// A corrector aims at a step that is longer by this amount (Gondzio's δ).
 ///
-/// With a larger value the products miss their targets by more; with a smaller one the gain is not worth another solve.
+/// If it were larger, the products would miss their targets by more; if it were smaller, the gain would not be worth
+/// another solve.
 const STEP_INCREASE: f64 = 0.3;
 
 /// A corrector is accepted if it makes the step longer by at least this share of [`STEP_INCREASE`].
@@ -79,7 +80,7 @@ impl Newton {
         }
     }
 
-    /// Performs one iteration; returns false if the step is too short to make progress.
+    /// Performs one iteration. Returns false if the step is too short to make progress.
     pub fn step(
         &mut self,
         lp: &LinearProgram,
@@ -88,9 +89,9 @@ impl Newton {
         residuals: &Residuals,
         optimality: &Optimality,
     ) -> bool {
-        // This is 1 for a linear program, and 0 if τ stays 1.
+        // 1 for a linear program; 0 for a quadratic program, in which τ stays 1.
         let is_homogeneous = 1.0 - lp.velocity_weight;
-        // Compute the weights of this iterate, and the factor of the normal equations.
+        // Compute the weights at this iterate, and factor the matrix of the normal equations.
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *weight = f / z;
         }
@@ -117,7 +118,7 @@ impl Newton {
         };
         self.predict(&mut system, at, sides);
 
-        // Centring: the products aim at σμ, with σ = (1 − predictor's step length)³.
+        // Centring: the target of every product is σμ, with σ = (1 − predictor's step length)³.
         let short = 1.0 - at.max_step(&self.direction).min(1.0);
         let sigma = short * short * short;
         let centre = sigma * optimality.mu;
@@ -142,7 +143,8 @@ impl Newton {
         step > MIN_STEP
     }
 
-    /// Applies Gondzio's correctors: corrects the products that a longer step would move away from the centre.
+    /// Applies Gondzio's correctors, which correct the products amount·slack that a longer step would move away from
+    /// the centre.
     ///
     /// Improves `direction`, and returns the longest step along the improved direction.
     fn correct_centrality(
@@ -158,7 +160,7 @@ impl Newton {
             if max_step > 1.0 - MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
             }
-            // Aim at a longer step: correct the products that would leave the band.
+            // Aim at a longer step: correct the products that would leave the band around the centre.
             let aim = f64::min(max_step + STEP_INCREASE, 1.0);
             let pair = (1.0 - system.lp.velocity_weight) * self.recentre(at, aim, centre);
             std::mem::swap(&mut self.target, &mut self.next_target);
@@ -178,9 +180,10 @@ impl Newton {
         max_step
     }
 
-    /// Writes the products that a corrector aims at into `next_target`. Returns the correction for τκ.
+    /// Writes the changes of the products amount·slack that a corrector aims at into `next_target`. Returns the
+    /// correction of the product τκ.
     ///
-    /// Products that a step of this length would move out of the band around `centre` are projected onto the band.
+    /// Products that a step of length `step` would move out of the band around `centre` are projected onto the band.
     fn recentre(&mut self, at: &Iterate, step: f64, centre: f64) -> f64 {
         let correction = |v: f64, dv: f64, w: f64, dw: f64| {
             let product = (v + step * dv) * (w + step * dw);
@@ -196,7 +199,8 @@ impl Newton {
         correction(at.tau, by.tau, at.kappa, by.kappa)
     }
 
-    /// Computes the predictor and, in the same solve, `tau_direction` and the pivot of dτ.
+    /// Computes the predictor direction. The same solve with two right-hand sides also gives `tau_direction` and the
+    /// pivot of dτ.
     fn predict(&mut self, system: &mut System, at: &Iterate, sides: Sides) {
         let lp = system.lp;
         let mut tau_side = lp.loads.to_vec();
@@ -226,7 +230,8 @@ impl Newton {
         std::mem::swap(&mut self.direction, &mut self.candidate);
     }
 
-    /// Writes a direction into `candidate`, computed with the factor of this iteration.
+    /// Solves Newton's equations for the given right-hand sides with the factor of this iteration. Writes the direction
+    /// into `candidate`.
     fn solve_candidate(&mut self, system: &System, at: &Iterate, sides: Sides) {
         let side = self.velocity_side(system, at, sides);
         let mut side: Vec<[f64; 1]> = side.into_iter().map(|v| [v]).collect();
@@ -261,7 +266,7 @@ impl Newton {
         {
             *f = weight * (*f - side);
         }
-        // The last equation gives dτ.
+        // The last of Newton's equations gives dτ.
         let gap = sides.residual_share * system.gap - dot(lp.loads, &to.y)
             + dot(lp.cost, &to.f)
             + sides.pair / at.tau;

@@ -16,9 +16,9 @@ pub(super) enum Termination {
 
 /// A certificate of infeasibility may violate its equations by this fraction of its objective.
 ///
-/// Forces that used this violation would have to be 10⁸ times the loads. Ten times larger, a wall near its limit, whose
-/// thrusts are many times its loads, could be called infeasible. A tenth requires more digits than the normal equations
-/// have there.
+/// Forces that used this violation would have to be 10⁸ times the loads. If it were ten times larger, a wall near its
+/// limit, whose thrusts are many times its loads, could be called infeasible. If it were ten times smaller, it would
+/// require more digits than the normal equations have there.
 const CERTIFICATE_TOL: f64 = 1e-8;
 
 /// The residual vectors of the homogeneous form.
@@ -111,7 +111,7 @@ impl Optimality {
         !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// Returns the gap between the objectives, and the given sum of slacks, both relative to the cost.
+    /// Returns two numbers relative to the cost: the gap between the objectives, and the given sum of slacks.
     pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
         [self.primal_objective - self.dual_objective, slack]
             .map(|v| v.abs() / self.primal_objective.abs())

@@ -1,4 +1,4 @@
-//! [`SlackTrend`]: predicts, before the method ends, whether the optimum will be strictly complementary.
+//! [`SlackTrend`]: predicts, before the interior-point method ends, whether the optimum will be strictly complementary.
 //!
 //! If so, the slack of the basic columns falls in proportion to the duality gap, and faster at the end. Otherwise, as
 //! in walls near their limit, it falls like the square root of the gap, and more iterations do not separate basic

@@ -49,8 +49,8 @@ impl Supernodes {
     }
 }
 
-/// Symbolic factorization: computes the rows of every supernode. They are the rows of the matrix and the rows of its
-/// children's update matrices.
+/// Symbolic factorization: computes the rows of every supernode. They are the rows of the matrix in its columns, and
+/// the rows of the update matrices of its children.
 fn symbolic_factor(
     ordered: &OrderedGraph<'_>,
     ranges: &[ColumnRange],
@@ -115,8 +115,8 @@ impl ColumnRange {
 
     /// Returns this supernode merged with its parent, which follows it; `None` if too many zeros would be stored.
     ///
-    /// A wider supernode may have a smaller share of zeros, because the work for each zero grows with the width.
-    /// CHOLMOD uses the same scheme with widths of 4, 16 and 48 and shares of 0.8, 0.1 and 0.05.
+    /// The wider the supernode, the smaller the allowed share of zeros, because the work for each zero grows with the
+    /// width. CHOLMOD uses the same scheme with widths of 4, 16 and 48 and shares of 0.8, 0.1 and 0.05.
     fn merge(&self, parent: &ColumnRange) -> Option<ColumnRange> {
         let width = self.width + parent.width;
         let new = self.width * (parent.width + parent.rows).saturating_sub(self.rows);
@@ -141,7 +141,7 @@ impl ColumnRange {
 /// Finds the fundamental supernodes (chains of columns with equal rows), and merges them with their parents.
 fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnRange> {
     let n = parent.len();
-    // A column belongs to the supernode of the previous column in one case: it is the parent of that column in the
+    // A column belongs to the supernode of the previous column if it is the parent of that column in the elimination
     // tree, has one row less, and has no other child.
     let mut children = vec![0; n];
     for p in parent.iter().flatten() {
