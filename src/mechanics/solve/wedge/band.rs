@@ -39,7 +39,7 @@ impl Band {
         row * (3 * self.bandwidth + 1) + column + self.bandwidth - row
     }
 
-    /// Adds a value to an entry.
+    /// Adds a value to the entry in the given row and column.
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         let at = self.at(row, column);
         self.rows[at] += value;
@@ -86,7 +86,7 @@ impl Band {
         self
     }
 
-    /// Solves with the LU factors for one right-hand side.
+    /// Solves the linear system for one right-hand side, with the LU factors that [`Band::factor`] computed.
     pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
         // Forward substitution with L and the row exchanges.
@@ -112,10 +112,10 @@ impl Band {
     }
 }
 
-/// Finds a position for every block, so that blocks that touch have nearby positions. Also returns the largest
-/// difference between the positions of two blocks that touch.
+/// Numbers the blocks so that blocks that touch have similar numbers, which gives a small bandwidth. Returns the number
+/// of each block, and the largest difference between the numbers of two blocks that touch.
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
-    // The graph whose edges connect blocks that touch.
+    // Build the graph whose edges connect blocks that touch.
     let mut neighbours = vec![Vec::new(); program.blocks];
     let pairs = || {
         let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));

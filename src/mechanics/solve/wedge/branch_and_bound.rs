@@ -1,5 +1,5 @@
-//! Branch and bound over the patterns of pressing and sliding. It proves that the springs come to rest in no pattern,
-//! or finds a rest.
+//! Branch and bound over the patterns of pressing points and sliding faces. The search finds a pattern in which the
+//! springs come to rest, or proves that there is none.
 //!
 //! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
 //! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance,
@@ -38,7 +38,8 @@ pub(super) enum Search {
     Open,
 }
 
-/// Searches all patterns, depth first, for a rest or for a proof that there is no rest.
+/// Searches the patterns of pressing points and sliding faces, depth first, for a rest or for a proof that there is no
+/// rest.
 pub(super) fn search(program: &Program) -> Search {
     let springs = Springs::new(program, 1.0);
     let layout = VariableLayout::new(&springs);
@@ -66,8 +67,7 @@ pub(super) fn search(program: &Program) -> Search {
                 }
                 layout.most_violated(&springs, &node, &answer.x)
             }
-            // Without a valid status, the node is divided too: the children have more equalities and may be easier to
-            // decide.
+            // Without a valid status, branch too: the children have more equalities and may be easier to decide.
             _ => node.first_open(&springs),
         };
         let Some(branch) = branch else {
@@ -78,8 +78,8 @@ pub(super) fn search(program: &Program) -> Search {
     Search::NoRest(ruled_out)
 }
 
-/// True if the springs come to rest in the pattern of the solution `x` of a relaxation, with or without the decisions
-/// of the node.
+/// True if the springs come to rest in the pattern of a relaxation's solution `x`. Tries this pattern as it is, and
+/// with the decisions of the node imposed on it.
 fn leads_to_rest(
     program: &Program,
     springs: &Springs,
@@ -88,8 +88,8 @@ fn leads_to_rest(
     x: &[f64],
 ) -> bool {
     let u = &x[..program.loads.len()];
-    // The springs of robots yield around given forces. Choose the given forces such that the springs exert the forces
-    // of the solution at its displacements.
+    // A robot's spring exerts its given force at displacement 0. Choose the given forces so that the springs exert the
+    // robots' forces of the solution at its displacements.
     let components = layout.grips(x).iter().zip(&springs.grips);
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
     let robots = Springs::around(program, &given, 1.0);

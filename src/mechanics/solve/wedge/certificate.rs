@@ -9,8 +9,8 @@ use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Displacements and forces up to this multiple of the loads are ruled out.
 ///
-/// Springs of stiffness 1 that come to rest move by far less. Ten times this value would require one more digit of the
-/// multipliers.
+/// Springs of stiffness 1 that come to rest move by far less. If this value were ten times larger, the multipliers
+/// would need one more digit.
 const MAX_DISPLACEMENT: f64 = 1e6;
 
 /// The largest number of corrections of the multipliers. Each gains the digits of the solver.
@@ -28,8 +28,7 @@ const ZERO_MULTIPLIER: f64 = 1e-6;
 /// Multipliers of inequalities below this fraction of the largest are dropped before the first correction.
 const NEGLIGIBLE_MULTIPLIER: f64 = 1e-7;
 
-/// True if multipliers prove that the rows of a program are infeasible: the given multipliers, or those of largest
-/// gain.
+/// True if the multipliers `z`, or else the multipliers of largest gain, prove that the rows of `conic` are infeasible.
 ///
 /// `z` are the multipliers that the solver returned with the status `Infeasible`, one for each row.
 pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
@@ -68,7 +67,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
         bound,
         equalities: conic.unknowns,
     };
-    // Solve, and set to 0 the multipliers that are only rounding errors of the solver.
+    // Solve, and set the multipliers that are only rounding errors of the solver to 0.
     let answer = solve(&problem, TOLERANCE, Conditioning::Full);
     let clean = |v: &f64| if v.abs() < ZERO_MULTIPLIER { 0.0 } else { *v };
     (answer.status == Status::Solved).then(|| answer.x.iter().map(clean).collect())
@@ -96,8 +95,8 @@ fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program)
     proves(conic, &z, program)
 }
 
-/// Computes the multipliers after the least change that gives Aᵀz = 0. Multipliers of inequalities that would become
-/// negative are set to 0.
+/// Applies the least change of the multipliers that gives Aᵀz = 0. Multipliers of inequalities that would become
+/// negative are set to 0. `None` if Aᵀz is 0 already, or if the solver fails.
 fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
     // Scale the error of Aᵀz to size 1.
     let off = transpose_product(conic, z);
@@ -147,8 +146,8 @@ fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     product
 }
 
-/// True if the gain −bᵀz exceeds two numbers: the tolerance of a verdict, and the largest |xᵀAᵀz| for x within
-/// [`MAX_DISPLACEMENT`].
+/// True if the gain −bᵀz exceeds both the contribution of the residuals that a verdict tolerates and the largest
+/// |xᵀAᵀz| for x within [`MAX_DISPLACEMENT`].
 fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z
         .iter()
@@ -166,8 +165,8 @@ fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let loads = &program.loads;
     let total: f64 = loads.iter().map(|v| v.abs()).sum();
     // The verdict "stable" allows a small residual for each block, so the gain must exceed the contribution of these
-    // residuals. The first rows are the equilibrium equations. For a block without a load, a millionth of all loads is
-    // used.
+    // residuals. The first rows are the equilibrium equations. The load of a block counts as at least a millionth of
+    // all loads.
     let band: f64 = loads
         .chunks(3)
         .zip(z.chunks(3))

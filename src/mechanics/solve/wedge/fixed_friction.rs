@@ -21,7 +21,8 @@ const MIN_GROUND: f64 = 1e-9;
 const NEWTON_GROUND: f64 = 1e-4;
 
 impl Springs<'_> {
-    /// Returns the rest to which the iteration converges. `None` if it does not converge, or if the program has robots.
+    /// Returns the spring forces at rest, found by a fixed-point iteration on the friction limits. `None` if the
+    /// iteration does not converge, or if the program has robots.
     pub(super) fn find_rest_by_fixed_friction(&self) -> Option<Rest> {
         if !self.grips.is_empty() {
             return None;
@@ -37,7 +38,7 @@ impl Springs<'_> {
             if answer.status != Status::Solved {
                 return None;
             }
-            // Convergence test: the pattern of these displacements is a rest.
+            // Convergence test: stop if the springs are at rest in the pattern of these displacements.
             let mut u = answer.x[..self.program.loads.len()].to_vec();
             let mut pattern = self.pattern_of(&u);
             if let Some(rest) = self.rest(&pattern, &u) {
@@ -62,7 +63,7 @@ impl Springs<'_> {
         None
     }
 
-    /// Returns the pattern of given displacements, without a former pattern.
+    /// Returns which points press and which faces slide at the displacements `u`, without a previous pattern.
     fn pattern_of(&self, u: &[f64]) -> Pattern {
         let nothing = Pattern {
             pressed: vec![false; self.points.len()],
@@ -72,13 +73,13 @@ impl Springs<'_> {
         self.pattern(u, &nothing)
     }
 
-    /// Writes the program of least energy with fixed friction limits:
+    /// Builds the quadratic program of least energy with fixed friction limits:
     ///
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///
-    /// where u are the displacements, `ground` is the stiffness of the springs to the ground, g is the opening of
-    /// each point, and p ≥ max(0, −g) is its compression. For each face, e is the
-    /// stretch of the spring along it, ρ its stiffness, s the slip, and q ≥ |s − e| the sliding.
+    /// where u are the displacements, `ground` is the stiffness of the springs to the ground, g is the opening of each
+    /// point, and p ≥ max(0, −g) is its compression. For each face, e is the elongation of the spring along it, ρ the
+    /// stiffness of this spring, s the slip, and q ≥ |s − e| the sliding.
     fn least_energy(&self, friction_limits: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());
         let faces = self.tangents.len();
@@ -93,7 +94,7 @@ impl Springs<'_> {
             bound: Vec::new(),
             equalities: 0,
         };
-        // The energy of the springs to the ground, and the work of the loads.
+        // Add the energy of the springs to the ground, and the work of the loads.
         conic.quadratic.extend((0..rows).map(|k| (k, k, ground)));
         conic.linear[..rows].copy_from_slice(&self.program.loads);
         for (k, point) in self.points.iter().enumerate() {

@@ -54,7 +54,7 @@ pub struct SelfStress {
 }
 
 impl SelfStress {
-    /// Returns the blocks with a velocity above a thousandth of the largest.
+    /// Returns the indices of the blocks with a velocity above 0.001. The largest velocity of the motion is 1.
     pub fn moving(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
         blocks.filter_map(|(block, v)| v.iter().any(|v| v.abs() > 1e-3).then_some(block))
@@ -65,10 +65,10 @@ impl std::fmt::Display for WedgingUndecided {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             WedgingUndecided::NotFound => {
-                "springs were not found to come to rest, nor was it shown that none do"
+                "the search found neither a state of rest of the springs nor a proof that there is none"
             }
             WedgingUndecided::Stiffness => {
-                "springs come to rest or not depending on how stiff faces are along themselves"
+                "whether the springs come to rest depends on their stiffness along the faces"
             }
         })
     }
@@ -98,7 +98,7 @@ const VELOCITY_TOL: f64 = 1e-6;
 /// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. The robots may exert
 /// other forces within their limits.
 ///
-/// Without friction the answer is always yes: springs then come to rest at the balance of least Σ N².
+/// Without friction, they always do: the springs then come to rest at the balance of least Σ N².
 pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
     if program.contacts.iter().all(|c| c.friction == 0.0) {
         return SelfStressCheck::FromRest;
@@ -114,8 +114,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
-    // Fast attempts to find a rest: with the springs of robots around their given forces, then around 0, then with
-    // fixed friction.
+    // Fast attempts to find a rest: first with robots' springs that start at the given forces, then at 0, then by the
+    // iteration with fixed friction limits.
     let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -144,8 +144,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
 }
 
-/// Returns the self-stress that a program without a rest needs. It is measured at the contacts that open or slide in
-/// the given motion.
+/// Returns the self-stress that a program needs if its springs do not come to rest. Its size is the least sum of normal
+/// forces at the contacts that open or slide in `motion`.
 fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     // Find the contacts that open or slide, and whether any point closes.
@@ -158,7 +158,7 @@ fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Sel
             || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
     }
     let contacts: Vec<usize> = (0..moved.len()).filter(|k| moved[*k]).collect();
-    // Compute the least sum of normal forces at the contacts that open or slide in the motion.
+    // Compute the least sum of normal forces at these contacts.
     let cost = |column: &Column| match column.force {
         Force::Ray {
             contact, normal, ..

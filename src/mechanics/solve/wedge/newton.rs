@@ -35,8 +35,8 @@ impl Springs<'_> {
         (0..forces.len()).map(|row| found[self.row(row)]).collect()
     }
 
-    /// Returns the forces that the springs must exert: the loads minus the constant forces of robots, which are their
-    /// given force or, at a limit, the limit.
+    /// Returns the forces that the springs must exert: the loads minus the constant part of each robot's force. This
+    /// part is the limit if the robot is at its limit, and the given force otherwise.
     fn spring_loads(&self, pattern: &Pattern) -> Vec<f64> {
         let mut loads = self.program.loads.clone();
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {
@@ -77,7 +77,7 @@ impl Springs<'_> {
     }
 
     /// Finds equilibrium with springs of stiffness `ground` to the ground, starting from given displacements and their
-    /// pattern. Updates both, and returns true if equilibrium was found.
+    /// pattern. Updates the displacements and the pattern, and returns true if equilibrium was found.
     ///
     /// After [`FULL_STEPS`] steps a line search shortens the steps, because full steps may cycle.
     pub(super) fn balance_with_ground(
@@ -93,7 +93,7 @@ impl Springs<'_> {
             if target.iter().any(|v| !v.is_finite()) {
                 return false;
             }
-            // Convergence test: the displacements have the pattern from which they were computed.
+            // Convergence test: stop if the displacements have the pattern from which they were computed.
             let next = self.pattern(&target, pattern);
             if next == *pattern {
                 *u = target;
@@ -109,8 +109,8 @@ impl Springs<'_> {
         false
     }
 
-    /// Line search: returns the displacements between `u` and `target` with the smallest residual, among the steps
-    /// [`STEP_SHARES`]. It stops at the first step length with a sufficient decrease (Armijo).
+    /// Line search: tries the step lengths [`STEP_SHARES`] from `u` towards `target`, and returns the displacements
+    /// with the smallest residual. Stops at the first step length with a sufficient decrease (Armijo).
     fn line_search(&self, u: &[f64], target: &[f64], ground: f64) -> Vec<f64> {
         let now = self.residual_norm(u, ground);
         let mut best = (f64::INFINITY, u.to_vec());
@@ -128,10 +128,11 @@ impl Springs<'_> {
         best.1
     }
 
-    /// Continuation: softens the springs to the ground step by step, until the forces without these springs are a rest.
+    /// Continuation: reduces the stiffness of the springs to the ground step by step, until the structure is at rest
+    /// without them.
     ///
-    /// Returns the rest. If no rest is found, the error contains the last displacements, scaled so that the largest is
-    /// 1.
+    /// Returns the spring forces at rest. If no rest is found, the error contains the last displacements, scaled so
+    /// that the largest is 1.
     pub(super) fn find_rest(&self) -> Result<Rest, Vec<f64>> {
         let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.all_pressed();

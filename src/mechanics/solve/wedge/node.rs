@@ -28,8 +28,8 @@ pub(super) enum Branch {
 }
 
 impl Node {
-    /// Returns the root of the tree. Only the faces without friction are decided, because for them the decision has no
-    /// effect.
+    /// Returns the root of the search tree. All points and faces are open, except the faces without friction, for which
+    /// the decision has no effect.
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
         let slides = contacts.map(|c| (!(c.friction > 0.0)).then_some(Slide::Forth));
@@ -39,7 +39,8 @@ impl Node {
         }
     }
 
-    /// Returns the children of a node. The last child of the list is to be explored first.
+    /// Returns the children of this node for a branch at the point or face `at`. The last child of the list is explored
+    /// first.
     pub fn children(&self, at: Branch) -> Vec<Node> {
         let with = |change: &dyn Fn(&mut Node)| {
             let mut child = self.clone();
@@ -85,8 +86,8 @@ impl Node {
         }
     }
 
-    /// Returns the first open point. If there is none, returns the first open face that may transmit force. `None` if
-    /// there is no such face.
+    /// Returns the first undecided point. If all points are decided, returns the first undecided face that may transmit
+    /// a friction force. `None` if there is no such face.
     pub fn first_open(&self, springs: &Springs) -> Option<Branch> {
         let point = self.pressed.iter().position(Option::is_none);
         let face = |k: &usize| self.slides[*k].is_none() && self.may_carry(springs, *k);

@@ -1,4 +1,5 @@
-//! [`VariableLayout::relaxation`]: the linear relaxation of a node of the search, as a quadratic program.
+//! [`VariableLayout::relaxation`]: the relaxation of a node of the branch and bound to linear constraints, as a
+//! quadratic program.
 //!
 //! The unknowns are the displacements of the blocks, the normal force at each application point, the friction force of
 //! each contact and the force components of the robots. The decisions of the node are equalities. For open points and
@@ -10,7 +11,8 @@ use crate::program::{Column, QuadraticProgram};
 
 /// The weight of ½|unknowns|² in the objective, per unit of load. It makes the optimum unique and finite.
 ///
-/// The linear terms of the objective have coefficients of about 1; ten times this weight would compete with them.
+/// The linear terms of the objective have coefficients of about 1. If this weight were ten times larger, it would
+/// compete with them.
 const REGULARIZATION: f64 = 1e-3;
 
 /// The indices at which the kinds of unknown begin: displacements at 0, then normal forces, friction forces and robots'
@@ -62,12 +64,12 @@ impl VariableLayout {
         }
     }
 
-    /// Returns the components of the robots' forces in a solution.
+    /// Returns the part of a solution `x` that contains the components of the robots' forces.
     pub fn grips<'x>(&self, x: &'x [f64]) -> &'x [f64] {
         &x[self.grips..self.end]
     }
 
-    /// Writes the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
+    /// Builds the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
         let mut builder = Builder {
             equal: Rows::default(),
@@ -120,7 +122,7 @@ impl VariableLayout {
         }
     }
 
-    /// Adds the law of the points, N = max(0, −g), which is relaxed for open points.
+    /// Adds the springs' law at the points, N = max(0, −g), which is relaxed for open points.
     ///
     /// Returns, for each contact, the indices of the unknown normal forces that may be above 0.
     fn add_points(&self, springs: &Springs, node: &Node, builder: &mut Builder) -> Vec<Vec<usize>> {
@@ -154,7 +156,7 @@ impl VariableLayout {
         pressing
     }
 
-    /// Adds the law of the faces, T = −slip limited to ±μ(N1 + N2), which is relaxed for open faces.
+    /// Adds the springs' law at the faces, T = −slip limited to ±μ(N1 + N2), which is relaxed for open faces.
     fn add_faces(
         &self,
         springs: &Springs,
@@ -177,7 +179,7 @@ impl VariableLayout {
                 // The face slides: T = ±μ(N1 + N2).
                 let full = normals(-sign * mu).chain([(friction, 1.0)]);
                 builder.equal.add(full, 0.0);
-                // The slip is at least the stretch that the friction force would cause in the spring.
+                // The slip is at least the elongation that the friction force causes in the spring.
                 builder.at_most.add(slip(sign).chain(normals(mu)), 0.0);
                 continue;
             }

@@ -1,4 +1,5 @@
-//! Checks whether the forces of a pattern are a [`Rest`]: they must balance every block and obey the law of springs.
+//! Computes the spring forces of a pattern, and checks whether they are a [`Rest`]: they must balance every block and
+//! obey the springs' law.
 //!
 //! The forces are computed with iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
 //! chapter 12).
@@ -31,11 +32,12 @@ pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) 
 }
 
 impl Springs<'_> {
-    /// Computes the forces of a pattern. Returns them if they are a rest; otherwise `None`.
+    /// Computes the spring forces of a pattern. Returns them if they balance every block and obey the springs' law;
+    /// otherwise `None`.
     ///
-    /// Openings, slips and yields are refined instead of displacements. The forces on a light block are then accurate
-    /// relative to its own load, even if heavy blocks move far. A motion that the pattern does not resist keeps its
-    /// value in `u`.
+    /// The iterative refinement corrects openings, slips and yields instead of displacements. The forces on a light
+    /// block are then accurate relative to its own load, even if heavy blocks move far. A motion that the pattern does
+    /// not resist keeps its value in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
@@ -47,7 +49,7 @@ impl Springs<'_> {
             if self.balances(&rest, &residual) {
                 return self.obeys(&rest, &gap, &slip).then_some(rest);
             }
-            // Refinement: add the displacements that the residual causes.
+            // Refinement step: add the displacements that the residual causes.
             let change = self.displacements(&stiffness, &residual);
             if change.iter().any(|v| !v.is_finite()) {
                 return None;
@@ -142,7 +144,7 @@ impl Springs<'_> {
         sizes
     }
 
-    /// True if every block is balanced relative to its own load.
+    /// True if the residual of every block is within the tolerance, which is relative to the block's own load.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
         self.sizes(rest)
             .iter()

@@ -94,8 +94,8 @@ pub(super) struct Springs<'a> {
 }
 
 impl<'a> Springs<'a> {
-    /// Creates the springs of a program, with a given force for each simulated component of a robot, in the order of
-    /// the grips.
+    /// Creates the springs of a program. `given` contains, for each simulated component of a robot in the order of the
+    /// grips, the force of its spring at displacement 0.
     pub(super) fn around(program: &'a Program, given: &[f64], along: f64) -> Springs<'a> {
         let mut springs = Springs::new(program, along);
         for (grip, given) in springs.grips.iter_mut().zip(given) {
@@ -104,7 +104,7 @@ impl<'a> Springs<'a> {
         springs
     }
 
-    /// Creates the springs of a program, with given forces of 0 for robots.
+    /// Creates the springs of a program. The robots' springs exert no force at displacement 0.
     pub(super) fn new(program: &'a Program, along: f64) -> Springs<'a> {
         // Without friction and grips, the columns of a program are the normal forces at its application points.
         let normals = columns(&Program {
@@ -161,8 +161,8 @@ impl<'a> Springs<'a> {
         }
     }
 
-    /// Returns the pattern of given displacements. If only rounding would decide the state of a point or face, it keeps
-    /// its state in `former`.
+    /// Returns which points press, which faces slide and which robots are at a limit at the displacements `u`. A point
+    /// or face for which only rounding would decide keeps its entry of `former`.
     pub(super) fn pattern(&self, u: &[f64], former: &Pattern) -> Pattern {
         let size = |column: &Column| {
             column
@@ -252,7 +252,7 @@ impl<'a> Springs<'a> {
         band.factor()
     }
 
-    /// Returns the row of the banded matrix for a row of the program.
+    /// Returns the row of the banded matrix that belongs to a row of the program.
     pub(super) fn row(&self, row: usize) -> usize {
         3 * self.position[row / 3] + row % 3
     }

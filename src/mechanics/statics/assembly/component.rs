@@ -15,7 +15,8 @@ impl Assembly {
             }
         }
         let mut parts: Vec<Assembly> = Vec::new();
-        // `part_of_root` gives the component of each root; `place` gives each body's component and its index there.
+        // `part_of_root` contains the component of each root of the disjoint sets. `place` contains, for each body, its
+        // component and its index in this component.
         let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
         let mut place = Vec::with_capacity(self.bodies.len());
         for (number, body) in self.bodies.iter().enumerate() {
@@ -61,14 +62,14 @@ pub(crate) struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// Creates the sets: each of the numbers 0 … `count` − 1 is alone in its set.
+    /// Creates `count` sets. Each contains one of the numbers 0 … `count` − 1.
     pub fn new(count: usize) -> DisjointSets {
         DisjointSets {
             parent: (0..count).collect(),
         }
     }
 
-    /// Returns the least member of the set that contains a number.
+    /// Returns the least member of the set that contains `number`.
     pub fn find(&mut self, mut number: usize) -> usize {
         while self.parent[number] != number {
             self.parent[number] = self.parent[self.parent[number]];
@@ -77,7 +78,7 @@ impl DisjointSets {
         number
     }
 
-    /// Merges the sets of two numbers.
+    /// Merges the sets that contain `one` and `other`.
     pub fn union(&mut self, one: usize, other: usize) {
         let (one, other) = (self.find(one), self.find(other));
         self.parent[one.max(other)] = one.min(other);

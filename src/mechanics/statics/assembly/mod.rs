@@ -116,7 +116,7 @@ pub struct AssemblyContact {
     pub from: Option<usize>,
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the stretch, metres; (−n_y, n_x) points from the first to the second.
+    /// Ends of the segment, metres; (−n_y, n_x) points from the first to the second.
     pub ends: [Point; 2],
     /// The application points of the normal forces, metres: the ends, moved inward by the safety kernel.
     pub points: [Point; 2],
@@ -192,7 +192,7 @@ impl Assembly {
         body_of_block
     }
 
-    /// Recomputes the load vector of each body from its weight, gravity and its listed loads.
+    /// Recomputes the load vector of each body from gravity and from the body's weight and listed loads.
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector {
@@ -204,8 +204,8 @@ impl Assembly {
         self
     }
 
-    /// Returns the largest load of all bodies in newtons. The load of a body is its largest force, moment divided by L,
-    /// or weight with the current gravity.
+    /// Returns the largest load of a body in newtons. The load of a body is the largest of three numbers: its force,
+    /// its moment divided by L, and its weight under the current gravity.
     pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
         self.bodies

@@ -1,4 +1,4 @@
-//! [`Substructure`]: some bodies of an assembly. All other bodies are fixed.
+//! [`Substructure`]: a selection of the bodies of an assembly. All other bodies are fixed.
 
 use super::{Assembly, AssemblyGrip};
 
@@ -61,8 +61,8 @@ impl Assembly {
         }
     }
 
-    /// Returns the connected sets of the bodies for which `member` is true. The bodies of each set are in ascending
-    /// order.
+    /// Returns the connected components of the bodies for which `member` is true, as lists of body indices in ascending
+    /// order. Bodies are connected if they touch.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
         for contact in &self.contacts {

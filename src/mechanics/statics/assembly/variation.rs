@@ -1,5 +1,5 @@
-//! Changes one quantity of an assembly; the bodies stay in their positions. Margins are computed from these changed
-//! assemblies.
+//! Functions that change one quantity of an assembly, such as friction, for the computation of margins. The bodies stay
+//! in their positions.
 
 use super::Assembly;
 use crate::geometry::Vector;
@@ -23,13 +23,14 @@ impl Assembly {
         self
     }
 
-    /// Sets the direction and strength of gravity, in newtons per newton of weight.
+    /// Sets gravity, in newtons per newton of weight, and recomputes the loads. `pull` gives its direction and
+    /// strength.
     pub fn with_gravity(mut self, pull: Vector) -> Assembly {
         self.pull = pull;
         self.with_summed_loads()
     }
 
-    /// Sets the factor by which the listed loads are multiplied.
+    /// Sets the factor by which the listed loads are multiplied, and recomputes the loads.
     pub fn with_load_factor(mut self, factor: f64) -> Assembly {
         self.load_factor = factor;
         self.with_summed_loads()

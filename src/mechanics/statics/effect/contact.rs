@@ -28,7 +28,8 @@ impl Effect for Contact {
     }
 }
 
-/// Adds one contact for each interface of the kind `kind`. `friction` returns the friction coefficient of an interface.
+/// Adds one contact to the assembly for each interface of the kind `kind`. `friction` returns the friction coefficient
+/// of an interface.
 pub(super) fn add(
     context: &FrameContext,
     assembly: &mut Assembly,

@@ -22,7 +22,7 @@ impl Effect for Kernel {
             Applicability::skipped("there is no interface")
         } else {
             Applicability::Applies(format!(
-                "forces keep {} of each stretch away from its ends",
+                "forces act at least {} of each interface's length away from its ends",
                 kernel / 2.0
             ))
         }

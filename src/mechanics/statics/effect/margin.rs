@@ -8,8 +8,8 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Margins;
 
-/// Makes the report on margins. `judged` is the number of changed frames whose verdicts were computed for the margins;
-/// `None` if margins were not requested.
+/// Returns the report on margins. `judged` is the number of changed frames whose verdicts were computed for the
+/// margins; `None` if margins were not requested.
 pub fn report(judged: Option<usize>) -> EffectReport {
     match judged {
         None => EffectReport::skipped(NAME, "not asked for", 0),

@@ -8,7 +8,7 @@ use super::{EffectName, EffectReport};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Mechanism;
 
-/// Makes the report on the mechanism. A mechanism is computed only if the frame is unstable.
+/// Returns the report on the mechanism. A mechanism is computed only if the frame is unstable.
 pub fn report(unstable: bool) -> EffectReport {
     if unstable {
         EffectReport::simulated(NAME, "the frame falls".to_string(), 0)

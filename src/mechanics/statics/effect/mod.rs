@@ -60,7 +60,7 @@ pub enum EffectName {
 }
 
 impl EffectName {
-    /// Returns the name of the effect in results.
+    /// Returns the name of the effect in results, such as `robot torque`.
     pub fn word(self) -> &'static str {
         match self {
             EffectName::Weight => "weight",
@@ -171,12 +171,12 @@ enum Applicability {
 }
 
 impl Applicability {
-    /// Makes the result for an effect that is skipped and would add no unknowns.
+    /// Returns the result for an effect that is skipped and would add no unknowns.
     fn skipped(reason: &str) -> Applicability {
         Applicability::skipped_saving(reason, 0)
     }
 
-    /// Makes the result for an effect that is skipped. `saved_unknowns` is the number of unknowns that it would add.
+    /// Returns the result for an effect that is skipped. `saved_unknowns` is the number of unknowns that it would add.
     fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
         Applicability::Skipped {
             reason: reason.to_owned(),
@@ -187,7 +187,7 @@ impl Applicability {
 
 /// An effect that contributes to the assembly of a frame.
 trait Effect {
-    /// Returns the name of the effect in results.
+    /// Returns the name of the effect in results, such as `robot torque`.
     fn name(&self) -> EffectName;
 
     /// Decides whether the frame needs the effect, and why.

@@ -1,4 +1,5 @@
-//! Sticking: the forces that mortar, or stronger robots, would have to exert. They show where a structure fails.
+//! Sticking: the forces that mortar, or stronger robots, would have to exert for a falling structure to stand. They
+//! show where it fails.
 //!
 //! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum
 //! of all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
@@ -19,8 +20,8 @@ pub enum Sought {
     NotAsked,
 }
 
-/// Makes the report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns of
-/// sticking, whether they were used or saved.
+/// Returns the report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns
+/// that sticking adds to the program, or that were saved because it was not computed.
 pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
     match sought {
         Sought::Found => {

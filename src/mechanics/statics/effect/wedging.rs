@@ -28,7 +28,7 @@ pub enum Wedging {
     Only(String),
 }
 
-/// Makes the report on wedging. Wedging is checked only if it was requested and the frame stands.
+/// Returns the report on wedging. Wedging is checked only if it was requested and the frame stands.
 pub fn report(wedging: Wedging) -> EffectReport {
     match wedging {
         Wedging::NotAsked => EffectReport::skipped(NAME, "not asked for", 0),

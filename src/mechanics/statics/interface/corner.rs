@@ -34,7 +34,7 @@ struct Tip {
 }
 
 impl Tip {
-    /// True if the inner angle is less than 180°.
+    /// True if the inner angle of the corner is less than 180°.
     fn is_convex(&self) -> bool {
         cross(self.before, self.after) > 0.0
     }
@@ -66,7 +66,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
     places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();
-    // The ends of the contacts of each pair of bodies. Hundreds of wedges may meet in one point.
+    // The ends of all contacts, grouped by the pair of bodies, because hundreds of wedges may meet at one point.
     let mut ends_of_pair: BTreeMap<[BodyId; 2], Vec<[Point; 2]>> = BTreeMap::new();
     for interface in known {
         let ends = ends_of_pair.entry(interface.bodies).or_default();

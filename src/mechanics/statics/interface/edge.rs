@@ -2,16 +2,16 @@
 //! tolerance.
 //!
 //! 1. A bounding-volume hierarchy over position and direction returns the pairs of edges that may face each other.
-//! 2. [`compare`] decides for each pair: common stretch, too short, or apart.
-//! 3. Stretches of the same two bodies that continue each other are joined ([`join`](super::join)).
+//! 2. [`compare`] decides for each pair: common segment, too short, or apart.
+//! 3. Segments of the same two bodies that continue each other are joined ([`join`](super::join)).
 //! 4. Gaps that a stone keeps open are found ([`pinned`](super::pinned)).
 //!
 //! Reference: Ericson, Real-Time Collision Detection, 2005, chapter 6 (bounding-volume hierarchies).
 
-use super::common_stretch::{CommonStretch, min_contact_length};
-use super::join::{JOIN_REACH, join_stretches};
+use super::common_segment::{CommonSegment, min_contact_length};
+use super::join::{JOIN_REACH, join_segments};
 use super::notice::Notices;
-use super::open_stretch::{OpenStretch, without_outline};
+use super::gap_segment::{GapSegment, without_outline};
 use super::pinned::{MAX_PINNED_SIZE_PER_GAP, pinned_gaps};
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, normal_across, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross};
@@ -31,7 +31,7 @@ const FULL_TURN: f64 = 4.0;
 /// Edges with a gap above this fraction of a block's size are not near misses: they were not drawn to touch.
 const MAX_GAP_PER_SIZE: f64 = 0.01;
 
-/// Common stretches up to this fraction of the tolerance's shortest contact are not even reported as too short.
+/// Common segments up to this fraction of the tolerance's shortest contact are not even reported as too short.
 ///
 /// They are the rounding of a corner that touches the end of an edge.
 const CORNER_ROUNDING: f64 = 1e-3;
@@ -63,8 +63,8 @@ impl Side {
         let along = self.edge.vector();
         let angle =
             (2.0 * self.search_distance / along.norm()).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
-        // `compare` tests the sine, which is smaller than the angle by less than a thousandth. `direction` changes by
-        // at most 1 per radian.
+        // Add a thousandth, because `compare` tests the sine, which is slightly smaller than the angle. `direction`
+        // changes by at most 1 per radian.
         let angle = 1.001 * angle;
         let (position, direction) = (self.edge.bounds(), direction(along));
         Aabb {
@@ -76,7 +76,6 @@ impl Side {
     /// Returns the query boxes for edges that face this edge: edges of the opposite direction within the search
     /// distance. Directions are periodic, so two boxes are needed near 0 and [`FULL_TURN`].
     ///
-    /// Directions are periodic. Near 0 and [`FULL_TURN`] two boxes are needed.
     fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
         let mut bounds = self.bounds();
         for d in 0..2 {
@@ -110,12 +109,12 @@ fn direction(v: Vector) -> f64 {
 
 /// The relation of two edges that face each other.
 enum Relation {
-    /// They touch along a stretch; the number is their largest distance along it, metres.
+    /// They touch along a segment; the number is their largest distance along it, metres.
     Touching(Interface, f64),
-    /// They touch along a stretch that is too short for an interface.
+    /// They touch along a segment that is too short for an interface.
     TooShort(Interface),
-    /// They do not touch along this stretch.
-    Apart(OpenStretch),
+    /// They do not touch along this segment.
+    Apart(GapSegment),
 }
 
 /// Two bodies, the numbers of one edge of each, and the relation of the two edges.
@@ -139,7 +138,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             }
         }
     }
-    // The index returns edges in no particular order; results must not depend on it.
+    // Sort the pairs, because the index returns edges in no particular order and results must not depend on it.
     pairs.sort_unstable_by_key(|pair| (pair.0, pair.1));
     collect(scene, pairs, &index, smallest)
 }
@@ -184,7 +183,7 @@ struct Collection {
     notices: Notices,
 }
 
-/// Converts the pairs of edges, which are grouped by their bodies, to interfaces, near misses and slivers.
+/// Converts pairs of edges to interfaces, near misses and slivers. Pairs of the same two bodies must be consecutive.
 fn collect(
     scene: &Scene,
     pairs: Vec<Pair>,
@@ -204,14 +203,14 @@ fn collect(
                     found.add_touching(interface, distance, smallest);
                 }
                 Relation::TooShort(interface) => found.add_short(interface, tolerance),
-                Relation::Apart(stretch) => open.push(stretch),
+                Relation::Apart(segment) => open.push(segment),
             }
         }
         if found.interfaces.len() > first + 1 {
-            let stretches = found.interfaces.split_off(first);
+            let segments = found.interfaces.split_off(first);
             found
                 .interfaces
-                .extend(join_stretches(stretches, tolerance));
+                .extend(join_segments(segments, tolerance));
         }
         if !open.is_empty() {
             let touching = touching_points(scene, bodies, &found.interfaces[first..], sides);
@@ -229,8 +228,8 @@ fn collect(
 }
 
 impl Collection {
-    /// Adds an interface whose edges are at most `distance` metres apart. `smallest` is the size of the smallest stone,
-    /// metres.
+    /// Adds an interface whose edges are at most `distance` metres apart. `smallest` is the size of the smallest block
+    /// in metres.
     fn add_touching(&mut self, interface: Interface, distance: f64, smallest: f64) {
         // A gap counts as an open joint only if it is wide enough for the smallest stone, which may keep it open.
         if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
@@ -251,12 +250,13 @@ impl Collection {
         }
     }
 
-    /// Adds the gaps between two bodies. If the bodies touch, the gaps beside a rounded outline are left out.
+    /// Adds the gaps between two bodies as near misses. If the bodies touch, gaps that only follow from a rounded
+    /// outline are left out.
     fn add_gaps(
         &mut self,
         scene: &Scene,
         bodies: [BodyId; 2],
-        open: Vec<OpenStretch>,
+        open: Vec<GapSegment>,
         touching: Vec<Point>,
     ) {
         let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
@@ -274,7 +274,8 @@ impl Collection {
     }
 }
 
-/// Returns the greatest length, in metres, that an edge of a rounded outline of either body may have.
+/// Returns the greatest length, in metres, of edges that may belong to the rounded outlines of two bodies. Longer edges
+/// are sides.
 fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     let of_body = |body: &BodyId| match body {
         BodyId::Block(_) => LONG_SIDE_PER_SIZE * size(&scene.body(*body).polygon),
@@ -308,7 +309,7 @@ fn only_touching_corner(
 ) -> Option<Point> {
     let gap = scene.tolerance_between(bodies[0], bodies[1]).gap;
     let touches = |at: &Point| {
-        // The range of directions covers a full turn, so edges of any direction are found.
+        // The range of directions in this query covers a full turn, so edges of any direction are found.
         let query = Aabb {
             min: [at.x - gap, at.y - gap, -FULL_TURN],
             max: [at.x + gap, at.y + gap, 2.0 * FULL_TURN],
@@ -349,16 +350,16 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if !is_parallel_within(search_distance) {
         return None;
     }
-    let stretch = CommonStretch::new(a, b);
-    let length = stretch.length();
+    let segment = CommonSegment::new(a, b);
+    let length = segment.length();
     if length < -tolerance.min_length {
         return None;
     }
-    let distance = stretch.distance();
+    let distance = segment.distance();
     if distance > tolerance.gap {
         let is_near_miss =
-            stretch.depth() >= -tolerance.gap && distance <= search_distance && length > distance;
-        return is_near_miss.then(|| Relation::Apart(stretch.open()));
+            segment.depth() >= -tolerance.gap && distance <= search_distance && length > distance;
+        return is_near_miss.then(|| Relation::Apart(segment.open()));
     }
     if !is_parallel_within(tolerance.gap) {
         return None;
@@ -367,8 +368,9 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if is_short && length <= CORNER_ROUNDING * tolerance.min_length {
         return None;
     }
-    // The first body lies to the left of `along`, so that (−n_y, n_x) points in the opposite direction.
-    let ends = [stretch.middle(stretch.end), stretch.middle(stretch.start)];
+    // The first body lies to the left of its edge, so the tangent (−n_y, n_x) points against the edge. The end of the
+    // segment is therefore listed first.
+    let ends = [segment.middle(segment.end), segment.middle(segment.start)];
     let interface = Interface {
         bodies,
         kind: ContactKind::Edge,

@@ -1,7 +1,7 @@
-//! [`join_stretches`]: joins the common stretches of two bodies that continue each other along one line.
+//! [`join_segments`]: joins contact segments of the same two bodies that continue each other along one line.
 //!
 //! A corner inside a straight joint divides an edge in two, but must not change the interfaces. A joint may consist of
-//! a hundred thousand stretches. Their ends are therefore searched in a grid (spatial hashing) whose cells are as wide
+//! a hundred thousand segments. Their ends are therefore searched in a grid (spatial hashing) whose cells are as wide
 //! as the largest distance of two ends that are joined.
 
 use std::collections::BTreeMap;
@@ -9,22 +9,24 @@ use std::collections::BTreeMap;
 use super::{Interface, normal_across};
 use crate::geometry::{Point, Tolerance, cross};
 
-/// Two stretches on one line continue each other if their ends lie within this many gaps of each other.
+/// Two segments on one line continue each other if their ends lie within this many gaps of each other.
 ///
-/// Each end of a stretch comes from corners that are displaced by up to a gap each. At a tenth, the stretches of one
-/// rounded joint would not be joined. At ten times, the two feet of a body would be joined across the hollow between
-/// them, which changes no verdict but the interfaces that are drawn.
+/// Each end of a segment comes from corners that are displaced by up to a gap each. If it were ten times smaller, the
+/// segments of one rounded joint would not be joined. If it were ten times larger, the two feet of a body would be
+/// joined across the hollow between them. This changes the interfaces that are drawn, but no verdict.
 pub(super) const JOIN_REACH: f64 = 4.0;
 
-/// Stretches whose normals differ by more than this, in radians, are not on one line.
+/// Segments whose normals differ by more than this, in radians, are not on one line.
 ///
-/// Rounding of coordinates turns normals by 10⁻⁷ or less in scenes of usual size. A tenth would split joints of
-/// drawings with seven digits; ten times this angle would join neighbouring sides of a finely drawn curve.
+/// Rounding of coordinates turns normals by 10⁻⁷ or less in scenes of usual size. If the angle were ten times smaller,
+/// joints of drawings with seven digits would be split; if it were ten times larger, neighbouring sides of a finely
+/// drawn curve would be joined.
 const SAME_LINE_TOL: f64 = 1e-6;
 
-/// Joins the stretches of one pair of bodies that continue each other. Returns the joined and all other stretches.
-pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
-    let mut remaining = StretchGrid::new(stretches, JOIN_REACH * tolerance.gap);
+/// Joins the contact segments of one pair of bodies that continue each other. Returns the joined segments and the
+/// segments that continue no other.
+pub(super) fn join_segments(segments: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    let mut remaining = SegmentGrid::new(segments, JOIN_REACH * tolerance.gap);
     let mut joined = Vec::new();
     while let Some(mut one) = remaining.take_last() {
         while let Some(other) = remaining.take_neighbour(&one) {
@@ -36,10 +38,10 @@ pub(super) fn join_stretches(stretches: Vec<Interface>, tolerance: Tolerance) ->
     joined
 }
 
-/// Returns the two outermost ends of two stretches, in the order along the first stretch.
+/// Returns the two outermost ends of two segments, in the order along the first segment.
 ///
-/// All four ends are compared: if the stretches are shorter than the distance within which ends count as equal, it is
-/// not known which ends meet.
+/// All four ends are compared, because it is not known which ends meet if the segments are shorter than the distance
+/// within which ends count as equal.
 fn outermost_ends(one: &Interface, other: &Interface) -> [Point; 2] {
     let along = one.tangent();
     let place = |p: &Point| along.dot(&(p - one.ends[0]));
@@ -58,31 +60,31 @@ fn outermost_ends(one: &Interface, other: &Interface) -> [Point; 2] {
 /// A cell of the grid, by column and row.
 type GridCell = (i64, i64);
 
-/// Stretches that are not yet joined, with a grid over their ends.
-struct StretchGrid {
-    /// The stretches; `None` for those that were removed.
-    stretches: Vec<Option<Interface>>,
-    /// For each cell the indices of the stretches that begin in it.
+/// Segments that are not yet joined, with a grid over their ends.
+struct SegmentGrid {
+    /// The segments; `None` for those that were removed.
+    segments: Vec<Option<Interface>>,
+    /// For each cell the indices of the segments that begin in it.
     begins: BTreeMap<GridCell, Vec<usize>>,
-    /// For each cell the indices of the stretches that end in it.
+    /// For each cell the indices of the segments that end in it.
     ends: BTreeMap<GridCell, Vec<usize>>,
     /// The largest distance of two ends that continue each other, and the width of a cell; metres.
     reach: f64,
 }
 
-impl StretchGrid {
-    fn new(stretches: Vec<Interface>, reach: f64) -> StretchGrid {
-        let mut grid = StretchGrid {
-            stretches: Vec::with_capacity(stretches.len()),
+impl SegmentGrid {
+    fn new(segments: Vec<Interface>, reach: f64) -> SegmentGrid {
+        let mut grid = SegmentGrid {
+            segments: Vec::with_capacity(segments.len()),
             begins: BTreeMap::new(),
             ends: BTreeMap::new(),
             reach,
         };
-        for (number, stretch) in stretches.into_iter().enumerate() {
-            let [from, to] = stretch.ends.map(|p| grid.cell(p));
+        for (number, segment) in segments.into_iter().enumerate() {
+            let [from, to] = segment.ends.map(|p| grid.cell(p));
             grid.begins.entry(from).or_default().push(number);
             grid.ends.entry(to).or_default().push(number);
-            grid.stretches.push(Some(stretch));
+            grid.segments.push(Some(segment));
         }
         grid
     }
@@ -94,9 +96,9 @@ impl StretchGrid {
         (number(p.x), number(p.y))
     }
 
-    /// Removes and returns the last remaining stretch.
+    /// Removes and returns the last remaining segment.
     fn take_last(&mut self) -> Option<Interface> {
-        while let Some(last) = self.stretches.pop() {
+        while let Some(last) = self.segments.pop() {
             if last.is_some() {
                 return last;
             }
@@ -104,21 +106,21 @@ impl StretchGrid {
         None
     }
 
-    /// Removes and returns the first stretch that continues `one` at either end.
+    /// Removes and returns the first segment that continues `one` at either end.
     fn take_neighbour(&mut self, one: &Interface) -> Option<Interface> {
-        let behind = self.neighbour(StretchEnd::Begin, one.ends[1], one);
-        let before = self.neighbour(StretchEnd::End, one.ends[0], one);
+        let behind = self.neighbour(SegmentEnd::Begin, one.ends[1], one);
+        let before = self.neighbour(SegmentEnd::End, one.ends[0], one);
         let next = behind.into_iter().chain(before).min()?;
-        self.stretches.get_mut(next)?.take()
+        self.segments.get_mut(next)?.take()
     }
 
-    /// Returns the index of the first stretch on the line of `one` whose end of the given kind lies at `p`. `None` if
-    /// there is no such stretch.
-    fn neighbour(&mut self, end: StretchEnd, p: Point, one: &Interface) -> Option<usize> {
+    /// Returns the index of the first segment on the line of `one` whose end of the given kind lies within reach of
+    /// `p`. `None` if there is no such segment.
+    fn neighbour(&mut self, end: SegmentEnd, p: Point, one: &Interface) -> Option<usize> {
         let (x, y) = self.cell(p);
         let (table, which) = match end {
-            StretchEnd::Begin => (&mut self.begins, 0),
-            StretchEnd::End => (&mut self.ends, 1),
+            SegmentEnd::Begin => (&mut self.begins, 0),
+            SegmentEnd::End => (&mut self.ends, 1),
         };
         let mut first: Option<usize> = None;
         // A point within reach lies in the same cell or in one of the eight around it.
@@ -128,9 +130,9 @@ impl StretchGrid {
                 let Some(numbers) = table.get_mut(&cell) else {
                     continue;
                 };
-                numbers.retain(|n| matches!(self.stretches.get(*n), Some(Some(_))));
+                numbers.retain(|n| matches!(self.segments.get(*n), Some(Some(_))));
                 let continues = |n: &usize| {
-                    let Some(Some(other)) = self.stretches.get(*n) else {
+                    let Some(Some(other)) = self.segments.get(*n) else {
                         return false;
                     };
                     let is_collinear = cross(one.normal, other.normal).abs() <= SAME_LINE_TOL
@@ -147,9 +149,9 @@ impl StretchGrid {
     }
 }
 
-/// Which end of a stretch.
+/// Which end of a segment.
 #[derive(Clone, Copy)]
-enum StretchEnd {
+enum SegmentEnd {
     Begin,
     End,
 }

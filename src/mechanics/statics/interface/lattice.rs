@@ -19,14 +19,14 @@ pub(crate) struct LatticeEdges {
 }
 
 impl LatticeEdges {
-    /// Adds the edges of a body that consists of cells.
+    /// Adds the boundary edges of the body `id`, which consists of `cells`.
     pub(crate) fn add(&mut self, id: BodyId, cells: &[Cell]) {
         for step in boundary(cells) {
             self.owners.entry(step).or_default().push(id);
         }
     }
 
-    /// Removes the edges of a body.
+    /// Removes the boundary edges of the body `id`, which consists of `cells`.
     pub(crate) fn remove(&mut self, id: BodyId, cells: &[Cell]) {
         for step in boundary(cells) {
             if let Some(owners) = self.owners.get_mut(&step) {
@@ -48,16 +48,16 @@ impl LatticeEdges {
         self.interfaces(scene, lattice, own.map(|step| (step, id)))
     }
 
-    /// Returns the interfaces along the given edges. Each edge comes with its body, which must be the first body of the
-    /// interface.
+    /// Returns the interfaces along the given edges. Each edge comes with the body that owns it; only interfaces with
+    /// this body as the first one are returned.
     fn interfaces(
         &self,
         scene: &Scene,
         lattice: &Lattice,
         edges: impl Iterator<Item = ((Node, Node), BodyId)>,
     ) -> Vec<Interface> {
-        // For each pair of bodies and each direction, the unit edges that they share, as a map from start node to end
-        // node. The direction is that of the first body.
+        // The unit edges that each pair of bodies shares in each direction, as a map from start node to end node. The
+        // direction is that of the first body's edge.
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
             for other in self.owners.get(&(b, a)).into_iter().flatten() {
@@ -108,7 +108,7 @@ fn joined(
     found
 }
 
-/// Makes the interface along the edges from the node `begin` to the node `end`.
+/// Creates the interface along the edges from the node `begin` to the node `end`.
 ///
 /// The first body lies to the left of this direction, so the normal into it is the direction rotated anticlockwise by
 /// 90°.

@@ -1,17 +1,17 @@
-//! [`Interface`]: a contact of two bodies along a stretch of edge. [`Interfaces`]: all contacts of a scene, for all
-//! frames.
+//! [`Interface`]: a contact of two bodies along a common segment of their edges. [`Interfaces`]: all contacts of a
+//! scene, for all frames.
 //!
 //! Invariant: the first body of an interface is a block, and the normal points into it. Edges that are too short or too
 //! far apart for an interface are reported in [`Interfaces::notices`], so that none is dropped silently.
 
 mod corner;
-mod common_stretch;
+mod common_segment;
 mod edge;
 mod join;
 mod pinned;
 mod lattice;
 mod notice;
-mod open_stretch;
+mod gap_segment;
 #[cfg(test)]
 mod tests;
 
@@ -25,20 +25,20 @@ use crate::scene::{BlockId, BodyId, Frame, Scene};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ContactKind {
-    /// Two edges share a stretch.
+    /// Two edges share a segment.
     Edge,
     /// A corner touches an edge or another corner; the contact force acts at one point.
     Corner,
 }
 
-/// A contact of two bodies: a common stretch of their edges, or a point.
+/// A contact of two bodies: a common segment of their edges, or a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
     /// The two bodies. The first is always a block; of two blocks it is the later one in the file.
     pub bodies: [BodyId; 2],
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the stretch, metres; (−n_y, n_x) points from the first to the second. Equal for a corner.
+    /// Ends of the segment, metres; (−n_y, n_x) points from the first to the second. Equal for a corner.
     pub ends: [Point; 2],
     /// Unit normal into `bodies[0]`.
     pub normal: Vector,
@@ -52,12 +52,12 @@ impl Interface {
         quarter_turn(self.normal)
     }
 
-    /// Returns the length of the stretch in metres; 0 for a corner.
+    /// Returns the length of the contact segment in metres; 0 for a corner contact.
     pub fn length(&self) -> f64 {
         (self.ends[1] - self.ends[0]).norm()
     }
 
-    /// Returns the middle of the stretch.
+    /// Returns the middle of the contact segment.
     pub fn middle(&self) -> Point {
         nalgebra::center(&self.ends[0], &self.ends[1])
     }
@@ -81,7 +81,7 @@ impl Interface {
     }
 }
 
-/// Returns the ends of a stretch, each moved inward by `kernel`/2 of its length.
+/// Returns the two ends of a contact segment, each moved inward by `kernel`/2 of the segment's length.
 pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
     let inward = (ends[1] - ends[0]) * (kernel / 2.0);
     [ends[0] + inward, ends[1] - inward]
@@ -92,9 +92,9 @@ pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
 pub struct NearMiss {
     /// The two bodies, in the order in which an interface would list them.
     pub bodies: [BodyId; 2],
-    /// The middle of the stretch along which they face each other.
+    /// The middle of the segment along which they face each other.
     pub at: Point,
-    /// The widest gap along the stretch, metres.
+    /// The widest gap along the segment, metres.
     pub distance: f64,
 }
 
@@ -108,7 +108,7 @@ pub(crate) struct PinnedGap {
 }
 
 impl PinnedGap {
-    /// True if the interface lies in the gap. The interface then does not exist while the stone is present.
+    /// True if `interface` lies in this gap. While the stone is present, the interface does not exist.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -124,7 +124,7 @@ pub struct Interfaces {
     pub all: Vec<Interface>,
     /// Edges that nearly touch: the verdict may depend on them.
     pub near_misses: Vec<NearMiss>,
-    /// Stretches that are too short for an interface, but longer than rounding: the verdict may depend on them.
+    /// Segments that are too short for an interface, but longer than rounding: the verdict may depend on them.
     pub slivers: Vec<Interface>,
     /// Gaps within the tolerance that stones keep open.
     pub(crate) pinned_gaps: Vec<PinnedGap>,
@@ -192,7 +192,7 @@ impl Interfaces {
         });
     }
 
-    /// Returns a copy in which the slivers are interfaces too.
+    /// Returns a copy in which the slivers, contacts that are too short, count as interfaces too.
     pub(crate) fn with_slivers(&self) -> Interfaces {
         let mut all = self.clone();
         all.all.append(&mut all.slivers);
@@ -200,8 +200,8 @@ impl Interfaces {
         all
     }
 
-    /// Returns the interfaces of a frame: both bodies are present, and no stone that is present keeps the interface
-    /// open.
+    /// Returns the interfaces of a frame: those whose bodies are both present and are not kept apart by a stone that is
+    /// present.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
@@ -240,11 +240,11 @@ fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
     }
 }
 
-/// Returns the unit normal that is exactly perpendicular to the stretch between two ends. The ends are in the order of
-/// (−n_y, n_x).
+/// Returns the unit normal n that is exactly perpendicular to the segment between two ends. The tangent (−n_y, n_x)
+/// points from the first end to the second.
 ///
-/// Friction is one force per interface, which acts along the line through the two ends. Its moment is the same at both
-/// ends only if the normal is exactly perpendicular to this line.
+/// Friction is one force per interface, which acts along the line through the two ends. The moment of this force is the
+/// same at both ends only if the normal is exactly perpendicular to this line.
 fn normal_across(ends: [Point; 2]) -> Vector {
     quarter_turn((ends[0] - ends[1]).normalize())
 }

@@ -1,15 +1,15 @@
-//! [`Notices`]: collects edges that are nearly interfaces. Writes at most one sentence of each kind for the whole
-//! scene.
+//! [`Notices`]: collects edges that nearly form interfaces. Reports them in at most two sentences for the whole scene:
+//! one about contacts that are too short, one about gaps that are too wide.
 
 use crate::geometry::Tolerance;
 use crate::scene::{BodyId, Scene};
 
-/// Collects the stretches that are too short and the edges that are too far apart for an interface.
+/// Collects the segments that are too short and the edges that are too far apart for an interface.
 #[derive(Default)]
 pub(super) struct Notices {
-    /// Number of stretches that are too short.
+    /// Number of segments that are too short.
     short_count: usize,
-    /// The length of the longest of these stretches, metres.
+    /// The length of the longest of these segments, metres.
     longest_short: f64,
     /// The largest length that was required, metres.
     required_length: f64,
@@ -18,7 +18,7 @@ pub(super) struct Notices {
 }
 
 impl Notices {
-    /// Records a stretch of `length` metres, which is too short for an interface.
+    /// Records a segment of `length` metres, which is too short for an interface.
     pub(super) fn add_short(&mut self, length: f64, tolerance: Tolerance) {
         self.short_count += 1;
         self.longest_short = self.longest_short.max(length);
@@ -32,7 +32,8 @@ impl Notices {
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
-    /// Returns the notices as sentences for users, at most one of each kind.
+    /// Returns the notices as sentences for users: at most one about contacts that are too short, and at most one about
+    /// gaps that are too wide.
     pub(super) fn into_sentences(self, tolerance: Tolerance) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.short_count > 0 {

@@ -1,5 +1,5 @@
-//! Finds gaps that a pinning stone keeps open. Such gaps are open on purpose, even if they are narrower than the
-//! tolerance.
+//! Finds gaps between two bodies that a small stone, a pinning stone, keeps open. Such gaps are open on purpose, even
+//! if they are narrower than the tolerance.
 
 use std::collections::BTreeMap;
 
@@ -60,11 +60,12 @@ pub(crate) fn pinning_stone(
 /// The largest size of a stone that can keep a gap open, as a multiple of the width of the gap.
 ///
 /// The size of a stone is four times its area over its perimeter, which is less than twice its height. A larger stone
-/// touches the two bodies at a step instead. A tenth would recognise no stone; ten times this value would only take
-/// more time.
+/// touches the two bodies at a step instead. If it were ten times smaller, no stone would be recognised; if it were ten
+/// times larger, the search would only take more time.
 pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
-/// Finds the joints in `open_joints` that a stone keeps open. The gaps of these joints are within the tolerance.
+/// Finds the joints in `open_joints` that a stone keeps open. The gaps of all these joints are narrower than the
+/// tolerance.
 pub(super) fn pinned_gaps(
     scene: &Scene,
     all: &[Interface],

@@ -1,24 +1,25 @@
-//! [`CommonStretch`]: the common part of two edges that face each other.
+//! [`CommonSegment`]: the segment that two edges that face each other have in common, and the gap between them.
 
-use super::open_stretch::OpenStretch;
+use super::gap_segment::GapSegment;
 use crate::geometry::{Edge, Point, Tolerance, Vector};
 use crate::scene::{Scene, ToleranceSource};
 
-/// If a tolerance is given, a stretch that covers this fraction of the shorter edge is a contact, however short the
+/// If a tolerance is given, a segment that covers this fraction of the shorter edge is a contact, however short the
 /// edge.
 ///
-/// Ten times this is more than a whole edge. At a tenth, two bricks that barely touch at their chamfers would have a
-/// contact.
+/// Ten times this is more than a whole edge. If it were ten times smaller, two bricks that barely touch at their
+/// chamfers would have a contact.
 const CONTACT_PER_EDGE: f64 = 0.5;
 
 /// Edges shorter than this fraction of a given tolerance are not real edges: healing moved their two corners to one
 /// point.
 ///
-/// Ten times this would drop the edges of a circle of 100 000 corners; a tenth comes near the rounding of numbers.
+/// If it were ten times larger, the edges of a circle of 100 000 corners would be dropped; if it were ten times
+/// smaller, it would come near the rounding of numbers.
 const MIN_EDGE_PER_TOLERANCE: f64 = 1e-6;
 
-/// The stretch that two opposite edges both cover, measured along their mean direction from the start of the first.
-pub(super) struct CommonStretch {
+/// The segment that two opposite edges both cover, measured along their mean direction from the start of the first.
+pub(super) struct CommonSegment {
     a: Edge,
     b: Edge,
     /// The mean direction of the two edges, that of the first.
@@ -28,28 +29,28 @@ pub(super) struct CommonStretch {
     pub(super) end: f64,
 }
 
-impl CommonStretch {
-    /// Returns the common stretch of the edges `a` and `b`, which run in opposite directions.
-    pub(super) fn new(a: Edge, b: Edge) -> CommonStretch {
+impl CommonSegment {
+    /// Returns the common segment of the edges `a` and `b`, which run in opposite directions.
+    pub(super) fn new(a: Edge, b: Edge) -> CommonSegment {
         let along = (a.vector() - b.vector()).normalize();
-        let mut stretch = CommonStretch {
+        let mut segment = CommonSegment {
             a,
             b,
             along,
             start: 0.0,
             end: 0.0,
         };
-        stretch.start = f64::max(0.0, stretch.place(b.to));
-        stretch.end = f64::min(stretch.place(a.to), stretch.place(b.from));
-        stretch
+        segment.start = f64::max(0.0, segment.place(b.to));
+        segment.end = f64::min(segment.place(a.to), segment.place(b.from));
+        segment
     }
 
-    /// Returns the length of the stretch in metres; negative if the edges have no common stretch.
+    /// Returns the length of the segment in metres; negative if the edges have no common segment.
     pub(super) fn length(&self) -> f64 {
         self.end - self.start
     }
 
-    /// Returns the coordinate of a point along the stretch, in metres.
+    /// Returns the coordinate of a point along the segment, in metres from the start of the first edge.
     fn place(&self, p: Point) -> f64 {
         self.along.dot(&(p - self.a.from))
     }
@@ -60,7 +61,7 @@ impl CommonStretch {
     }
 
     /// Returns the distance, in metres, of the edge `e` from the line of the first edge, at the coordinate `s` along
-    /// the stretch. It is positive outside the first body.
+    /// the segment. It is positive outside the first body.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
         let (h0, h1) = (
@@ -76,13 +77,12 @@ impl CommonStretch {
         self.height(self.b, s) - self.height(self.a, s)
     }
 
-    /// Returns the larger absolute value of the gaps at the two ends of the stretch, in metres. Overlaps are negative
-    /// gaps.
+    /// Returns the larger of the absolute gaps at the two ends of the segment, in metres. Overlaps are negative gaps.
     pub(super) fn distance(&self) -> f64 {
         self.gap(self.start).abs().max(self.gap(self.end).abs())
     }
 
-    /// Returns the smaller of the gaps at the two ends of the stretch, in metres; negative if the bodies overlap.
+    /// Returns the smaller of the gaps at the two ends of the segment, in metres; negative if the bodies overlap.
     pub(super) fn depth(&self) -> f64 {
         self.gap(self.start).min(self.gap(self.end))
     }
@@ -93,22 +93,22 @@ impl CommonStretch {
         self.a.from + self.along * s + self.outward() * height
     }
 
-    /// Converts the stretch to an open gap.
-    pub(super) fn open(&self) -> OpenStretch {
+    /// Returns the gap along this segment, for edges that do not touch.
+    pub(super) fn open(&self) -> GapSegment {
         let at = self.a.from + self.along * ((self.start + self.end) / 2.0);
         let ends = [self.start, self.end].map(|s| (self.middle(s), self.gap(s).abs()));
-        OpenStretch::new(ends, at)
+        GapSegment::new(ends, at)
     }
 }
 
 /// Returns the least common length, in metres, of two edges that form an interface. `edge` is the length of the shorter
-/// edge in metres. For a given tolerance that is large compared with the edge, the result is less than
+/// edge in metres. If the scene gives a tolerance that is large compared with the edge, the result is smaller than
 /// [`Tolerance::min_contact_length`].
 pub(super) fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
     let min_length = tolerance.min_contact_length(edge);
     let is_given = scene.healed.source == ToleranceSource::Given;
     if is_given && edge > MIN_EDGE_PER_TOLERANCE * tolerance.gap {
-        // A given tolerance may be longer than the edges of a round stone. A stretch that covers half of an edge is
+        // A given tolerance may be longer than the edges of a round stone. A segment that covers half of an edge is
         // then a contact.
         return min_length.min(CONTACT_PER_EDGE * edge);
     }
