@@ -43,7 +43,7 @@ impl Amounts {
     /// balanced.
     pub fn unbalanced(&self, program: &Program) -> f64 {
         let mut residual = program.loads.clone();
-        // Subtracts a force and its moment from the three rows of a block.
+        // Subtracts a force and its moment from the residual, in the three rows of a block.
         let mut act = |block: usize, force: Vector, moment: f64| {
             for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
                 residual[3 * block + row] -= value;

@@ -11,7 +11,7 @@
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
     Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
-    balance_by_least_change, largest, least_squares_amounts, of_velocities, once_within,
+    balance_by_least_change, largest, least_squares_amounts, from_kinematic_answer, once_within,
     refine_balance, remainder, solved_with_retry,
 };
 use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
@@ -104,7 +104,8 @@ pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_MANY)
 }
 
-/// Like [`balance_in`], but for a program of many blocks it stops after `MAX_ITERATIONS_FIRST_LOOK` iterations.
+/// Like [`balance_in`], but the solver stops after `MAX_ITERATIONS_FIRST_LOOK` iterations if the program has many
+/// blocks.
 pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
 }
@@ -209,7 +210,7 @@ fn solve_dual(
 ) -> (Dual, SolverSettings) {
     let (dual, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
     let read = |dual: &QuadraticProgram, answer| {
-        of_velocities(&whole.loads, &whole.columns, dual, &row_of, answer)
+        from_kinematic_answer(&whole.loads, &whole.columns, dual, &row_of, answer)
     };
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
@@ -264,7 +265,7 @@ fn least_squares_balance(
             continue;
         }
         tried.push(counts);
-        // Step 3: least squares on the face.
+        // Step 3: solve the least squares on the face.
         let Some(mut amounts) =
             least_squares_amounts(&face.loads, &face.columns, face_settings, effort)
         else {

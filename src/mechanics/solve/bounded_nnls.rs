@@ -93,8 +93,7 @@ impl BoundedNnls {
     /// Solves the least-squares problem, starting from the present passive set. Returns the residual loads − A·x, or
     /// `None` after too many pivots.
     ///
-    /// `columns` must contain, under their present numbers, the columns from which the passive set was made. It may
-    /// also contain new columns.
+    /// `columns` must contain the columns of the passive set at their current indices. It may also contain new columns.
     pub fn find(&mut self, loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut search = Search::new(self, loads, columns);
@@ -166,7 +165,7 @@ impl BoundedNnls {
         self.passive.iter().chain(&self.at_limit).copied()
     }
 
-    /// Moves candidates into the passive set, unless they depend linearly on its columns. Returns the columns that
+    /// Moves some candidates into the passive set, unless they depend linearly on its columns. Returns the columns that
     /// entered, with their former states; `None` after too many pivots.
     fn enter(&mut self, search: &mut Search, entry: Entry) -> Option<Vec<(usize, State)>> {
         let mut entered = Vec::new();

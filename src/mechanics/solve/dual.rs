@@ -69,12 +69,12 @@ pub fn dual(
 ) -> Dual {
     let (conic, row_of) = kinematic_dual(loads, columns, cost);
     let answer = solved_with_retry(&conic, settings, effort);
-    of_velocities(loads, columns, &conic, &row_of, &answer)
+    from_kinematic_answer(loads, columns, &conic, &row_of, &answer)
 }
 
 /// Converts a solver's answer for a kinematic dual to velocities, and to the amounts and slacks of the columns.
 /// `row_of` gives the row of each column.
-pub(super) fn of_velocities(
+pub(super) fn from_kinematic_answer(
     loads: &[f64],
     columns: &[Column],
     conic: &QuadraticProgram,
@@ -133,7 +133,7 @@ pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
 ///
 /// Near the limit of stability, the static form takes about half the iterations of the kinematic form, and each
 /// iteration takes a third longer. The static form separates basic columns from the others less clearly.
-pub(super) fn in_forces(
+pub(super) fn solve_static_form(
     loads: &[f64],
     columns: &[Column],
     settings: impl Into<SolverSettings>,

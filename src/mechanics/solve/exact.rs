@@ -1,4 +1,5 @@
-//! Solves small systems of equilibrium equations by elimination: the unique balance, and the balance of least squares.
+//! Solves small systems of equilibrium equations by elimination. Finds the balance if it is unique, and otherwise the
+//! balance of least Σ force².
 //!
 //! An interior-point method gives nine digits in many iterations; elimination gives sixteen digits at once. If
 //! elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan, Matrix Computations,

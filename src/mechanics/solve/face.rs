@@ -26,7 +26,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// Returns the face of all balances: it contains all columns, with amounts of 0.
+    /// Returns the face that contains all balances of the loads: no column is excluded. All amounts are 0.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {

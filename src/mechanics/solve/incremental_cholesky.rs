@@ -1,5 +1,5 @@
-//! [`IncrementalCholesky`]: the Cholesky factor of a matrix to which one row and column at a time is added, or from
-//! which it is removed.
+//! [`IncrementalCholesky`]: a Cholesky factor that is updated when a row and column is added to the matrix or removed
+//! from it.
 //!
 //! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one
 //! forward substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry (skyline

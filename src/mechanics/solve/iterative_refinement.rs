@@ -56,7 +56,7 @@ pub(super) fn refine_balance(
             break;
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
-        // Solve for the correction of the residual, which is scaled to size 1.
+        // Solve for a correction that removes the residual. The residual is scaled to size 1.
         let correction = Correction {
             amounts: &amounts,
             size,

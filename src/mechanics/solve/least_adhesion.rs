@@ -17,8 +17,8 @@ use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
-    Status, TOLERANCE, determinate, dual, in_forces, largest, least_adhesion_levels,
-    least_squares_amounts, of_velocities, once, refine_balance,
+    Status, TOLERANCE, determinate, dual, solve_static_form, largest, least_adhesion_levels,
+    least_squares_amounts, from_kinematic_answer, once, refine_balance,
 };
 use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
 
@@ -238,9 +238,9 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
         ..settings
     };
     let answer = once(&conic, finer, effort);
-    let mut solved = of_velocities(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
+    let mut solved = from_kinematic_answer(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
     if solved.status == Status::Unsolved {
-        solved = in_forces(&whole.loads, &slanted.columns, settings, effort, cost);
+        solved = solve_static_form(&whole.loads, &slanted.columns, settings, effort, cost);
     }
     slanted.in_all_columns(&whole.columns, solved)
 }
@@ -282,8 +282,8 @@ fn later_stages(
     else {
         return from_first_stage();
     };
-    // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance. The least squares then
-    // need full conditioning: with plain conditioning they end without a status.
+    // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance needs. The least squares
+    // then need full conditioning: with plain conditioning they end without a status.
     let squares = match size {
         Size::Many => SolverSettings {
             conditioning: Conditioning::Full,
@@ -352,7 +352,7 @@ fn solve_stage(
         Size::Many => {
             let (conic, row_of) = kinematic_dual(&face.loads, &face.columns, cost);
             let answer = once(&conic, settings, effort);
-            of_velocities(&face.loads, &face.columns, &conic, &row_of, &answer)
+            from_kinematic_answer(&face.loads, &face.columns, &conic, &row_of, &answer)
         }
     }
 }

@@ -14,7 +14,7 @@ use super::dual::amounts_of_rows;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, in_forces, largest,
+    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, solve_static_form, largest,
     remainder, solved_with_retry,
 };
 use crate::program::{Column, Program, least_residual_dual};
@@ -80,14 +80,14 @@ impl ScaledProgram<'_> {
     }
 }
 
-/// Finds forces that balance the loads, or a motion that proves that no forces balance them. Both are 0 if the solver
-/// ends without a status.
+/// Finds forces that balance the loads, or a motion that proves that no forces balance them. The forces and the motion
+/// are 0 if the solver ends without a status.
 pub fn any_balance(program: &Program) -> Residual {
     let scaled = ScaledProgram::new(program);
     let (loads, columns) = (&scaled.loads, &scaled.slanted.columns);
     let mut effort = Effort::default();
     // Solve the static form without a cost: every admissible balance is an optimum.
-    let any = in_forces(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
+    let any = solve_static_form(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
     let mut found = Residual {
         forces: Amounts::none(program),
         motion: vec![0.0; loads.len()],

@@ -73,7 +73,7 @@ pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
 
 /// Finds the λ nearest to 0, positive or negative, for which admissible forces balance `program.loads + λ·direction`.
 ///
-/// [`Limit::Never`] means that no λ allows a balance. Otherwise this program has an optimum.
+/// [`Limit::Never`] means that no λ allows a balance. If some λ allows one, the program has an optimum.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
     factor_along(program, direction, Extremum::Nearest)
 }

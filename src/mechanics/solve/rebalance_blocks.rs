@@ -191,7 +191,7 @@ pub fn rebalance_relative(
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let conic = relative_changes(&list, &used, &weights, &scales, &left, size);
-        // If the loads are near the smallest number of f64, the scales are infinite.
+        // Stop if the scales are infinite, because the loads are near the smallest number of f64.
         if !all_finite(&conic) {
             break;
         }

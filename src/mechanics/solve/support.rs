@@ -39,8 +39,8 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. If
-/// `is_again` is true, plain conditioning is skipped, because its result could not be proved.
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. `is_again`
+/// is true if the result with plain conditioning could not be proved; only full conditioning is then tried.
 pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,

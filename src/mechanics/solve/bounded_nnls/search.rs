@@ -39,7 +39,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Collects the columns at a bound whose gradient points inwards by more than `threshold`.
+    /// Collects the candidates: the columns at a bound whose gradient points away from the bound and, divided by
+    /// |column|, exceeds `threshold`.
     pub(super) fn find_candidates(&mut self, residual: &[f64], threshold: f64) {
         self.candidates.clear();
         for (k, column) in self.columns.iter().enumerate() {

@@ -67,7 +67,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
 /// a friction coefficient exceeds 1.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
-    Split::new(program, &joints)?.stuck(program, &joints)
+    Split::new(program, &joints)?.into_least_adhesion(program, &joints)
 }
 
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
@@ -93,7 +93,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
         return None;
     }
     let motion = motion(program, &joints, &speeds)?;
-    Some((motion, split.stuck(program, &joints)?))
+    Some((motion, split.into_least_adhesion(program, &joints)?))
 }
 
 /// Computes the velocities of the bodies from the speeds at which the joints open and slide. `None` if a velocity is
@@ -153,7 +153,7 @@ impl Split {
     /// Returns the optimum of the program of least adhesion. In its motion, all failing joints open or slide.
     ///
     /// `None` if a friction coefficient exceeds 1: the closed form is then not always the least adhesion.
-    fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
+    fn into_least_adhesion(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
         if program
             .contacts
             .iter()

@@ -102,7 +102,7 @@ impl ColumnGroups {
         }
     }
 
-    /// Returns the entries of group k for changes, column by column.
+    /// Returns the entries of group k, column by column, as a mutable slice.
     pub fn values_mut(&mut self, k: usize) -> &mut [f64] {
         &mut self.values[self.groups[k].values.clone()]
     }

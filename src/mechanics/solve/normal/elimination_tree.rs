@@ -36,7 +36,7 @@ impl Graph {
         }
         let mut graph = Graph {
             starts: Vec::with_capacity(n + 1),
-            // Includes the diagonal entries, which `amd` expects and does not count as neighbours.
+            // `list` includes the diagonal entries, which `amd` expects and does not count as neighbours.
             list: Vec::new(),
         };
         graph.starts.push(0);

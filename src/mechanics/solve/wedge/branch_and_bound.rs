@@ -38,8 +38,8 @@ pub(super) enum Search {
     Open,
 }
 
-/// Searches the patterns of pressing points and sliding faces, depth first, for a rest or for a proof that there is no
-/// rest.
+/// Searches the patterns of pressing points and sliding faces, depth first, for a state of rest or for a proof that
+/// there is none.
 pub(super) fn search(program: &Program) -> Search {
     let springs = Springs::new(program, 1.0);
     let layout = VariableLayout::new(&springs);

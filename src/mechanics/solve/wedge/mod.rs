@@ -114,8 +114,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
-    // Fast attempts to find a rest: first with robots' springs that start at the given forces, then at 0, then by the
-    // iteration with fixed friction limits.
+    // Fast attempts to find a state of rest: first with robots' springs that start at the given forces, then at 0, then
+    // by the iteration with fixed friction limits.
     let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -129,7 +129,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     {
         return SelfStressCheck::FromRest;
     }
-    // Search for a proof that there is no rest.
+    // Search for a proof that there is no state of rest.
     let found = search(program);
     if found == Search::Rests {
         return SelfStressCheck::FromRest;

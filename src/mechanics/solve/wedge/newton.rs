@@ -131,8 +131,8 @@ impl Springs<'_> {
     /// Continuation: reduces the stiffness of the springs to the ground step by step, until the structure is at rest
     /// without them.
     ///
-    /// Returns the spring forces at rest. If no rest is found, the error contains the last displacements, scaled so
-    /// that the largest is 1.
+    /// Returns the spring forces at rest. If no state of rest is found, the error contains the last displacements,
+    /// scaled so that the largest is 1.
     pub(super) fn find_rest(&self) -> Result<Rest, Vec<f64>> {
         let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.all_pressed();

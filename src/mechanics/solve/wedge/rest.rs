@@ -155,7 +155,7 @@ impl Springs<'_> {
             })
     }
 
-    /// True if the forces obey the laws of points and faces and the limits of robots.
+    /// True if the forces obey the springs' law at all points and faces, and the limits of the robots.
     fn obeys(&self, rest: &Rest, gap: &[f64], slip: &[f64]) -> bool {
         let sizes = self.sizes(rest);
         let contacts = &self.program.contacts;

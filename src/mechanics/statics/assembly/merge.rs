@@ -62,7 +62,7 @@ fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
 }
 
 impl AssemblyContact {
-    /// Returns the contact between the bodies `on` and `from`, which are numbers in another assembly; `None` stands for
+    /// Returns the contact with other bodies: `on` and `from` are their indices in another assembly, where `None` is
     /// the ground. Returns `None` if both are the same body or both are the ground.
     ///
     /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.

@@ -75,7 +75,6 @@ impl Side {
 
     /// Returns the query boxes for edges that face this edge: edges of the opposite direction within the search
     /// distance. Directions are periodic, so two boxes are needed near 0 and [`FULL_TURN`].
-    ///
     fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
         let mut bounds = self.bounds();
         for d in 0..2 {

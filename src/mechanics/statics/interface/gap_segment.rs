@@ -46,8 +46,8 @@ impl GapSegment {
 /// have been meant to touch.
 ///
 /// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both
-/// sides, because its outline turns there: no tolerance closes that without bending the outline. These steps follow the
-/// outline:
+/// sides, because its outline turns there: no tolerance can close this gap without bending the outline. These steps
+/// follow the outline:
 ///
 /// 1. Begin at the points where the bodies touch: at the ends of their contacts, or at the one corner on which a body
 ///    stands. A body on two corners with a hollow between them may have been meant to lie flat.
