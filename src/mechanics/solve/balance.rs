@@ -11,7 +11,7 @@
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
     Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
-    balance_by_least_change, largest, least_squares_amounts, from_kinematic_answer, once_within,
+    balance_by_least_change, from_kinematic_answer, largest, least_squares_amounts, once_within,
     refine_balance, remainder, solved_with_retry,
 };
 use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};

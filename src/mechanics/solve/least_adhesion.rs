@@ -17,8 +17,8 @@ use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
-    Status, TOLERANCE, determinate, dual, solve_static_form, largest, least_adhesion_levels,
-    least_squares_amounts, from_kinematic_answer, once, refine_balance,
+    Status, TOLERANCE, determinate, dual, from_kinematic_answer, largest, least_adhesion_levels,
+    least_squares_amounts, once, refine_balance, solve_static_form,
 };
 use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
 
@@ -238,7 +238,8 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
         ..settings
     };
     let answer = once(&conic, finer, effort);
-    let mut solved = from_kinematic_answer(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
+    let mut solved =
+        from_kinematic_answer(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
     if solved.status == Status::Unsolved {
         solved = solve_static_form(&whole.loads, &slanted.columns, settings, effort, cost);
     }

@@ -14,8 +14,8 @@ use super::dual::amounts_of_rows;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, solve_static_form, largest,
-    remainder, solved_with_retry,
+    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder,
+    solve_static_form, solved_with_retry,
 };
 use crate::program::{Column, Program, least_residual_dual};
 

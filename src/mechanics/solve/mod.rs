@@ -71,7 +71,7 @@ pub use support::{Support, support};
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 
-use dual::{solve_static_form, from_kinematic_answer, once, once_within, solved_with_retry};
+use dual::{from_kinematic_answer, once, once_within, solve_static_form, solved_with_retry};
 use face::{Face, least_squares_amounts};
 use iterative_refinement::{balance_by_least_change, refine_balance};
 use residual_norm::{largest, remainder};

@@ -9,9 +9,9 @@
 //! Reference: Ericson, Real-Time Collision Detection, 2005, chapter 6 (bounding-volume hierarchies).
 
 use super::common_segment::{CommonSegment, min_contact_length};
+use super::gap_segment::{GapSegment, without_outline};
 use super::join::{JOIN_REACH, join_segments};
 use super::notice::Notices;
-use super::gap_segment::{GapSegment, without_outline};
 use super::pinned::{MAX_PINNED_SIZE_PER_GAP, pinned_gaps};
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, normal_across, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross};
@@ -207,9 +207,7 @@ fn collect(
         }
         if found.interfaces.len() > first + 1 {
             let segments = found.interfaces.split_off(first);
-            found
-                .interfaces
-                .extend(join_segments(segments, tolerance));
+            found.interfaces.extend(join_segments(segments, tolerance));
         }
         if !open.is_empty() {
             let touching = touching_points(scene, bodies, &found.interfaces[first..], sides);
