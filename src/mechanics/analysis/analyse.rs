@@ -43,14 +43,14 @@ struct Solved<'a> {
     found: &'a Findings,
 }
 
-/// Analyses every frame of a scene, without closing gaps and overlaps.
+/// Finds the interfaces of a scene and analyses every frame. Gaps and overlaps between blocks stay as they are drawn.
 pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
     let found = Interfaces::new(scene);
     let frames = analyse_frames(scene, &found, options);
     (found, frames)
 }
 
-/// Analyses every frame of a scene with given interfaces.
+/// Analyses every frame of a scene, with interfaces that were found before.
 pub(super) fn analyse_frames(
     scene: &Scene,
     found: &Interfaces,
@@ -73,7 +73,8 @@ pub(super) fn analyse_frames(
         .collect()
 }
 
-/// Analyses one frame. Components in `known` are not decided again; new components are added to `known`.
+/// Analyses one frame. Reuses the results of components that are in `known`, and adds the results of new components to
+/// it.
 pub(super) fn analyse_frame(
     context: &FrameContext,
     options: Options,
@@ -81,7 +82,7 @@ pub(super) fn analyse_frame(
 ) -> FrameAnalysis {
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    // Assemble bodies, contacts and loads. Split them into components, which cannot influence each other.
+    // Assemble bodies, contacts and loads. Split them into components: sets of bodies between which no force can act.
     let (assembly, reports) = effect::assemble(context);
     let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();
@@ -149,11 +150,11 @@ fn decide_fresh(
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| {
-        // A deadline guard is valid only on the thread that creates it.
+        // The guard works only on its own thread, so each task creates one.
         let _until = DeadlineGuard::new(options.deadline);
         decide_component(&components[*k], options)
     };
-    // The results are in the order of the components, also with several threads.
+    // The results keep the order of the components, even if several threads compute them.
     #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
         fresh.par_iter().map(one).collect()
@@ -196,8 +197,8 @@ fn combine(
     analysis
 }
 
-/// Checks whether a stable frame stands only by wedging, if this is requested. Writes the answer to `analysis`, and
-/// returns the outcome for the report on effects.
+/// If `options` request it, checks whether a stable frame stands only by wedging. Writes the answer to `analysis`, and
+/// returns the outcome for the effect report.
 fn find_wedging(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
@@ -216,8 +217,8 @@ fn find_wedging(
     }
 }
 
-/// Adds the margins to a frame. Returns the number of changed components that were decided for them; `None` if
-/// margins are not requested.
+/// Computes the margins of a frame and stores them in `analysis`. Returns how many changed copies of its components
+/// were decided for this; `None` if `options` request no margins.
 fn find_margins(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
@@ -239,8 +240,8 @@ fn find_margins(
     Some(judged)
 }
 
-/// Finds how a margin of a frame changes with its geometry, weights, friction and loads. `None` if this is not
-/// requested.
+/// Computes the sensitivity of one margin: its derivatives with respect to geometry, weights, friction and loads.
+/// `None` if `options` do not request it.
 fn find_sensitivity(
     context: &FrameContext,
     analysis: &FrameAnalysis,

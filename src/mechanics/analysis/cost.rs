@@ -1,4 +1,4 @@
-//! [`SolveReport`]: the method that solved a frame, the number of programs, and the time.
+//! [`SolveReport`]: the method that decided a frame, the number of linear programs solved, and the time.
 
 use super::Method;
 

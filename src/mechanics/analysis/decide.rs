@@ -1,4 +1,5 @@
-//! Decides a component: all routes to a verdict, in the order in which they are tried.
+//! Decides whether a component stands or falls. The table lists all routes to a verdict, in the order in which they are
+//! tried.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a
@@ -102,18 +103,18 @@ struct Component<'a> {
     place: Place,
 }
 
-/// Decides one component and computes its forces, failures and mechanism.
+/// Decides whether one component stands, and computes its forces, or its failures and its mechanism.
 pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Findings {
     let component = Component::new(assembly, options);
     let program = Program::new(assembly, component.scale);
-    // The unknowns are reported for each effect, even if no program has to be solved.
+    // Count the unknowns first: they are reported for each effect, even if no program is solved.
     let count = UnknownCounts::new(&program, &columns(&program))
         .plus(&UnknownCounts::new(&program, &adhesion_columns(&program)));
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
-    // First, robot limits far above the loads are left out. If the result exceeds such a limit, decide again with all
-    // limits.
+    // First leave out the limits of robots that are far above the loads. If the result exceeds such a limit, decide
+    // again with all limits.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
@@ -131,7 +132,7 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
 }
 
 impl<'a> Component<'a> {
-    /// Creates a component with its own scale and the solver settings of `options`.
+    /// Creates a component with its own units of length and force. `options` give the solver settings and the accuracy.
     fn new(assembly: &'a Assembly, options: Options) -> Component<'a> {
         Component {
             assembly,
@@ -147,10 +148,11 @@ impl<'a> Component<'a> {
         proof.meets(self.demand)
     }
 
-    /// Route 1: decides without a solver. `None` if no closed form applies, or if its forces have no proof.
+    /// Route 1: decides a component in closed form, without a solver. `None` if no closed form applies, or if its
+    /// forces have no proof.
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
         let found = if self.assembly.heaviest_load() == 0.0 {
-            // Without loads, no force is needed.
+            // Without loads, zero forces balance every body.
             self.stands(self.prove_forces(&Amounts::none(program)))
         } else if let Some((mechanism, proof)) = self.falls_freely() {
             Findings {
@@ -171,7 +173,7 @@ impl<'a> Component<'a> {
         Some(found)
     }
 
-    /// Returns the findings of a stable component whose forces were found in closed form.
+    /// Returns the findings of a stable component whose forces were computed in closed form.
     fn stands(&self, carried: forces::ProvedForces) -> Findings {
         Findings {
             verdict: Verdict::Stable,
@@ -192,7 +194,7 @@ impl<'a> Component<'a> {
 
     /// Converts a decision from program units to findings in metres and newtons.
     fn findings(&self, decision: Decision) -> Findings {
-        // List each missing adhesion above the noise, in newtons.
+        // Convert the missing adhesion to failures in newtons. Amounts that are only solver noise are left out.
         let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
         if let (Some(adhesion), Verdict::Unstable) = (&decision.adhesion, decision.verdict) {
             failures = self.failures(adhesion);
@@ -202,7 +204,7 @@ impl<'a> Component<'a> {
         if decision.verdict != Verdict::Unstable {
             mechanism.clear();
         }
-        // The proof used all bodies. Bodies slower than MIN_SHOWN_SPEED are not reported.
+        // The mechanism is proved with all bodies, but bodies slower than MIN_SHOWN_SPEED are not reported.
         let mut bodies = self.assembly.bodies.iter();
         mechanism.retain(|m| {
             bodies
@@ -216,7 +218,7 @@ impl<'a> Component<'a> {
             motion.velocity = motion.velocity.map(plain);
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
-        // The forces on a falling component balance it only together with the missing adhesion.
+        // If a component falls, its contact forces balance it only together with the missing adhesion.
         let forces = match (decision.verdict, &decision.adhesion) {
             (Verdict::Unstable, _) if !self.complete_result => Forces::none(self.assembly),
             (Verdict::Unstable, Some(adhesion)) => {

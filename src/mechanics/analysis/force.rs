@@ -1,4 +1,4 @@
-//! The forces of a frame at its interfaces and robots, and the missing forces.
+//! The forces at the interfaces and robots of a frame, and the missing forces of a frame that falls.
 
 use crate::geometry::{Point, Vector};
 use crate::interface::Interface;
@@ -88,7 +88,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Returns the word for this kind of failure in JSON results.
+    /// Returns the name of this kind of failure in JSON results.
     pub fn word(&self) -> &'static str {
         match self {
             Failure::Tension { .. } => "tension",
@@ -98,8 +98,8 @@ impl Failure {
         }
     }
 
-    /// Returns the missing amount: the norm of a joint force, N; `|Fx| + |Fy|` of a robot force, N; or the magnitude
-    /// of a torque, N·m.
+    /// Returns the magnitude of the missing force, N, or of the missing torque, N·m. For a robot force it is `|Fx| +
+    /// |Fy|`.
     pub fn amount(&self) -> f64 {
         match *self {
             Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),
@@ -108,7 +108,7 @@ impl Failure {
         }
     }
 
-    /// Returns the point at which the force is missing, in metres.
+    /// Returns the point at which the missing force or torque would act, in metres.
     pub fn at(&self) -> Point {
         match *self {
             Failure::Tension { at, .. }
@@ -118,8 +118,8 @@ impl Failure {
         }
     }
 
-    /// Returns the missing force in newtons, on the first body of a joint or on the block that a robot holds; zero
-    /// for a torque.
+    /// Returns the missing force, N, on the first body of a joint or on the block that a robot holds. It is zero if a
+    /// torque is missing.
     pub fn force(&self) -> Vector {
         match *self {
             Failure::Tension { force, .. }
@@ -129,7 +129,7 @@ impl Failure {
         }
     }
 
-    /// Returns the missing torque on the block that a robot holds, N·m; zero for a force.
+    /// Returns the missing torque on the block that a robot holds, N·m. It is zero if a force is missing.
     pub fn torque(&self) -> f64 {
         match *self {
             Failure::RobotTorque { torque, .. } => torque,
@@ -137,7 +137,7 @@ impl Failure {
         }
     }
 
-    /// Returns the missing force (N) and torque (N·m) on a body; `None` if they do not act on that body.
+    /// Returns the missing force (N) and torque (N·m) on a body. `None` if this failure does not concern the body.
     pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
         let sign = match *self {
             Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
@@ -155,7 +155,7 @@ impl Failure {
         Some((self.force() * sign, self.torque()))
     }
 
-    /// Returns the robot whose limits are exceeded; `None` for a joint.
+    /// Returns the robot whose limit the missing force or torque exceeds. `None` for a failure at a joint.
     pub fn robot(&self) -> Option<RobotId> {
         match *self {
             Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. } => Some(robot),

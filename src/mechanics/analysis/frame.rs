@@ -1,4 +1,4 @@
-//! Combines the results of the components of a frame.
+//! Combines the proofs of the components of a frame, and adds the effect reports and notices of the whole frame.
 
 use super::{FrameAnalysis, Verdict};
 use crate::effect::sticking::Sought;
@@ -6,8 +6,8 @@ use crate::effect::{EffectName, FrameContext, mechanism, sticking};
 use crate::program::UnknownCounts;
 use crate::proof::Proof;
 
-/// Combines two proofs. Of two proofs of the same kind, takes the worse value of each number. Otherwise returns the
-/// proof by a mechanism.
+/// Returns the weaker of two proofs. If both are of the same kind, the result has the worse value of each error. If
+/// only one is a proof by a mechanism, the result is that proof.
 pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     match (a, b) {
         (
@@ -47,7 +47,8 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     }
 }
 
-/// Adds the results that are known only at the end: the number of unknowns, and the effects that were simulated.
+/// Completes the analysis of a frame: adds the number of unknowns of each effect, the reports on adhesion and
+/// mechanism, and the notices.
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,
@@ -63,7 +64,7 @@ pub(super) fn settle(
         report.unknowns = counts.get(report.effect);
     }
     let blocks = situation.frame.placed.len();
-    // Adhesion is computed only if the frame falls and its failures are requested.
+    // Report whether adhesion was computed: only if the frame falls and its failures are requested.
     let sought = match verdict_only {
         true if unstable => Sought::NotAsked,
         _ if analysis.failures.is_empty() => Sought::NotNeeded,
@@ -78,7 +79,7 @@ pub(super) fn settle(
     add_notices(analysis, situation, verdict_only);
 }
 
-/// Adds notices about the result: what was not computed, and which blocks no adhesion can hold.
+/// Adds notices to the result: what was not computed or not proved, and which blocks no adhesion can hold.
 fn add_notices(analysis: &mut FrameAnalysis, situation: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(

@@ -1,4 +1,4 @@
-//! Route 5: makes verdicts undecided if they depend on small gaps and overlaps.
+//! Route 5: makes a verdict undecided if it depends on a small gap or overlap that may be a drawing error.
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may
 //! have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:
@@ -58,8 +58,8 @@ impl From<&Penetration> for Place {
     }
 }
 
-/// Analyses the scene again with all small gaps and overlaps closed. Frames whose verdict differs in this second
-/// analysis become undecided.
+/// Analyses the scene again with all small gaps and overlaps closed. A frame becomes undecided if the second verdict
+/// differs from the first.
 pub(super) fn recheck(
     scene: &Scene,
     found: &Interfaces,
@@ -69,7 +69,7 @@ pub(super) fn recheck(
     if scene.healed.source == ToleranceSource::Given {
         return;
     }
-    // Undecided verdicts stay undecided.
+    // A second analysis cannot change frames that are already undecided.
     if frames.iter().all(|frame| is_undecided(frame.verdict)) {
         return;
     }
@@ -82,7 +82,7 @@ pub(super) fn recheck(
         return;
     }
     let places = ambiguous_places(scene, found);
-    // All places of all frames are closed by the same length.
+    // Close all gaps and overlaps of all frames by one length, which follows from the widest.
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };
@@ -97,7 +97,7 @@ pub(super) fn recheck(
     }
 }
 
-/// Returns, for each frame, the places where two of its bodies may have been meant to touch.
+/// Returns, for each frame, the small gaps and overlaps of its bodies: there the bodies may have been meant to touch.
 fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     let touching = ContactsByBody::new(&found.all);
     let in_frame = |frame: &Frame| {
@@ -109,7 +109,7 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
-        // If a pinning stone between the two bodies keeps a gap open, the gap is intended.
+        // A gap that a pinning stone between the two bodies keeps open is intended, so it is left out.
         let gaps = (found.near_misses.iter())
             .filter(|gap| gap.bodies.iter().all(stands))
             .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
@@ -121,9 +121,9 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     scene.frames.iter().map(in_frame).collect()
 }
 
-/// Analyses the scene with all places closed by a little more than the widest place. If the verdict of some frame stays
-/// the same, analyses the scene once more, with a larger length: the possible error of corners. Returns each length in
-/// metres with the resulting frames.
+/// Analyses the scene with gaps and overlaps closed by slightly more than the widest of them. If the verdict of some
+/// frame does not change, also closes them by a larger length, because rounded corners may be farther off. Returns each
+/// length, in metres, with the analysed frames.
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
@@ -148,8 +148,8 @@ fn closed_verdicts(
     all
 }
 
-/// Makes a frame undecided if a verdict with the places closed differs; otherwise reports overlaps. `closed` contains
-/// each closing length in metres with its verdict. The places are sorted by size, the largest first.
+/// Makes a frame undecided if its verdict changes when gaps and overlaps are closed. Otherwise adds a notice about
+/// overlaps. `closed` contains each closing length in metres with its verdict; `places` are sorted, the largest first.
 fn compare_verdicts(
     scene: &Scene,
     frame: &mut FrameAnalysis,
@@ -157,12 +157,12 @@ fn compare_verdicts(
     closed: &[(f64, Verdict)],
 ) {
     let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
-    // Use the first closing whose verdict differs, otherwise the first closing.
+    // Use the first closing length that changes the verdict. If none does, use the first.
     let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;
     };
-    // A frame in which bodies overlap keeps its verdict only if the verdict with closed places is known, too.
+    // If bodies overlap, the frame keeps its verdict only if the verdict with closed overlaps is known and the same.
     let unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
     if frame.verdict != other && !unsure {
         frame.doubts = vec![gaps(scene, [frame.verdict, other], places, closing)];
@@ -176,7 +176,7 @@ fn compare_verdicts(
     }
 }
 
-/// Returns the options without margins and wedging, for a second analysis.
+/// Returns the options for the second analysis, which computes no margins and does not check wedging.
 fn without_extras(options: &Options) -> Options {
     Options {
         margins: false,
@@ -189,7 +189,7 @@ fn is_undecided(verdict: Verdict) -> bool {
     verdict == Verdict::Undecided
 }
 
-/// Makes every frame with an overlap undecided, because after the deadline its second verdict cannot be computed.
+/// Makes every frame with overlapping bodies undecided: after the deadline, the second verdict cannot be computed.
 fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
     for (frame, played) in frames.iter_mut().zip(&scene.frames) {
         let placed = |body: &BodyId| match body {
@@ -204,8 +204,8 @@ fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
     }
 }
 
-/// Analyses the scene again with contacts that are shorter than the minimum length. Frames that fall without these contacts
-/// and stand with them become undecided.
+/// Analyses the scene again, also using contacts that are shorter than the minimum length. A frame that falls without
+/// these contacts and stands with them becomes undecided.
 fn recheck_with_slivers(
     scene: &Scene,
     found: &Interfaces,
@@ -265,7 +265,7 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     }
 }
 
-/// Returns the notes of the scene, and a note for each of the first few near misses.
+/// Returns the notes of the scene, and further notes for the first few gaps that are nearly contacts.
 pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     let mut notes = scene.notes.clone();
     let code = NoteCode::NearMiss;
@@ -302,7 +302,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
             "close it, or give \"contact_tolerance\": {:.1e} to count it as a contact",
             1.06 * gap.distance
         );
-        // The note names a block, not the ground. If both bodies are blocks, it names the later block.
+        // The note must name a block, not the ground. If both bodies are blocks, it names the later one.
         let body = gap.bodies[0].max(gap.bodies[1]);
         notes.push(scene.note(code, body, &message, &hint));
     }
@@ -339,7 +339,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
     )
 }
 
-/// Returns a description of the first places of a list, and the number of the others.
+/// Lists the first few gaps and overlaps with their sizes and bodies, and adds the number of the others.
 fn listed(scene: &Scene, places: &[Place]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };

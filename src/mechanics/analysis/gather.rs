@@ -1,4 +1,4 @@
-//! Combines the results of the components into one frame.
+//! Collects the results of all components of a frame in one [`FrameAnalysis`].
 
 use super::decide::{Findings, Method};
 use super::frame::worst;
@@ -10,7 +10,8 @@ use crate::interface::Interface;
 use crate::resultant::{friction_used, from_corner_forces};
 use crate::scene::Hold;
 
-/// Returns a frame with every contact and grip at zero force, to which the results of the components are then added.
+/// Creates the analysis of a frame with zero force at every contact and grip. The results of the components are added
+/// later.
 pub(super) fn gathered(
     situation: &FrameContext,
     assembly: &Assembly,
@@ -59,7 +60,7 @@ pub(super) fn gathered(
     }
 }
 
-/// Returns the contact of an interface with zero force.
+/// Returns the contact at an interface, with zero force.
 fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
     Contact {
         interface: interface.clone(),
@@ -71,7 +72,7 @@ fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
     }
 }
 
-/// Returns a robot's hold with zero force.
+/// Returns the force of a robot on the block that it holds, set to zero.
 fn unloaded_robot(hold: &Hold) -> RobotForce {
     RobotForce {
         robot: hold.robot,
@@ -91,8 +92,8 @@ pub(super) fn add(
     kernel: f64,
 ) {
     add_forces(analysis, component, found, kernel);
-    // The bounds of the components add up, because no force acts on two components. If one bound is unknown, the sum
-    // is unknown.
+    // The bounds of the components add up, because no force acts between two components. If one bound is unknown, the
+    // sum is unknown, too.
     analysis.force_bound = match (analysis.force_bound, found.force_bound) {
         (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
         _ => None,
@@ -107,8 +108,8 @@ pub(super) fn add(
     }
     analysis.doubts.extend(found.doubt.clone());
     analysis.proof = match (analysis.verdict, found.verdict) {
-        // If two components have the same verdict, use the worse numbers of both proofs. Otherwise use the proof of the
-        // worse verdict.
+        // If both verdicts are the same, use the worse numbers of both proofs. Otherwise use the proof of the worse
+        // verdict.
         (a, b) if a == b => worst(analysis.proof, found.proof),
         (a, b) if a < b => found.proof,
         _ => analysis.proof,

@@ -1,4 +1,5 @@
-//! Computes the forces that are carried in every case of given ranges, as the intersection over a few extreme cases.
+//! Computes which additional forces a block can carry for all values of uncertain quantities: tilt, horizontal load,
+//! friction. The result is the intersection of the sets for a few extreme values.
 //!
 //! If the loads are linear in a parameter, the values at which the frame stands under a fixed force form an interval. A
 //! force that is carried at both ends of a range is therefore carried at every value between them:
@@ -28,7 +29,8 @@ const LONGEST_PIECE: f64 = 1.0;
 /// Rays are cut off at this multiple of the size of the sets.
 const FAR: f64 = 1e5;
 
-/// Computes the capacity in each extreme case with the function `one`, and intersects the capacities.
+/// Computes the capacity in each extreme case with the function `one`, and returns the intersection of these
+/// capacities.
 pub(super) fn intersected(
     assembly: &Assembly,
     cases: &Cases,
@@ -43,7 +45,7 @@ pub(super) fn intersected(
         }
         let is_empty = capacity.vertices.is_empty();
         all.push(capacity);
-        // No force is carried in this case, so no force is carried in all cases.
+        // In this case no additional force can be carried, so the intersection over all cases is empty.
         if is_empty {
             break;
         }
@@ -66,7 +68,7 @@ pub(super) fn intersected(
     }
 }
 
-/// Returns the changed assembly of each extreme case.
+/// Returns one assembly for each extreme case, with the gravity and the friction of this case.
 fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
     cases.check()?;
     let tilt = cases.tilt.unwrap_or([0.0; 2]);
@@ -94,7 +96,8 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
     Ok(all)
 }
 
-/// Returns the corners of a polygon around an arc of gravity. Each is a tilt in degrees and a factor of the strength.
+/// Returns the gravity vectors that enclose all tilts between `from` and `to`, in degrees. Each is a tilt in degrees
+/// and a factor on the strength of gravity.
 fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     if from == to {
         return vec![(from, 1.0)];
@@ -107,7 +110,7 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     all
 }
 
-/// Returns the set of the forces that belong to every capacity of a list.
+/// Returns the intersection of several capacities: the forces that belong to each of them.
 fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
     let centre = forces().next().unwrap_or_else(Vector::zeros);
@@ -153,7 +156,7 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
         ..all[0].clone()
     };
     if capacity.vertices.is_empty() {
-        // No force is carried in all cases, although some forces are carried in each case.
+        // Each case has a nonempty set of carried forces, but the sets have no force in common.
         capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
         return capacity;
     }
@@ -161,7 +164,7 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     capacity
 }
 
-/// Returns the first and the last of some directions that lie within a half-plane, anticlockwise. Returns only one
+/// Sorts directions that lie within a half-plane anticlockwise, and returns the first and the last. Returns only one
 /// direction if both are equal, and none for an empty list.
 fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     let mean: Vector = directions.iter().sum();
@@ -174,8 +177,8 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     }
 }
 
-/// Returns the half-planes (normal, limit) whose intersection is a convex polygon, a segment or a point. `slack` is
-/// added to each limit.
+/// Returns the half-planes normal · F ≤ limit, as (normal, limit), whose intersection is a given convex polygon,
+/// segment or point. `slack` is added to each limit.
 fn half_planes(ring: &[Vector], slack: f64) -> Vec<(Vector, f64)> {
     let side = |from: Vector, outward: Vector| {
         let normal = outward.normalize();

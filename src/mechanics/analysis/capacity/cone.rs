@@ -1,4 +1,4 @@
-//! Finds the directions in which the set of carried forces is unbounded, and then the set itself.
+//! Computes the set of forces that a block can carry. If the set is unbounded, its recession cone is computed first.
 //!
 //! An unbounded set has a *recession cone*: any force of this cone may be added to any force of the set. The cone is
 //! the set of forces that are carried without loads. The set has a farthest force exactly in the directions at an angle
@@ -25,7 +25,7 @@ const SAME_ANGLE: f64 = 1e-7;
 /// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
 const REACH: f64 = 10.0;
 
-/// Computes the set of a probe. `None` if no force is carried, or if a proof of a carried force was not found.
+/// Computes the set of forces that a probe can carry. `None` if the set is empty, or if a force has no proof.
 pub(super) fn found(probe: &Probe) -> Option<Found> {
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();
@@ -48,26 +48,25 @@ pub(super) fn found(probe: &Probe) -> Option<Found> {
     unbounded(probe)
 }
 
-/// Computes an unbounded set. `None` if the directions in which it is unbounded were not found, or if a proof of a
-/// carried force was not found.
+/// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a force has no proof.
 fn unbounded(probe: &Probe) -> Option<Found> {
     let cone = Cone::of(probe)?;
     let around = probe.heaviest();
     if cone == Cone::Everything {
         let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
-        // Without loads every force is carried. With loads, at least one carried force must have a proof.
+        // The set contains every force. One proof suffices: that some force balances the real loads.
         let samples = vec![sample(probe, unit(0.0), Some(around))?];
         return Some(Found { samples, rays });
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First compute the directions inside the arc. Their farthest forces give the size of the set.
+        // First compute samples in the inner directions of the interval. Their forces give the size of the set.
         let count = ((to - from) / MAX_STEP).ceil().max(1.0);
         let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
         let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
-        // Then compute the two ends of the arc, whose edges are unbounded.
+        // Then compute samples in the two outer directions, at right angles to the unbounded edges.
         let reach = Some(REACH * largest);
         let first = sample(probe, unit(from), reach)?;
         if to - from > SAME_ANGLE {
@@ -94,8 +93,8 @@ enum Cone {
 }
 
 impl Cone {
-    /// Computes the cone from the carried forces of the probe without loads. Their components are limited to 1. `None`
-    /// if the set is bounded in every direction.
+    /// Computes the recession cone of a probe: the forces, with components of at most 1, that are carried without
+    /// loads. `None` if the set is bounded in every direction.
     fn of(probe: &Probe) -> Option<Cone> {
         let homogeneous = probe.without_loads();
         let reach = Some(1.0);
@@ -106,7 +105,7 @@ impl Cone {
         let far = far.filter(|force| force.amax() > 0.5);
         let mut angles: Vec<f64> = far.map(|f| libm::atan2(f.y, f.x)).collect();
         angles.sort_by(f64::total_cmp);
-        // The largest angle between neighbours lies outside the cone, unless the cone is everything.
+        // The largest gap between neighbouring angles lies outside the cone, unless the cone contains all directions.
         let next = |k: usize| match angles.get(k + 1) {
             Some(next) => *next,
             None => angles[0] + TAU,
@@ -117,7 +116,7 @@ impl Cone {
         })?;
         let (last, first) = (angles[widest], next(widest) - TAU);
         let width = last - first;
-        // All directions lie at two opposite angles: the cone is a line.
+        // If all directions lie at two opposite angles, the cone is a line.
         let is_between = |a: &f64| {
             let from = (a - first).rem_euclid(TAU);
             from > SAME_ANGLE && from < width - SAME_ANGLE
@@ -133,7 +132,7 @@ impl Cone {
         }
     }
 
-    /// Returns the intervals of angles of the directions in which the set has a farthest force.
+    /// Returns the directions in which the set of carried forces is bounded, as intervals of angles in radians.
     fn normals(self) -> Vec<(f64, f64)> {
         match self {
             Cone::Everything => Vec::new(),
@@ -156,7 +155,7 @@ impl Cone {
 
 fn unit(angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
-    // Along an axis, the other component is exactly 0.
+    // Remove rounding: on a coordinate axis, the other component is exactly 0.
     let plain = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
     Vector::new(plain(cos), plain(sin))
 }

@@ -141,7 +141,7 @@ pub enum CapacityShape {
 }
 
 impl CapacityShape {
-    /// Returns the word for this shape in JSON results.
+    /// Returns the name of this shape in JSON results.
     pub fn word(self) -> &'static str {
         match self {
             CapacityShape::Empty => "empty",
@@ -155,7 +155,7 @@ impl CapacityShape {
 }
 
 impl LoadCapacity {
-    /// Returns the kind of this set.
+    /// Returns the kind of this set: empty, a point, a segment, a polygon, unbounded, or every force.
     pub fn shape(&self) -> CapacityShape {
         match (self.vertices.len(), self.rays.len()) {
             (_, 3..) => CapacityShape::Everything,
@@ -179,15 +179,15 @@ impl LoadCapacity {
         along.reduce(f64::max)
     }
 
-    /// True if a force, in newtons, is carried: it lies in the convex hull of the vertices, extended along the rays.
+    /// True if the frame stands with this additional force, in newtons, on the block.
     pub fn contains(&self, force: impl Into<Vector>) -> bool {
         let force = force.into();
         let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
         region::contains(&corners, &self.rays, force)
     }
 
-    /// Returns the largest force, N, that is carried in exactly a given unit direction. Infinite if every force in this
-    /// direction is carried. `None` if the frame does not stand without an additional force.
+    /// Returns the magnitude of the largest force, N, that the block can carry in a unit direction. Infinite if it can
+    /// carry every force in this direction. `None` if the frame falls without an additional force.
     pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
         if !self.contains(Vector::zeros()) {
@@ -197,7 +197,7 @@ impl LoadCapacity {
         Some(region::reach(&corners, &self.rays, direction))
     }
 
-    /// Returns the indices of the edges. Unbounded edges come first, then the others from the longest to the shortest.
+    /// Returns the indices of `edges`, from the longest edge to the shortest. Unbounded edges come first.
     pub fn longest_edges(&self) -> Vec<usize> {
         let length = |k: &usize| match self.edges[*k].ends {
             [Some(a), Some(b)] => (self.vertices[a].force - self.vertices[b].force).norm(),
@@ -240,8 +240,8 @@ impl Analysis {
         capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
     }
 
-    /// Computes the elementary mechanism of an edge, for drawing. See [`Analysis::elementary`]. The list is empty if
-    /// the frame or the edge does not exist.
+    /// Computes the motion by which the frame falls under a force just beyond an edge of the capacity, as an elementary
+    /// mechanism (see [`Analysis::elementary`]) for drawing. The list is empty if the frame or the edge does not exist.
     ///
     /// The fastest point has speed 1.
     pub fn edge_mechanism(
@@ -256,7 +256,7 @@ impl Analysis {
         if edge.case > 0 || capacity.cases > 1 || capacity.at.len() > 1 {
             return edge.mechanism.clone();
         }
-        // Under a force just beyond the middle of the edge, the loads have positive power along the mechanism.
+        // A force just beyond the middle of the edge makes the power of all loads along this motion positive.
         let ends = edge.ends.iter().flatten();
         let ends: Vec<Vector> = ends.map(|end| capacity.vertices[*end].force).collect();
         let middle = ends.iter().sum::<Vector>() / ends.len().max(1) as f64;
@@ -294,7 +294,7 @@ pub(super) fn add(
     }
 }
 
-/// True if the proved forces and the motions differ by more than the admissible gap.
+/// True if the error bound of a capacity exceeds `INEXACT` times its largest corner force.
 fn is_inexact(capacity: &LoadCapacity) -> bool {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     capacity.gap > INEXACT * sizes.fold(0.0, f64::max)
@@ -303,7 +303,7 @@ fn is_inexact(capacity: &LoadCapacity) -> bool {
 /// If the gap is larger than this fraction of the largest force, the capacity is reported as undecided.
 const INEXACT: f64 = 1e-4;
 
-/// Returns a notice for the first of `points` that lies outside the block; `None` if there is no such point.
+/// Returns a notice if one of `points` lies outside the block: about the first such point. Otherwise `None`.
 fn outside(block: &Block, points: &[Point]) -> Option<String> {
     let outline = block.body.polygon.outline();
     let next = |k: usize| outline[(k + 1) % outline.len()];
@@ -355,7 +355,8 @@ pub(crate) fn capacity_of(
     })
 }
 
-/// Computes the capacity of a block in one assembly. It is empty if a component without this block falls.
+/// Computes the capacity of a block in one assembly. The set is empty if blocks that do not interact with this block
+/// fall.
 fn capacity_of_assembly(
     assembly: &Assembly,
     block: BlockId,
@@ -367,7 +368,7 @@ fn capacity_of_assembly(
             own = Some((component, body));
             continue;
         }
-        // All other components must stand.
+        // The component does not contain the block. It must stand by itself.
         match decide_verdict(&component, Place::Anywhere, &mut ProofCache::default()) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => falls = Some(motion),
@@ -387,8 +388,8 @@ fn capacity_of_assembly(
                 false => Ok(capacity),
             }
         }
-        // Either no force of the probe balances the loads, or no result was found. The verdict of the component
-        // decides.
+        // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
+        // The component with a free force decides: if it falls, the set is empty.
         None => match decide_verdict(&probe.held, Place::Anywhere, &mut ProofCache::default()) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided()),

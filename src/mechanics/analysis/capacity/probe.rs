@@ -1,4 +1,5 @@
-//! [`Probe`]: a component with one additional robot without limits, whose possible forces are computed.
+//! [`Probe`]: a component with an unlimited force at one point of a block. The program finds which forces can act
+//! there.
 
 use crate::analysis::decide::{decided_forces, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
@@ -72,8 +73,8 @@ pub(super) enum Farthest {
 }
 
 impl Probe {
-    /// Creates the probe of a force at one point of a body, or of the resultant of a free contact at two points. Free
-    /// forces at two points are equivalent to a free force and a free torque at the first point.
+    /// Creates the probe of a force at one point of a body, or of a contact with free forces at two points. Two free
+    /// forces are equivalent to a free force and a free torque at the first point.
     pub fn new(given: &Assembly, body: usize, points: &[Point]) -> Probe {
         let has_torque = points.len() > 1;
         let at = points[0];
@@ -91,8 +92,8 @@ impl Probe {
         }
     }
 
-    /// Returns the same probe without loads. Finite limits of robots are set to 0; unlimited robots stay. Its carried
-    /// forces are the recession cone: they may be added to any carried force in any size.
+    /// Returns the same probe without loads, for the recession cone: the forces that it carries may be added to any
+    /// carried force, in any size. Finite limits of robots are set to 0; unlimited robots stay.
     pub fn without_loads(&self) -> Probe {
         let mut given = self.given.clone();
         for body in &mut given.bodies {
@@ -114,7 +115,7 @@ impl Probe {
         }
     }
 
-    /// Returns the largest load of a body of the component, N; 1 if there are no loads.
+    /// Returns the load of the most heavily loaded body of the component, N; 1 if there are no loads.
     pub fn heaviest(&self) -> f64 {
         match self.given.heaviest_load() {
             0.0 => 1.0,
@@ -122,13 +123,13 @@ impl Probe {
         }
     }
 
-    /// Returns the index of a contact of the component among the contacts of its frame.
+    /// Converts the index of a contact in the component to its index in the frame.
     pub fn interface(&self, contact: usize) -> usize {
         self.given.contacts[contact].interface
     }
 
-    /// Returns the farthest carried force in a direction, which is a unit vector. If `reach` is given, both components
-    /// of the force are at most this large, N.
+    /// Returns the carried force that is farthest in a unit direction (the support point of the set). With `reach`,
+    /// both components of the force are limited to this size, N.
     pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
         let mut program = self.program.clone();
         if let Some(most) = reach {
@@ -138,7 +139,7 @@ impl Probe {
             program.grips[grip].limits[1] = most;
         }
         let first = self.farthest_in(&program, direction, false);
-        // If a proof is missing, a more exact solution may have it.
+        // If the force or the motion has no proof, solve the program again with higher accuracy.
         match first {
             Farthest::At {
                 carried: Some(_),
@@ -206,9 +207,9 @@ impl Probe {
         })
     }
 
-    /// Decides the component under the farthest force itself, and then under forces slightly less far. A set of one
-    /// force needs this force exactly, so at last the force of the free grip is used if it is as far. `None` if no
-    /// forces were proved.
+    /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
+    /// slightly smaller forces in `direction`. If both fail, decides it with a free force and accepts this force if it
+    /// is as far.
     fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<Carried> {
         let size = farthest.norm().max(self.heaviest());
         let under = |inside: f64| {
@@ -238,8 +239,8 @@ impl Probe {
         })
     }
 
-    /// Returns the half-plane of the forces that a motion `y` of the program does not exclude. The motion is proved for
-    /// a force beyond `near`. `None` if this proof fails, or if the point hardly moves.
+    /// Returns the half-plane normal · F ≤ limit that a motion proves: the velocities `y` of the program exclude every
+    /// force outside it. `None` if a force just beyond `near` gives no proof, or if the point hardly moves.
     fn line(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<Line> {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (BEYOND * size));
@@ -256,8 +257,8 @@ impl Probe {
         })
     }
 
-    /// Returns the component with one more load at the point. For a free contact, an unlimited torque also acts on the
-    /// body, so it cannot rotate.
+    /// Returns the component with an additional force at the point, N. If the probe is a contact, an unlimited torque
+    /// also acts on the body, so that the body cannot rotate.
     fn with_force(&self, force: Vector) -> Assembly {
         let mut assembly = match self.has_torque {
             true => with_grip(&self.given, self.body, self.at, [0.0, 0.0, f64::INFINITY]),
@@ -272,7 +273,8 @@ impl Probe {
     }
 }
 
-/// Returns a copy of the assembly with one more grip, at the end of the list.
+/// Returns a copy of the assembly in which a robot with the given limits [Fx, Fy, torque] also holds a body. Its grip
+/// is the last of the list.
 fn with_grip(given: &Assembly, body: usize, at: Point, limits: [f64; 3]) -> Assembly {
     let mut held = given.clone();
     let [fx, fy, torque] = limits;

@@ -1,4 +1,4 @@
-//! Adds directions for which the farthest force is computed, until every edge between two of these forces is known.
+//! Refines a polygon of carried forces: solves for the farthest force in further directions until every edge is known.
 //!
 //! Between two neighbouring farthest forces lies either an edge or another vertex. The farthest force along the normal
 //! of their chord decides. If it is not farther than the chord, the chord is an edge; otherwise it is a new vertex.
@@ -32,7 +32,7 @@ const MAX_DEPTH: usize = 24;
 /// The largest number of linear programs of one refinement.
 const MAX_SAMPLES: usize = 500;
 
-/// Returns the tolerance, N, for a set of this size, N.
+/// Returns the distance, N, below which two forces count as equal, for a set of forces of this size, N.
 pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
     (TOLERANCE * size).max(LEAST_TOLERANCE * probe.heaviest())
 }
@@ -49,11 +49,10 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
     extent(0).max(extent(1))
 }
 
-/// Returns the farthest proved force in a direction, which may be changed slightly. `None` if no such force has a
-/// proof.
+/// Returns the farthest carried force that has a proof, in this direction or at a small angle to it. `None` if no force
+/// was proved. `reach` limits both components of the force, N.
 pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
-    // If no proof is found in this direction, a slightly different direction is used instead. Every carried force
-    // belongs to the set.
+    // If this direction gives no proof, try slightly rotated directions. Their forces belong to the set, too.
     [0.0, 1e-3, -1e-3, 2e-2, -2e-2]
         .into_iter()
         .find_map(|angle| {
@@ -72,8 +71,8 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
         })
 }
 
-/// Adds samples between neighbours until their edges are known. The directions of `start` run anticlockwise. If
-/// `is_closed`, the last and the first sample are neighbours, too. Returns all samples in this order.
+/// Adds samples between neighbouring samples until all edges between them are known. The directions of `start` run
+/// anticlockwise. If `is_closed`, the last sample is also a neighbour of the first. Returns all samples in this order.
 pub(super) fn refined(
     probe: &Probe,
     start: Vec<Sample>,
@@ -109,7 +108,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Adds all samples between two neighbours.
+    /// Adds the samples between two neighbouring samples, recursively.
     fn between(&mut self, from: &Sample, to: &Sample, depth: usize) {
         let [a, b] = [from, to].map(|sample| sample.carried.force);
         let chord = b - a;
@@ -117,7 +116,7 @@ impl Search<'_> {
         if length <= self.tolerance || depth == 0 || self.count >= MAX_SAMPLES {
             return;
         }
-        // The edge is known already if the line of one force also contains the other force.
+        // If the half-plane of one sample passes through both forces, the edge between them is already known.
         let touches = |line: &Option<Line>, force: Vector| {
             let line = line.as_ref();
             line.is_some_and(|line| line.limit - line.normal.dot(&force) <= self.tolerance)
@@ -133,14 +132,14 @@ impl Search<'_> {
         };
         let force = next.carried.force;
         let farther = cross(chord, force - a) / -length;
-        // The distance of the force from its own line is the error of this program. It must not be taken for a new
-        // vertex.
+        // The distance of the force from its own half-plane is the error of this program. Such an error must not become
+        // a new vertex.
         let error = next
             .line
             .as_ref()
             .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE * self.tolerance) {
-            // The chord is an edge. The line of this sample contains it.
+            // The new force is not farther than the chord, so the chord is an edge. This sample has its half-plane.
             if next.line.is_some() {
                 self.found.push(next);
             }

@@ -1,4 +1,4 @@
-//! Convex sets of forces: corners, rays and half-planes.
+//! Convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
 
 use super::probe::{Line, Probe};
 use super::refine::{self, Sample};
@@ -9,7 +9,7 @@ use crate::scene::BlockId;
 /// A ray is cut off at this multiple of the size of the set.
 const FAR: f64 = 1e4;
 
-/// Builds the capacity, with vertices, edges and gap, from the samples of its set.
+/// Builds the capacity of a block from samples of its boundary: vertices, edges and error bound.
 pub(super) fn capacity(
     found: cone::Found,
     probe: &Probe,
@@ -48,7 +48,8 @@ pub(super) fn capacity(
     capacity
 }
 
-/// Sets the edges of a capacity, which are chosen among the half-planes that contain it, and its gap.
+/// Sets the edges and the error bound of a capacity. For each side of the polygon, the edge is the nearest of the
+/// half-planes `lines`.
 pub(super) fn close(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let mut edges = Vec::new();
@@ -100,8 +101,8 @@ fn edge_of((line, case): (&Line, usize)) -> CapacityEdge {
     }
 }
 
-/// Returns the sides of a set, anticlockwise: the indices of the vertices at both ends, and two forces on the side. An
-/// index is `None` where the side is unbounded.
+/// Returns the sides of a convex set, anticlockwise. Each has the indices of its two vertices, `None` where the side is
+/// unbounded, and two points on it.
 fn sides(
     corners: &[Vector],
     rays: &[Vector],
@@ -125,7 +126,7 @@ fn sides(
         [first, second, ..] => {
             let last = corners[count - 1];
             if cross(*first, *second).abs() < 1e-9 && count == 2 {
-                // The set is a strip: its two edges are infinite lines.
+                // The set is a strip between two parallel lines.
                 sides.push(([None; 2], corners[0] + second * size, corners[0]));
                 sides.push(([None; 2], last + first * size, last));
                 return sides;
@@ -138,9 +139,8 @@ fn sides(
     sides
 }
 
-/// Returns the indices of the forces that are corners of their convex hull, anticlockwise. A corner nearer than about
-/// `tolerance` to the hull of the others may be left out. With rays, the list begins with the first corner after the
-/// unbounded side.
+/// Returns the indices of the forces that are corners of the convex hull of `forces` and `rays`, anticlockwise. The
+/// list begins after the unbounded side. A corner within about `tolerance` of the rest of the hull may be left out.
 pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec<usize> {
     if forces.is_empty() {
         return Vec::new();
@@ -157,7 +157,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
     }
     let mut ring = hull(points);
     simplify(&mut ring, tolerance);
-    // The list begins with the first corner after the far points.
+    // Far points stand for the rays. Begin with the first corner after them.
     let is_far = |k: usize| ring[k % ring.len()].1.is_none();
     let first = (0..ring.len()).find(|k| is_far(*k) && !is_far(k + 1));
     let count = ring.len();
@@ -167,7 +167,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
         .collect()
 }
 
-/// Returns the convex hull of tagged points, anticlockwise (Andrew 1979).
+/// Returns the convex hull of points, anticlockwise, by Andrew's monotone chain (1979). Each point keeps its tag.
 fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)> {
     points.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup_by(|(a, _), (b, _)| a == b);
@@ -195,8 +195,8 @@ fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)
     ring
 }
 
-/// Removes corners that are nearer than a quarter of the tolerance to the line between their neighbours, the nearest
-/// first.
+/// Removes corners that lie within a quarter of the tolerance of the segment between their neighbours, the nearest
+/// corner first. Points without an index stay.
 fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
     while ring.len() > 1 {
         let count = ring.len();
@@ -228,7 +228,7 @@ pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     (point - a - along * share).norm()
 }
 
-/// Returns the part of a convex polygon in which normal · F ≤ limit.
+/// Returns the part of a convex polygon that lies in the half-plane normal · F ≤ limit.
 pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
     in_half_plane(ring, |force| normal.dot(force) - limit)
 }
@@ -244,8 +244,8 @@ pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     ]
 }
 
-/// Returns the largest distance, from the proved forces, of a force that no line excludes. An unbounded set is compared
-/// only within a square around its first corner, with half the side 4 · `size`.
+/// Returns the error bound of a set: the largest distance from it, N, of a force that satisfies all half-planes
+/// `lines`. Only forces within a square of side 8 · `size` around the first corner are compared.
 fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -> f64 {
     let Some(first) = corners.first() else {
         return 0.0;
@@ -276,7 +276,7 @@ pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
     near.fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the set as a convex polygon in which each ray ends at the length `far`.
+/// Returns a bounded convex polygon: the convex hull of the corners and of the corners moved by `far` along each ray.
 pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
     let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
     for ray in rays {
@@ -299,8 +299,8 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
 /// Two directions within this angle, in radians, count as equal.
 const SAME_DIRECTION: f64 = 1e-7;
 
-/// Returns the largest multiple of a unit direction in the convex hull of the corners, extended along the rays.
-/// Infinite if there is no largest multiple. The hull must contain 0.
+/// Returns the largest factor by which a unit direction can be multiplied so that it stays in the convex hull of the
+/// corners, extended along the rays. Infinite if there is no limit. The hull must contain 0.
 pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f64 {
     let is_along = |ray: &Vector| (ray - direction).norm() <= SAME_DIRECTION;
     let is_between = match rays {
@@ -308,7 +308,8 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
             cross(*first, direction) >= -SAME_DIRECTION
                 && cross(direction, *second) >= -SAME_DIRECTION
         }
-        // All vertices of a half-plane lie on the line of its rays.
+        // With two opposite rays the set is a line, a strip or a half-plane. All vertices of a half-plane lie on its
+        // boundary.
         [first, second] => {
             let is_line = (first + second).norm() <= SAME_DIRECTION && corners.len() != 1;
             !is_line && cross(*first, direction) >= -SAME_DIRECTION
@@ -325,7 +326,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
     let ring = cut_off(corners, rays, FAR * extent);
     let along = |force: &Vector| force.dot(&direction);
     if ring.len() < 3 {
-        // The set is a segment or a point: forces are carried only along the segment.
+        // The set is a segment or a point, so a force is carried only if it lies along the segment.
         let [first, last] = [ring.first(), ring.last()].map(|f| f.copied().unwrap_or_default());
         let chord = last - first;
         let is_aligned = cross(chord, direction).abs() <= SAME_DIRECTION * chord.norm();

@@ -73,8 +73,8 @@ pub enum CapacityError {
 }
 
 impl CapacityRequest {
-    /// Creates the request for the forces at the default point of a block: its grip point if a robot holds it, otherwise
-    /// its centroid.
+    /// Creates the request for a force at the default point of a block: the grip point if a robot holds the block,
+    /// otherwise the centroid.
     pub fn of_block(block: BlockId) -> CapacityRequest {
         CapacityRequest {
             block,
@@ -83,9 +83,9 @@ impl CapacityRequest {
         }
     }
 
-    /// Returns the request that is used for a scene if no block was chosen. It is the block of the first robot in the
-    /// last frame in which a robot holds a block. Without robots it is the block of the last frame whose centroid is
-    /// highest. `None` if there is no such block.
+    /// Returns the default request for a scene. It uses the block of the first robot, in the last frame in which a
+    /// robot holds a block. Without robots it uses the block with the highest centroid in the last frame. `None` if
+    /// there is no such block.
     pub fn default_for(scene: &Scene) -> Option<CapacityRequest> {
         let held = scene.frames.iter().rev().find_map(|f| f.holds.first());
         let highest = || {
@@ -98,27 +98,27 @@ impl CapacityRequest {
             .map(CapacityRequest::of_block)
     }
 
-    /// Returns the same request with another point at which the force acts.
+    /// Returns the same request with the force at another point of the block.
     #[must_use]
     pub fn at(self, at: ForceAt) -> CapacityRequest {
         CapacityRequest { at, ..self }
     }
 
-    /// Returns the same request with other cases in which the forces must be carried.
+    /// Returns the same request for other ranges of tilt, horizontal load and friction.
     #[must_use]
     pub fn cases(self, cases: Cases) -> CapacityRequest {
         CapacityRequest { cases, ..self }
     }
 
-    /// Returns the hold of the robot whose force is replaced. `None` if no robot holds the block, or if a point was
-    /// given.
+    /// Returns the hold of the robot whose force the request replaces. `None` if no robot holds the block, or if the
+    /// request gives its own point.
     pub(super) fn tool<'f>(&self, frame: &'f Frame) -> Option<&'f Hold> {
         let is_default = self.at == ForceAt::Default;
         let mut holds = frame.holds.iter();
         holds.find(|hold| is_default && hold.block == self.block)
     }
 
-    /// Returns the points at which the force acts in a frame: one, or two for a contact.
+    /// Returns the points at which the force acts in a frame, in metres: two for a contact, otherwise one.
     ///
     /// # Errors
     /// Returns an error if the block does not exist or if a point is not valid.
@@ -141,14 +141,14 @@ impl CapacityRequest {
 }
 
 impl Cases {
-    /// Returns the same cases with this range of tilts, degrees.
+    /// Returns these cases with a range of tilts of gravity, in degrees.
     #[must_use]
     pub fn tilt(self, from: f64, to: f64) -> Cases {
         let tilt = Some([from, to]);
         Cases { tilt, ..self }
     }
 
-    /// Returns the same cases with this range of the horizontal load, as fractions of the weights.
+    /// Returns these cases with a range of horizontal loads, as fractions of the weights.
     #[must_use]
     pub fn horizontal_load(self, from: f64, to: f64) -> Cases {
         let horizontal_load = Some([from, to]);
@@ -158,14 +158,15 @@ impl Cases {
         }
     }
 
-    /// Returns the same cases with this range of friction coefficients.
+    /// Returns these cases with a range of friction coefficients, which apply to all interfaces.
     #[must_use]
     pub fn friction(self, from: f64, to: f64) -> Cases {
         let friction = Some([from, to]);
         Cases { friction, ..self }
     }
 
-    /// Checks that the ranges are valid.
+    /// Checks the ranges: finite numbers, the smaller one first, no negative friction, and tilts that are not too far
+    /// apart.
     ///
     /// # Errors
     /// Returns an error if a range is not valid, or if a range of tilts is wider than [`Cases::WIDEST_TILT`].
@@ -199,7 +200,7 @@ impl Cases {
     /// The widest range of tilts, degrees.
     pub const WIDEST_TILT: f64 = 90.0;
 
-    /// True if no range is given, so the only case is that of the scene.
+    /// True if no range is given. The capacity is then computed only for the values of the scene.
     pub fn is_empty(&self) -> bool {
         *self == Cases::default()
     }

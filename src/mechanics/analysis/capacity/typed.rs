@@ -1,12 +1,12 @@
-//! Reads the block, the point and the cases of a request from the text that the command line, Python and JavaScript share.
+//! Parses the text of a capacity request: block, point and ranges. The command line, Python and JavaScript share it.
 
 use super::request::{CapacityRequest, Cases, ForceAt};
 use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::text::{line, nearest};
 
-/// Parses the value of `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in metres) and the ranges of
-/// `--for-all`.
+/// Parses the values of two options: `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in metres) and `--for-all`
+/// (ranges).
 ///
 /// # Errors
 /// A message for the user, if a text is not valid or the scene has no such block.

@@ -1,4 +1,4 @@
-//! Route 0: decides by forces or by a motion that were computed elsewhere.
+//! Route 0: proves a verdict from forces or a motion that were computed elsewhere, without solving a program.
 
 use super::Component;
 use crate::analysis::{Options, Verdict};
@@ -16,7 +16,7 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 }
 
 impl<'a> Candidate<'a> {
-    /// Creates a candidate for an assembly. Its forces and velocities are in the units of `scale`.
+    /// Creates a checker for forces and velocities of an assembly, which will be given in the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             component: Component {
@@ -27,9 +27,9 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Returns *stable* if `amounts` balance every body. Returns *unstable* if the motion along the unbalanced load is
-    /// a mechanism of one component that no admissible forces can contradict. `left` is minus the unbalanced load,
-    /// three rows for each body, in program units. `None` if neither verdict is proved; then the other routes decide.
+    /// Returns *stable* if the forces `amounts` balance every body. Returns *unstable* if the motion along the
+    /// unbalanced load is a mechanism that no admissible forces can stop. Otherwise `None`. `left` is minus the
+    /// unbalanced load: three rows for each body, in program units.
     pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.believes(&forces) {
@@ -59,7 +59,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// Returns the motion of a block; zero if `motions`, which are sorted by block, do not contain it.
+/// Returns the motion of a block from `motions`, which are sorted by block. A block that is not in the list is at rest.
 fn of_block(motions: &[Motion], block: BlockId) -> Motion {
     match motions.binary_search_by_key(&block, |motion| motion.block) {
         Ok(place) => motions[place],

@@ -1,5 +1,5 @@
-//! Route 4: completes a decision. A structure that stands gets the forces of least sum; a structure that falls gets its
-//! failures and its mechanism.
+//! Route 4: adds the remaining results after the verdict. These are the forces of least sum if the structure stands, or
+//! its failures and its mechanism if it falls.
 
 use super::Component;
 use super::Method;
@@ -11,7 +11,8 @@ use crate::program::Program;
 use crate::solve::{Choice, balance_in, is_late, least_adhesion_in};
 
 impl Component<'_> {
-    /// Adds the forces of least sum or the failures to a decision, unless only the verdict is requested.
+    /// Adds forces of least sum (stable) or failures (unstable) to a decision. Returns the decision unchanged if only
+    /// the verdict is requested.
     pub fn complete(&self, program: &Program, decision: Decision) -> Decision {
         if !self.complete_result {
             return decision;
@@ -19,8 +20,8 @@ impl Component<'_> {
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
             Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
-            // If the other bodies may move too, the least adhesion can be smaller than the least adhesion of the
-            // falling bodies alone.
+            // Only some bodies fall. If other bodies may move too, the structure may need less adhesion than these
+            // bodies alone.
             Verdict::Unstable if program.blocks < LARGE_PROGRAM_BLOCKS => {
                 self.with_failures_of_the_whole(program, decision)
             }
@@ -28,14 +29,16 @@ impl Component<'_> {
         }
     }
 
-    /// Replaces the forces of a decision by balancing forces of least sum, if a more exact solution finds them.
+    /// Replaces the forces of a decision by balancing forces of least sum, if a solution is accurate enough to prove
+    /// that they are least.
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
-        // A program that ended without a status was already tried with full precision.
+        // Do not solve the program of least force if it ended without a status before, or if any balancing forces are
+        // enough.
         if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;
         }
-        // For a large component, the program of least force has not been solved completely yet, unless the first short
-        // attempt decided the component.
+        // The first solver settings were tried before, so they are skipped. They were not tried to the end if a large
+        // component was decided by least residual.
         let sought = usize::from(
             program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
         );
@@ -72,8 +75,8 @@ impl Component<'_> {
         decision
     }
 
-    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if this adhesion
-    /// balances every body.
+    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if it can be proved:
+    /// the adhesion and the admissible forces must balance every body.
     fn with_failures_of_the_whole(&self, program: &Program, mut decision: Decision) -> Decision {
         for settings in &self.settings {
             if is_late() {
@@ -94,8 +97,8 @@ impl Component<'_> {
         decision
     }
 
-    /// Adds the least adhesion and its mechanism to a decision. Tries the solver settings in order. Changes the
-    /// verdict to stable if the program finds forces that balance every body without adhesion.
+    /// Adds the least adhesion and its mechanism to a decision. Tries the solver settings in order. If the program
+    /// finds forces that balance every body without adhesion, the verdict becomes stable.
     fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
         let mut ready = decision
             .least_adhesion
@@ -109,7 +112,7 @@ impl Component<'_> {
             });
             let forces = self.prove_forces(&least_adhesion.forces).proof;
             if least_adhesion.balanced == Some(true) && self.believes(&forces) {
-                // These forces balance every body. If both proofs hold, the forces decide.
+                // These forces balance every body without adhesion. They decide, even if a motion is proved, too.
                 return Decision {
                     verdict: Verdict::Stable,
                     amounts: least_adhesion.forces,
@@ -117,18 +120,17 @@ impl Component<'_> {
                     ..decision
                 };
             }
-            // Large components keep the motion that proved the verdict. Correcting another motion takes a third of the
-            // total time.
+            // A large component keeps the motion that proved the verdict: correcting another motion takes a third of
+            // the total time.
             let shown = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
             let motion = least_adhesion.motion.filter(|_| !shown);
             let own = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
-            // If forces have a cost, the motion of the program violates contacts slightly. Keep the motion that proved
-            // the verdict.
+            // If the program gives the forces a cost, its motion violates contacts slightly. The earlier motion is then
+            // kept.
             if let (Some((mechanism, proof)), false) = (own, least_adhesion.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }
-            // A later setting replaces the result of an earlier setting only if the earlier result does not balance
-            // every body.
+            // Use this result if it balances every body, or if no earlier result gave an adhesion.
             let found = least_adhesion.balanced == Some(true);
             let holds = found
                 && self

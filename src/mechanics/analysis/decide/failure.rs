@@ -15,7 +15,8 @@ const SHARE_OF_WEIGHT: f64 = 1e-6;
 const SHARE_OF_LARGEST: f64 = 1e-9;
 
 impl Component<'_> {
-    /// Returns the failures in newtons, in the order of contacts and grips. `adhesion` is in program units.
+    /// Returns the failures in newtons and newton metres, in the order of contacts and grips. `adhesion` is in program
+    /// units.
     pub(super) fn failures(&self, adhesion: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
         let most = adhesion
@@ -24,11 +25,12 @@ impl Component<'_> {
             .flatten()
             .chain(&adhesion.friction)
             .chain(adhesion.grip.iter().flatten());
-        // Compute the largest adhesion of the component, N.
+        // Compute the largest adhesion in the component, N.
         let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
-        // Ignore bodies without a load: a force cannot be compared with their load.
+        // The amount, in program units, above which a failure between two bodies is listed. It is a fraction of the
+        // lighter body's load or of `most`, whichever is less. Bodies without a load are left out.
         let least = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
             let loaded = both
@@ -50,8 +52,8 @@ impl Component<'_> {
         failures
     }
 
-    /// Adds the tension and the friction that a contact lacks, if they exceed `least`. All inputs are in the
-    /// program's unit of force.
+    /// Appends the missing tension and the missing friction of a contact to `failures`, if they exceed `least`. Inputs
+    /// are in the program's unit of force.
     fn add_contact_failures(
         &self,
         failures: &mut Vec<Failure>,
@@ -77,7 +79,8 @@ impl Component<'_> {
         }
     }
 
-    /// Adds the force and the torque that a robot lacks, if they exceed `least`. All inputs are in program units.
+    /// Appends the missing force and the missing torque of a robot to `failures`, if they exceed `least`. `[x, y, m]`
+    /// and `least` are in program units.
     fn add_grip_failures(
         &self,
         failures: &mut Vec<Failure>,
@@ -105,16 +108,16 @@ impl Component<'_> {
         }
     }
 
-    /// Returns the assembly with the adhesion added to its loads. Admissible forces must balance this assembly.
+    /// Returns a copy of the assembly in which the adhesion acts as a load. Admissible forces alone should balance it.
     pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();
-        // The load factor must not multiply the adhesion.
+        // The load factor must not multiply the adhesion, so include it in the other loads and set it to 1.
         for body in &mut held.bodies {
             body.listed = body.listed.times(self.assembly.load_factor);
         }
         held.load_factor = 1.0;
-        // Each force of the adhesion acts on one body as a load, and its reaction on the other.
+        // Each adhesive force acts on one body as a load. The opposite force acts on the other body.
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
             body.listed = body
@@ -142,8 +145,8 @@ impl Component<'_> {
         held.with_summed_loads()
     }
 
-    /// Returns the forces that act together with the adhesion, in newtons, and whether both together balance every
-    /// body.
+    /// Converts the forces `amounts` to newtons. Also returns whether they balance every body together with the
+    /// adhesion.
     pub(super) fn prove_with_adhesion(
         &self,
         amounts: &Amounts,
@@ -161,7 +164,7 @@ impl Component<'_> {
     }
 }
 
-/// Returns the sum of all failures in newtons. A torque is divided by the length L.
+/// Returns the sum of the magnitudes of all missing forces, N. A missing torque is divided by the length `length`, m.
 pub(super) fn total(failures: &[Failure], length: f64) -> f64 {
     let sizes = failures.iter().map(|failure| match failure {
         Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),

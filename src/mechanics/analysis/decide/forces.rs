@@ -1,4 +1,4 @@
-//! Converts forces of a component to newtons, makes them exactly admissible, and proves them.
+//! Converts solved forces to newtons, removes rounding so that no limit is violated, and checks that they balance.
 
 use super::Component;
 use crate::geometry::Vector;
@@ -26,13 +26,14 @@ pub(super) struct ProvedForces {
 }
 
 impl Component<'_> {
-    /// Converts forces to newtons, makes them exactly admissible, and proves them.
+    /// Converts forces to newtons, makes them exactly admissible, and computes their proof: how well they balance each
+    /// body.
     ///
     /// Noise is set to 0 and friction is limited to μN. The rest of the solver's error is then only an imbalance, which
     /// the proof measures. A force that is noise among heavy blocks may hold a light block. If the proof fails, fewer
     /// forces are therefore set to 0.
     pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
-        // If no attempt has a proof, return the forces that balance the most bodies.
+        // Set less and less noise to 0. If no attempt gives a proof, return the forces that balance the most bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
@@ -59,8 +60,8 @@ impl Component<'_> {
         }
     }
 
-    /// Returns a lower bound of the sum of balancing forces in newtons, and whether the sum of `amounts` reaches it.
-    /// The bound follows from the motion `witness`, in program units; without `witness`, the bound is `None`.
+    /// Returns a lower bound on the sum of balancing forces, N, and whether the forces `amounts` reach this bound. The
+    /// bound follows from the motion `witness` (program units); without `witness` it is `None`.
     pub fn bound_force_sum(
         &self,
         witness: Option<&[f64]>,
@@ -82,14 +83,14 @@ impl Component<'_> {
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
-    /// Checks forces in newtons, without setting noise to 0.
+    /// Converts forces to newtons, without setting small forces to 0, and computes their proof.
     pub fn prove_without_cleaning(&self, amounts: &Amounts) -> Proof {
         proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 
-    /// Converts forces to newtons and sets noise to 0. The limit for normal and robot forces is 1e-13 of the heaviest
-    /// load, or of all forces on the body. For friction it is 1e-10 of N and of μN. No limit exceeds a tenth of the
-    /// accepted imbalance.
+    /// Converts forces to newtons and sets forces to 0 that are only noise. A normal or robot force is noise below
+    /// 1e-13 of the heaviest load, or of all forces on the body. Friction is noise below 1e-10 of N and of μN. Setting
+    /// them to 0 changes the balance by at most a tenth of the accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.demand.imbalance;
@@ -101,7 +102,7 @@ impl Component<'_> {
             Noise::OfEachBody => self.acting(amounts),
             _ => Vec::new(),
         };
-        // Returns the largest normal or robot force, and the largest friction, that may be set to 0 on a body.
+        // For each body: the size below which a normal or robot force is noise, and the same for friction, in newtons.
         let limits = |body: usize| match noise {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {
@@ -137,7 +138,7 @@ impl Component<'_> {
             let length = self.scale.length;
             let (noise, _) = limits(grip.body);
             let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
-            // Division and multiplication by L round, so clamp the torque to its limit once more.
+            // The division and the multiplication by L may round the torque above its limit, so clamp it again.
             let most = grip.limits.torque;
             let torque = cut(m * unit, most / length) * length;
             GripForces {
@@ -151,7 +152,7 @@ impl Component<'_> {
         }
     }
 
-    /// Returns, for each body, the sum of the magnitudes of its load, contact forces and robot forces, in newtons.
+    /// Returns the sum of the magnitudes of all forces on each body, N: its load, contact forces and robot forces.
     fn acting(&self, amounts: &Amounts) -> Vec<f64> {
         let bodies = self.assembly.bodies.iter();
         let mut sums: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();

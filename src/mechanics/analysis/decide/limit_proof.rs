@@ -1,4 +1,4 @@
-//! Proves the results of a linear program at the limit of stability.
+//! Proves forces and motions that a linear program found at the limit of stability.
 
 use super::Component;
 use super::verdict_only::{VERDICT_ONLY, decide_without_idle_limits};
@@ -8,7 +8,8 @@ use crate::program::Program;
 use crate::proof::{Forces, Motion, Proof};
 use crate::solve::{Amounts, Effort};
 
-/// Returns forces in newtons that balance a component, with their proof. `None` if the forces do not balance it.
+/// Converts forces that a program found to newtons, and returns them with their proof. `None` if they do not balance
+/// every body.
 ///
 /// `program` is the program of the component, in any scale.
 pub(in crate::mechanics::analysis) fn proved_forces(
@@ -23,8 +24,8 @@ pub(in crate::mechanics::analysis) fn proved_forces(
         .then_some((found.forces, found.proof))
 }
 
-/// Decides a component as a whole. Returns the forces that balance it, with their proof; `None` if it was not shown to
-/// stand.
+/// Decides a component, and returns forces in newtons that balance it, with their proof. `None` if the component falls
+/// or is undecided.
 pub(in crate::mechanics::analysis) fn decided_forces(
     assembly: &Assembly,
 ) -> Option<(Forces, Proof)> {
@@ -40,8 +41,8 @@ pub(in crate::mechanics::analysis) fn decided_forces(
         .then_some((found.forces, found.proof))
 }
 
-/// Returns the motion that is nearest to the velocities `y` of a program and that no contact opposes, one entry for
-/// each body. Also returns the proof that the component falls by this motion. `None` if the proof is too weak.
+/// Corrects the velocities `y` of a program to the nearest motion that violates no contact. Returns this motion, one
+/// entry for each body, and the proof that the component falls by it. `None` if the proof is too weak.
 pub(in crate::mechanics::analysis) fn proved_motion(
     assembly: &Assembly,
     program: &Program,

@@ -1,5 +1,5 @@
-//! Converts the solver's velocities to a motion in metres, removes the solver's error, and proves the motion (route
-//! 3b).
+//! Converts velocities from the solver to a motion in metres, removes the solver's error, and proves that no force can
+//! stop this motion (route 3b).
 
 use super::Component;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
@@ -15,8 +15,11 @@ use crate::solve::{Effort, repair_motion};
 const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
 impl Component<'_> {
-    /// Returns the motion nearest to the velocities `y` (program units) that violates no contact, and its proof.
-    /// `None` if the proof is too weak.
+    /// Returns the motion nearest to the velocities `y` (program units) that violates no contact, and its proof. `None`
+    /// if the proof is too weak.
+    ///
+    /// Small violations are not accepted as rounding either: the motion of a wedge into its notch consists only of such
+    /// violations.
     ///
     /// Even small violations are not accepted as rounding: the motion of a wedge into its notch consists only of such
     /// violations.
@@ -31,8 +34,8 @@ impl Component<'_> {
         if speed == 0.0 {
             return None;
         }
-        // The motion violates a contact: remove the solver's error. For large components, first try a motion of a few
-        // rigid pieces, because that is faster and more exact.
+        // If the motion violates contacts, remove the solver's error. For a large component, first try a motion of a
+        // few rigid pieces, which is faster and more exact.
         if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
             let in_pieces = || self.prove_motion_in_pieces(&motion, effort);
@@ -46,19 +49,19 @@ impl Component<'_> {
         self.convinces(&motion, &proof).then_some((motion, proof))
     }
 
-    /// True if a motion and its proof are strong enough. The proof must be valid, and it must exclude all forces that
-    /// the loads of the whole component can cause. Otherwise the thrust of heavy bodies could balance a violation in
-    /// the motion of a light body.
+    /// True if a proof shows that no forces can stop a motion. It must also exclude the large forces that the loads of
+    /// all bodies may cause: the thrust of heavy bodies could otherwise make up for a small violation at a light body.
     pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
-        // A force of at most `MIN_EXCLUDED_LOADS` times all loads must not be able to stop the motion.
+        // Forces whose sum is at most `MIN_EXCLUDED_LOADS` times the sum of all loads must not be able to stop the
+        // motion.
         let bodies = self.assembly.bodies.iter();
         let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
         let load = proof::moving_load(self.assembly, motion);
         self.believes(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// True if a proved motion has more power than the accepted imbalance could absorb. Then no forces can contradict
-    /// it.
+    /// True if the power of the loads along a motion exceeds the largest power that an accepted imbalance of forces
+    /// could have. Then no proof by forces can contradict the motion.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let ways: f64 = motion
             .iter()
@@ -69,15 +72,15 @@ impl Component<'_> {
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
 
-    /// Returns the motion of a component that touches no ground and that no robot holds, and its proof. All bodies
-    /// move in the direction of the sum of their loads. `None` if the component is supported or its loads cancel.
+    /// Returns the translation by which an unsupported component falls, and its proof: all bodies move in the direction
+    /// of the total load. `None` if the ground or a robot supports the component, or if its loads cancel.
     pub(super) fn falls_freely(&self) -> Option<(Vec<Motion>, Proof)> {
         if !self.assembly.is_unsupported() {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
         let total = loads.fold(LoadVector::NONE, LoadVector::plus).force;
-        // Loads that cancel cause no motion.
+        // If the loads cancel, they cause no translation.
         if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest_load() {
             return None;
         }
@@ -97,8 +100,8 @@ impl Component<'_> {
         proof::check_mechanism(self.assembly, motion)
     }
 
-    /// Returns the speed of the fastest point in program units, and the motion of every body in metres, scaled so
-    /// that this point has speed 1.
+    /// Converts velocities in program units to motions in metres, scaled so that the fastest point has speed 1. Also
+    /// returns the speed of this point before scaling.
     pub(super) fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
         let bodies = self.assembly.bodies.iter();
         let mut all: Vec<Motion> = bodies
@@ -106,7 +109,7 @@ impl Component<'_> {
             .map(|(k, body)| Motion {
                 block: body.block,
                 velocity: Vector::new(y[3 * k], y[3 * k + 1]),
-                // In program units the spin is the speed at distance L.
+                // In program units, the spin is the speed at distance L from the centroid.
                 spin: y[3 * k + 2] / self.scale.length,
             })
             .collect();

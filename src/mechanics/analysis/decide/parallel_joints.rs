@@ -1,4 +1,4 @@
-//! Finds least forces if joints are parallel except for rounding.
+//! Finds forces of least sum for joints that are parallel except for rounding, where the solver may fail.
 
 use super::Component;
 use super::strategy::Strategy;
@@ -16,9 +16,9 @@ pub(super) struct LeastForce {
 }
 
 impl Component<'_> {
-    /// Returns forces with a smaller sum, if there are any, otherwise the given forces. The nearly parallel joints are made
-    /// parallel, the least forces are computed, and these are changed as little as possible to balance with the real
-    /// joints.
+    /// Returns forces with a smaller sum if there are any, otherwise the forces `found`. Computes the least forces with
+    /// the nearly parallel joints made exactly parallel. Then changes these forces as little as possible, so that they
+    /// balance with the real joints.
     pub(super) fn reduce_force_sum(
         &self,
         program: &Program,

@@ -1,4 +1,4 @@
-//! Finds the rigid pieces of a mechanism: sets of bodies that move together.
+//! Divides a mechanism into rigid pieces: sets of bodies that move as one rigid body.
 //!
 //! The solver's error makes a motion of many bodies violate every joint that does not open. Most of these joints lie
 //! between bodies that move as one. If each rigid piece becomes one body, the correction of the motion is a small
@@ -21,9 +21,8 @@ const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 const MIN_BODIES_PER_PIECE: usize = 8;
 
 impl Component<'_> {
-    /// Returns a motion without the solver's errors, and its proof. Bodies that move nearly together in `motion` move
-    /// exactly together in the result. The fastest point has speed 1. `None` if there are too many pieces or the proof
-    /// is too weak.
+    /// Corrects a motion by treating bodies that move nearly together as one rigid piece, and returns it with its
+    /// proof. The fastest point has speed 1. `None` if there are too many pieces or if the proof is too weak.
     pub(super) fn prove_motion_in_pieces(
         &self,
         motion: &[Motion],
@@ -37,11 +36,11 @@ impl Component<'_> {
             {
                 return None;
             }
-            // 2. Correct the mean motion of the pieces in the small program.
+            // 2. Correct the mean motion of each piece, in a smaller program.
             let program = Program::new(&joined, self.scale);
             let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
             let y = repair_motion(&program, &mean, effort)?;
-            // 3. Convert it to motions of the bodies, and prove it for them.
+            // 3. Convert the result to a motion of every body, and prove it.
             let parted = self.parted(&joined, &piece, &y);
             let proof = self.mechanism(&parted);
             self.convinces(&parted, &proof).then_some((parted, proof))
@@ -72,8 +71,8 @@ impl Component<'_> {
     }
 }
 
-/// Returns the index of the piece of each body; `None` for bodies that rest with the ground. Two bodies in contact are
-/// in one piece if their velocities differ by at most `tolerance`.
+/// Returns the index of the rigid piece that each body belongs to; `None` for bodies that are at rest like the ground.
+/// Two bodies in contact belong to one piece if their velocities differ by at most `tolerance`.
 fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();
@@ -81,7 +80,8 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
     let radii: Vec<f64> = bodies.iter().map(|body| body.radius()).collect();
     for contact in &assembly.contacts {
         let (on, at) = (contact.on, contact.points[0]);
-        // The relative velocity at the contact, and the relative spin times the larger radius.
+        // Compare the two bodies: their relative velocity at the contact, and their relative spin times the larger
+        // radius.
         let mut apart = motion[on].about(bodies[on].centroid, at);
         let (mut turn, mut reach) = (motion[on].spin, radii[on]);
         if let Some(from) = contact.from {
@@ -93,7 +93,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
             sets.union(on, contact.from.unwrap_or(ground));
         }
     }
-    // Number the pieces in the order of their first bodies. Bodies that are joined with the ground get no number.
+    // Number the pieces in the order of their first bodies. The piece of the ground gets no number.
     let resting = sets.find(ground);
     let mut number = vec![None; bodies.len() + 1];
     let mut count = 0;
@@ -112,8 +112,7 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
         .collect()
 }
 
-/// Returns the mean velocities of the bodies of each piece, about the mean of their centroids: three numbers for each
-/// piece, in program units.
+/// Returns the mean velocity and spin of the bodies of each piece: three numbers for each piece, in program units.
 fn mean_velocities(
     piece: &[Option<usize>],
     motion: &[Motion],

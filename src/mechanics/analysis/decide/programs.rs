@@ -1,4 +1,4 @@
-//! Route 3: solves one program after another, until forces or a motion have a proof.
+//! Route 3: solves several linear programs in order, until the forces or the motion of one of them are proved.
 //!
 //! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
 //! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
@@ -54,7 +54,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// Creates a decision of a strategy with the effort so far, but without forces and without a proof.
+    /// Creates a decision without forces and proof, for the method of `strategy`, with the solver effort so far.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
             no_status: self.no_status,
@@ -65,18 +65,18 @@ impl Progress {
 }
 
 impl Component<'_> {
-    /// Tries the strategies in order until a proof is strong enough, and returns the decision. It is undecided if no
-    /// proof is.
+    /// Tries the strategies in order, and returns the first decision that is proved. If no strategy gives a proof, the
+    /// decision is undecided.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
         let strategies =
             Strategy::in_order(program, &self.settings, self.place, self.complete_result);
         for strategy in strategies {
-            // After the deadline, the last attempt is reported, because even writing the next program takes time.
+            // After the deadline, report the last attempt: even setting up the next program takes time.
             if progress.last.is_some() && is_late() {
                 break;
             }
-            // Solve one program, then try its forces, then its motion.
+            // Solve one program, then try to prove its forces, then its motion.
             let attempt = strategy.attempt(program);
             progress.effort = progress.effort.and(attempt.effort);
             progress.no_status |=
@@ -93,8 +93,8 @@ impl Component<'_> {
         self.without_proof(program, progress)
     }
 
-    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall on their own.
-    /// `None` if neither is proved.
+    /// Decides by the forces of an attempt. The component stands if they balance every body; it falls if some bodies
+    /// are proved to fall. `None` if neither is proved.
     fn decide_by_forces(
         &self,
         program: &Program,
@@ -103,7 +103,7 @@ impl Component<'_> {
         progress: &mut Progress,
     ) -> Option<Decision> {
         let amounts = attempt.forces.as_ref()?;
-        // Forces that balance the whole component to the solver's accuracy may not balance a light body.
+        // The solver's accuracy is relative to the heaviest load, so its forces may not balance a light body.
         let proof = self.prove_forces(amounts).proof;
         let outcome = match self.believes(&proof) {
             true => Outcome::Stands(amounts.clone(), proof),
@@ -120,7 +120,7 @@ impl Component<'_> {
                     force_bound,
                     least_force,
                 };
-                // With nearly parallel joints the program of least force may end without a status.
+                // If joints are nearly parallel, the program of least force may end without a status.
                 if !least_force && progress.no_status {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }
@@ -135,7 +135,8 @@ impl Component<'_> {
             Outcome::Falls(part) => Some(Decision {
                 verdict: Verdict::Unstable,
                 amounts: part.amounts,
-                // If no adhesion can hold these bodies, `complete` computes the failures of the whole component.
+                // If the missing adhesion of these bodies is unknown, `complete` computes the failures of the whole
+                // component.
                 in_part: part.adhesion.is_some(),
                 adhesion: part.adhesion,
                 mechanism: part.mechanism,
@@ -146,8 +147,8 @@ impl Component<'_> {
         }
     }
 
-    /// Decides by the motion of an attempt, or by an earlier weak motion, if no forces can contradict it. Otherwise
-    /// keeps the motion as the weak motion and returns `None`.
+    /// Decides that a component falls, by the motion of an attempt or by an earlier motion. Returns `None` if balancing
+    /// forces may still exist; the motion is then kept as `progress.weak`.
     fn decide_by_motion(
         &self,
         program: &Program,
@@ -157,13 +158,12 @@ impl Component<'_> {
     ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
-        // A motion proves the verdict at once only if it does more work than an imbalance that the proof of forces
-        // tolerates.
+        // A motion is a proof at once if its power is larger than that of any imbalance that a proof by forces accepts.
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
         let (mechanism, proof) = proved.or(progress.weak.take())?;
-        // A weak motion decides only after a program shows that no forces balance the loads.
+        // Otherwise the motion is weak. It decides only if a program shows that no forces balance the loads.
         if !is_strong && !strategy.excludes_balance(attempt) {
             progress.weak = Some((mechanism, proof));
             return None;
@@ -180,15 +180,15 @@ impl Component<'_> {
         })
     }
 
-    /// Returns the decision after the last strategy: unstable if there is a weak motion, because no strategy found
-    /// forces; otherwise undecided.
+    /// Returns the decision if no strategy gave a strong proof: unstable if there is a weak motion, otherwise
+    /// undecided.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
         let decision = match &progress.last {
             Some((strategy, _)) => progress.decision(program, *strategy),
             None => Decision::new(program, Method::LeastForce),
         };
         let attempt = progress.last.map(|(_, attempt)| attempt);
-        // No strategy found forces, so the weak motion decides.
+        // There is a motion, even if weak, and no strategy found balancing forces. The motion decides.
         if let Some((mechanism, proof)) = progress.weak {
             return Decision {
                 verdict: Verdict::Unstable,
@@ -202,7 +202,7 @@ impl Component<'_> {
         let amounts = forces.cloned().unwrap_or_else(|| Amounts::none(program));
         let proof = self.prove_forces(&amounts).proof;
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
-        // Neither forces nor a motion are proved. The reason says how far both are from a proof.
+        // Neither forces nor a motion are proved. The reason reports the errors of both.
         let unproved_motion = motion.map(|y| self.mechanism(&self.moved(y).1));
         Decision {
             verdict: Verdict::Undecided,
@@ -218,7 +218,7 @@ impl Component<'_> {
 }
 
 impl Decision {
-    /// Creates a decision with the verdict stable, but without forces and without a proof.
+    /// Creates a decision with the verdict *stable*, whose forces and proof are to be filled in.
     pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,

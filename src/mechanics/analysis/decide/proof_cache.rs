@@ -1,4 +1,4 @@
-//! [`ProofCache`]: forces and motions of similar components, tried as proofs before any program is solved.
+//! [`ProofCache`]: forces and motions of similar components. They may prove a verdict without solving a program.
 //!
 //! A margin needs the verdicts of many components that differ in one number. Forces that balance one often balance the next,
 //! and the motion by which one falls often proves the fall of another. Each is proved again for the new component.
@@ -27,7 +27,8 @@ struct Acting {
 }
 
 impl ProofCache {
-    /// Adds the forces that balance an assembly to the cache.
+    /// Stores forces that balance an assembly, and the points at which they act. The oldest forces are removed if the
+    /// cache is full.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
         if self.forces.len() == MAX_KEPT {
             self.forces.remove(0);
@@ -39,7 +40,7 @@ impl ProofCache {
         });
     }
 
-    /// Adds a motion to the cache, one entry for each body.
+    /// Stores a motion, which has one entry for each body. The oldest motion is removed if the cache is full.
     pub fn add_motion(&mut self, motion: Vec<Motion>) {
         if self.motions.len() == MAX_KEPT {
             self.motions.remove(0);
@@ -47,7 +48,7 @@ impl ProofCache {
         self.motions.push(motion);
     }
 
-    /// True if some cached forces balance a component.
+    /// True if some forces in the cache balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
         // The latest forces are tried first, because a search changes the component in small steps.
         let mut latest = self.forces.iter().rev();
@@ -59,8 +60,8 @@ impl ProofCache {
         })
     }
 
-    /// Returns a cached motion that proves that a component falls. No admissible forces can contradict it. `None` if
-    /// there is no such motion.
+    /// Returns a motion from the cache that proves that a component falls. `None` if no motion in the cache proves
+    /// this.
     pub(super) fn falls(&self, component: &Component) -> Option<Vec<Motion>> {
         let mut latest = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
@@ -72,8 +73,8 @@ impl ProofCache {
 }
 
 impl Acting {
-    /// Returns forces with the same resultants at the application points of another component; `None` if a resultant
-    /// passes outside these points.
+    /// Returns the forces that have the same resultants but act at the application points of another component. `None`
+    /// if a resultant passes outside these points.
     fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
@@ -86,8 +87,8 @@ impl Acting {
     }
 }
 
-/// Returns the normal forces at two new points of an interface that have the same resultant; `None` if one of them
-/// would be tension.
+/// Returns the two normal forces at the points `to` that have the same resultant as those at the points `from`. `None`
+/// if one of them would be tension.
 fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = pressed.normal;
     let sum = first + second;
@@ -99,16 +100,16 @@ fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<
     let middle = nalgebra::center(&to[0], &to[1]);
     let moment = (from[0] - middle) * first + (from[1] - middle) * second;
     if square == 0.0 {
-        // If both points coincide, they carry a force that passes through them.
+        // Both points coincide, so the resultant must pass through them.
         let off = moment.norm() / sum;
         let size = (from[1] - from[0]).norm();
         return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
     }
-    // The sum of the two forces stays the same. Their moment about the middle also stays the same and gives their
+    // The sum of the two forces stays the same. Their moment about the middle also stays the same, and determines their
     // difference.
     let difference = 2.0 * moment.dot(&along) / square;
     let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
-    // Treat rounding below 0 as 0.
+    // A force that is negative only by rounding becomes 0.
     let least = -4.0 * f64::EPSILON * sum;
     (normal[0] >= least && normal[1] >= least).then(|| normal.map(|n| n.max(0.0)))
 }

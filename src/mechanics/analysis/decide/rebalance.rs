@@ -1,5 +1,5 @@
-//! Route 3a: corrects forces that balance the structure as a whole, so that they balance each body. Otherwise it tries
-//! to prove that some bodies fall. If both fail, this route does not decide.
+//! Route 3a: corrects forces that balance the structure as a whole but leave light bodies unbalanced. If this fails, it
+//! tries to prove that some of these bodies fall.
 //!
 //! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
 //! and hide that it falls. Each round does the first of these steps that helps:
@@ -56,7 +56,8 @@ pub(super) struct FallingPart {
 }
 
 impl Component<'_> {
-    /// Corrects forces until they balance each body, or proves that some bodies fall.
+    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns [`Outcome::Open`] if
+    /// neither succeeds.
     pub fn rebalance_locally(
         &self,
         program: &Program,
@@ -83,14 +84,14 @@ impl Component<'_> {
                 break;
             }
             let fails = failing(&carried);
-            // Step 1: change each force by a small part of its own amount.
+            // Step 1: change each force by a small fraction of itself.
             if let Some(better) = rebalance_relative(program, &amounts, effort)
                 && count(&failing(&self.prove_forces(&better))) < count(&fails)
             {
                 amounts = better;
                 continue;
             }
-            // Step 2: make the least change of all forces. If this fails once, it is not tried again.
+            // Step 2: change all forces as little as possible. If this fails once, do not try it again.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
                     Some(better)
@@ -115,7 +116,8 @@ impl Component<'_> {
         Outcome::Open
     }
 
-    /// Corrects the forces on each set while all other bodies rest. Returns the sets that fall, and whether any force changed.
+    /// Corrects the forces on each set of bodies, while all other bodies are fixed. Returns the sets that fall, and
+    /// whether any force changed.
     fn rebalance_sets(
         &self,
         sets: Vec<Vec<usize>>,
@@ -138,7 +140,8 @@ impl Component<'_> {
         (falling, is_better)
     }
 
-    /// Corrects the forces on one set while all other bodies rest, or decides the set.
+    /// Corrects the forces on one set of bodies, while all other bodies are fixed. If this fails, decides whether the
+    /// set falls.
     fn rebalance_part(
         &self,
         part: &Substructure,
@@ -153,7 +156,7 @@ impl Component<'_> {
             complete_result: self.complete_result,
             place: Place::Anywhere,
         };
-        // Loads near the smallest floating-point numbers cannot be scaled.
+        // Loads near the smallest floating-point numbers cannot be scaled, so leave this set undecided.
         let ratio = self.scale.force / component.scale.force;
         if !component.scale.force.is_normal() || !ratio.is_normal() {
             return PartOutcome::Open;
@@ -169,8 +172,8 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
         }
-        // The whole component is already being decided. To decide a part that contains nearly all bodies would take as
-        // much time again.
+        // Do not decide a part that contains nearly all bodies: it would take as long as the whole component, which is
+        // already being decided.
         let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
         if own == all || (own > MAX_SMALL_SET && 2 * own > all) {
             return PartOutcome::Open;
@@ -199,8 +202,8 @@ impl Component<'_> {
         }
     }
 
-    /// Combines the motions of the falling parts into one motion, in which all other bodies are at rest, and proves it for
-    /// the whole component. Returns [`Outcome::Open`] if the proof is too weak.
+    /// Combines the motions of the falling parts into one motion, in which all other bodies are at rest, and proves it
+    /// for the whole component. Returns [`Outcome::Open`] if the proof is too weak.
     fn combine_falling_parts(
         &self,
         program: &Program,
@@ -242,7 +245,7 @@ impl Component<'_> {
         })
     }
 
-    /// Returns the forces on a part in the units of `scale`, the scale of the part.
+    /// Selects the forces that act on a part, and converts them to the units of `scale`.
     fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
@@ -252,7 +255,7 @@ impl Component<'_> {
         in_units(&own, self.scale, scale)
     }
 
-    /// Replaces the forces on a part by `own`, which are in the units of the whole component.
+    /// Replaces the forces on a part by `own`. All forces are in the units of the whole component.
     fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
         for (place, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = own.normal[place];

@@ -1,5 +1,5 @@
-//! Computes only the verdict of a component. Margins need this verdict for many similar components, most of them near
-//! their limit.
+//! Computes only the verdict of a component, for margins. A margin needs the verdicts of many similar components, most
+//! of them near the limit of stability.
 
 use super::programs::Decision;
 use super::{Component, Place, ProofCache};
@@ -10,6 +10,9 @@ use crate::proof::{Forces, Motion};
 use crate::solve::{Amounts, Effort, is_late};
 
 /// Returns the verdict of a component, and its mechanism if it falls.
+///
+/// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
+/// [`decide_component`](super::decide_component). Forces or a motion that a program then finds are added to the cache.
 ///
 /// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
 /// [`decide_component`](super::decide_component), and its forces or motion enter the cache.
@@ -41,8 +44,8 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (decision.verdict, decision.mechanism)
 }
 
-/// Returns the verdict that the cached forces and motions prove, with the mechanism if it is unstable. The verdict is
-/// undecided if they prove none. No program is solved.
+/// Returns the verdict that the forces and motions in the cache prove, and the mechanism if it is unstable. Solves no
+/// program. The verdict is undecided if they prove nothing.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -67,7 +70,8 @@ pub(super) const VERDICT_ONLY: Options = Options {
 };
 
 pub(super) fn decide_without_idle_limits(component: &Component, program: &Program) -> Decision {
-    // A motion that stronger robots cannot stop is a mechanism with the real limits too.
+    // Leave out robot limits far above the loads. A motion that stronger robots cannot stop is a mechanism with the
+    // real limits, too.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.decide_by_programs(&generous);
         let allowed = || program.allows(&decision.amounts.grip);
@@ -91,8 +95,8 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
     pub motion: Option<(&'a [f64], &'a Assembly)>,
 }
 
-/// Adds the results of a program at the limit to the cache. Returns its forces in newtons; `None` if the program has no
-/// forces.
+/// Adds the forces and the motion of a program at the limit of stability to the cache. Returns its forces in newtons;
+/// `None` if the program gave no forces.
 pub(in crate::mechanics::analysis) fn remember_limit(
     ends: &Ends,
     cache: &mut ProofCache,

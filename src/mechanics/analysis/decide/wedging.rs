@@ -1,5 +1,5 @@
-//! Tests whether a component stands only by a self-stress that does not arise when its loads are applied to unstressed
-//! contacts.
+//! Checks whether a component stands only by wedging: by a self-stress that its loads do not cause when the contacts
+//! are unstressed at first.
 
 use super::{Component, Findings};
 use crate::analysis::{Options, Wedged};
@@ -10,8 +10,8 @@ use crate::scene::Scene;
 use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
 
 /// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and the
-/// proof. The answer is `None` if some component could not be decided and no other component is proved to stand only by
-/// wedging.
+/// proof. The answer is `None` if it is unknown: no component is proved to stand only by wedging, but some are
+/// undecided.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
@@ -49,8 +49,8 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     answer
 }
 
-/// Describes the proof: which blocks move if contacts are springs without initial stress, and which self-stress is
-/// needed.
+/// Describes the proof of wedging in words: which blocks move if the contacts are springs without initial stress, and
+/// which self-stress a balance needs.
 fn shown<'n>(
     self_stress: &SelfStress,
     unit: f64,
@@ -73,7 +73,7 @@ fn shown<'n>(
     words
 }
 
-/// Returns a list of at most four names, and the number of the others.
+/// Returns the first four names and the number of the other names, such as `a, b, c, d and 2 more`.
 fn several(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.collect();
     match names.len() {

@@ -1,4 +1,5 @@
-//! Decides statically determinate components: computes the mechanism and the missing adhesion without a program.
+//! Decides a statically determinate component that falls: computes its mechanism and its missing adhesion without a
+//! linear program.
 
 use super::Attempt;
 use crate::program::Program;

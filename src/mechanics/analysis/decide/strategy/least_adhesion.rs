@@ -1,6 +1,5 @@
-//! Least adhesion: the smallest forces by which contacts or robots would have to exceed their limits. The optimum is
-//! the physical residual. Near the limit, it distinguishes zero from almost zero better than the status of a solver
-//! does.
+//! Program of least adhesion: minimises the forces by which contacts or robots exceed their limits. Near the limit of
+//! stability, this sum separates zero from almost zero more reliably than the solver's status.
 
 use super::Attempt;
 use crate::program::Program;

@@ -1,5 +1,5 @@
-//! Least force: admissible forces of least sum that balance the loads, or a motion that no forces can stop. This one
-//! program decides nearly every component, and figures show its forces.
+//! Program of least force: finds admissible forces of least sum that balance the loads, or a motion that no forces can
+//! stop. It decides nearly every component, and figures show its forces.
 
 use super::Attempt;
 use crate::program::Program;
@@ -9,8 +9,8 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_in(program, settings))
 }
 
-/// Like [`attempt`], but with few iterations. Near the limit the program converges slowly or ends without a status,
-/// and other strategies decide sooner.
+/// Solves the program of least force with few iterations. Near the limit of stability it converges slowly or ends
+/// without a status, and other programs decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_at_first_look(program, settings))
 }

@@ -1,6 +1,6 @@
-//! Two programs: [`any`] finds some forces that balance the loads, or a motion that proves that no forces do.
-//! [`attempt`] finds the forces with the least imbalance and the motion with the greatest power. Both programs have an
-//! optimum on both sides of the limit, where the program of least force may end without a status.
+//! Two programs that have an optimum whether the component stands or falls. [`any`] finds some forces that balance the
+//! loads, or a motion that excludes such forces. [`attempt`] finds the forces with the least imbalance and the motion
+//! with the greatest power.
 
 use super::Attempt;
 use crate::program::Program;

@@ -1,4 +1,4 @@
-//! The strategies of route 3 and their order. Each strategy solves one program and returns forces, a motion, or neither.
+//! The strategies of route 3 and their order. Each strategy solves one program for forces, a motion, or both.
 
 mod determinate;
 mod least_force;
@@ -31,7 +31,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Returns the name of this method in results.
+    /// Returns the name of this method in results, such as `least residual`.
     pub fn name(self) -> &'static str {
         match self {
             Method::ClosedForm => "closed form",
@@ -89,8 +89,8 @@ pub(super) struct Attempt {
 }
 
 impl Attempt {
-    /// Returns the forces of this attempt, even if they balance only with adhesion. They are not proved. `None` if the
-    /// attempt found no forces.
+    /// Returns the unproved forces of this attempt. These may be forces that balance only together with adhesion.
+    /// `None` if the attempt found no forces.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
         let least_adhesion = self
             .least_adhesion
@@ -115,11 +115,11 @@ impl Strategy {
     ///
     /// - At the limit (`Place::AtEdge`) step 3 comes before step 2.
     /// - Large programs begin with a short attempt at least force. If failures are requested, least adhesion comes
-    ///   before least residual: a large component that falls needs it in any case, and least residual takes nearly as
-    ///   long.
-    /// - If only the verdict is requested, large programs begin with any balance. Falling walls of 410 and 915 bricks
-    ///   take 9 to 20 iterations with it and 9 to 60 with least force. The short attempt at least force comes next,
-    ///   because any balance gives no strong proof for a stack of 10 000 blocks.
+    ///   before least residual: a large component that falls needs least adhesion in any case, and least residual takes
+    ///   nearly as long.
+    /// - If only the verdict is requested, large programs begin with any balance. For falling walls of 410 and 915
+    ///   bricks, any balance takes 9 to 20 iterations and least force takes 9 to 60. The short attempt at least force
+    ///   comes next, because any balance gives no strong proof for a stack of 10 000 blocks.
     pub fn in_order(
         program: &Program,
         settings: &[SolverSettings],
@@ -133,8 +133,8 @@ impl Strategy {
         let quick = settings.iter().find(plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
         match place {
-            // Large components: a short attempt, any balance, least adhesion if failures are requested, least residual,
-            // then full attempts.
+            // Large components. Order: short attempt at least force, any balance, least adhesion if failures are
+            // requested, least residual, full attempts at least force.
             Place::Anywhere if many && !any => {
                 strategies.splice(0..0, residual);
                 if complete_result {
@@ -142,7 +142,8 @@ impl Strategy {
                 }
                 strategies.splice(0..0, quick.map(Strategy::FirstLook));
             }
-            // Large components, verdict only: any balance, a short attempt, least residual, then full attempts.
+            // Large components, if only the verdict is requested. Order: any balance, short attempt at least force,
+            // least residual, full attempts at least force.
             Place::Anywhere if many => {
                 strategies.splice(0..0, residual);
                 let unique = |settings| SolverSettings {
@@ -151,17 +152,18 @@ impl Strategy {
                 };
                 strategies.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
             }
-            // Small components: one attempt at least force, any balance, least residual, then refined attempts.
+            // Small components. Order: least force, any balance, least residual, least force with full precision.
             Place::Anywhere => {
                 let second = 1.min(strategies.len());
                 strategies.splice(second..second, residual);
             }
-            // At the limit least force may have no optimum, so least residual comes first.
+            // At the limit of stability, the program of least force may have no optimum. Any balance and least residual
+            // come first.
             Place::AtEdge => {
                 strategies.splice(0..0, residual);
             }
         }
-        // Closed form is always first, least adhesion always last.
+        // The closed form is always tried first, and least adhesion last.
         strategies.insert(0, Strategy::Determinate);
         for settings in settings.iter().copied().map(Strategy::Adhesion) {
             if !strategies.contains(&settings) {
@@ -182,13 +184,13 @@ impl Strategy {
         }
     }
 
-    /// True if the strategy solves the complete program of least force.
+    /// True if the strategy solves the program of least force to the end.
     pub fn is_least(&self) -> bool {
         matches!(self, Strategy::Force(_))
     }
 
-    /// True if an attempt whose forces have no proof shows that no forces balance the loads. Only programs with an
-    /// optimum on both sides of the limit show this.
+    /// True if an attempt shows that no forces balance the loads, given that its own forces have no proof. Only
+    /// programs that have an optimum whether the component stands or falls can show this.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
