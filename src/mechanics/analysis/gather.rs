@@ -117,9 +117,9 @@ pub(super) fn add(
     analysis.verdict = analysis.verdict.max(found.verdict);
 }
 
-/// Sets the forces at the contacts and grips of one component, and adds them to the total.
+/// Sets the forces of one component at its contacts and robots, and adds their magnitudes to `total_force`.
 fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
-    // Set the normal forces, the friction and their resultant at each contact.
+    // Set the normal forces, the friction and the resultant of each contact.
     for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
         let contact = &mut analysis.contacts[at.interface];
         let (normal, friction) = (pressed.normal, pressed.friction);
@@ -129,7 +129,7 @@ fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findin
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
-    // Set the force and the torque of each robot, and the largest used fraction of its limits.
+    // Set the force and the torque of each robot, and the largest fraction of its limits that they use.
     for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {

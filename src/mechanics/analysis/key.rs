@@ -1,4 +1,4 @@
-//! [`Key`]: identifies equal components of different frames, so that each component is decided only once.
+//! [`Key`]: recognises components that occur unchanged in several frames, so that each is decided only once.
 
 use crate::assembly::Assembly;
 use crate::scene::{BlockId, RobotId};
@@ -7,7 +7,8 @@ use crate::scene::{BlockId, RobotId};
 /// bits of the grip point's coordinates), and the bits of L.
 pub(super) type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-/// Returns the key of a component. Equal components have equal keys.
+/// Returns the key of a component: its blocks, its holds and its length L. Components with equal keys have equal
+/// results.
 pub(super) fn key(component: &Assembly) -> Key {
     let blocks = component.bodies.iter().map(|body| body.block);
     let holds = component.grips.iter().map(|grip| {

@@ -1,4 +1,5 @@
-//! [`Threshold`]: searches the value of a parameter that separates stable values from unstable values.
+//! [`Threshold`]: searches for the value of a parameter (friction or kernel) at which a component begins or ceases to
+//! stand.
 //!
 //! Newton's method ([`super::newton`]) finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
 //! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
@@ -33,7 +34,8 @@ pub(super) struct Threshold {
 }
 
 impl Threshold {
-    /// Creates the search for the least sufficient value between 0 and `most`.
+    /// Creates the search for the smallest value from 0 to `most` at which the component stands, such as its least
+    /// friction.
     pub fn least(most: f64) -> Threshold {
         Threshold {
             way: Way::Least,
@@ -42,7 +44,8 @@ impl Threshold {
         }
     }
 
-    /// Creates the search for the largest admissible value between 0 and `most`.
+    /// Creates the search for the largest value from 0 to `most` at which the component stands, such as its largest
+    /// kernel.
     pub fn most(most: f64) -> Threshold {
         Threshold {
             way: Way::Most,
@@ -50,7 +53,7 @@ impl Threshold {
         }
     }
 
-    /// Returns the interval of stable values: from 0 to `end`, or from `end` upwards.
+    /// Returns the interval of values at which the component stands: from 0 to `end`, or from `end` upwards.
     fn interval(&self, end: End) -> Interval {
         match self.way {
             Way::Most => Interval::Between {
@@ -78,8 +81,11 @@ impl Threshold {
     /// beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
     const SMALL: f64 = 0.1;
 
-    /// Searches the threshold between 0 and `most`, with Newton's method or else by bisection. Returns the interval
-    /// of values at which the component stands.
+    /// Searches for the threshold between 0 and `most`, by Newton's method and bisection. Returns the interval of
+    /// values at which the component stands.
+    ///
+    /// If the verdict at a value is undecided, the search ends there, because it cannot find the threshold more
+    /// exactly.
     ///
     /// The search ends at an undecided value, because the threshold cannot be found more exactly.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
@@ -91,7 +97,7 @@ impl Threshold {
             (verdict, _) => verdict == Verdict::Stable,
         };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
-        // Take large steps from 0 outward, as long as the verdict is the same as at 0.
+        // Take large steps from 0 until the verdict changes from stable to another verdict, or to stable.
         let (mut verdict, mut motion) = trial.judge(&setting(far));
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {
@@ -111,7 +117,7 @@ impl Threshold {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
-        // Use Newton's method within the bracket, then compute verdicts on both sides of its root.
+        // Find the threshold with Newton's method. Then compute verdicts at values just below and just above it.
         let root = self.stepped(trial, setting, [inside, outside]);
         let mut bracket = Bracket {
             inside,
@@ -124,7 +130,8 @@ impl Threshold {
         self.interval(self.closed_in(trial, setting, bracket, root))
     }
 
-    /// Finds verdicts on both sides of the root of Newton's method, as close to it as possible.
+    /// Computes verdicts on both sides of `root`, the threshold according to Newton's method, as near to it as
+    /// possible. Narrows the bracket to these values.
     fn enclose(
         &self,
         trial: &mut Trial,
@@ -140,8 +147,8 @@ impl Threshold {
                 break;
             }
         }
-        // Within the tolerance of the proofs the verdict may be stable a little beyond the threshold. Only the verdict
-        // unstable is used there.
+        // Just beyond the threshold, the verdict may still be stable within the tolerance of the proofs. Therefore use
+        // only an unstable verdict there.
         for value in self.steps(root, Side::Beyond) {
             if !within(&value, bracket) {
                 continue;
@@ -154,9 +161,8 @@ impl Threshold {
         }
     }
 
-    /// Bisects a bracket until its two verdicts are close enough, and returns the end of the interval. If `root` lies
-    /// in the bracket, the larger tolerance `SURE` applies. The end is unconfirmed if the verdicts stay too far
-    /// apart.
+    /// Bisects a bracket until its two values are close enough, and returns the end of the interval. A bracket that
+    /// contains `root` may be wider (`SURE`). The end is unconfirmed if the values stay too far apart.
     fn closed_in(
         &self,
         trial: &mut Trial,
@@ -181,7 +187,7 @@ impl Threshold {
             let middle = 0.5 * (bracket.inside + bracket.outside);
             is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
         }
-        // The component stands at a value that is 0 within the tolerance, so the end is 0.
+        // The component stands at a value that differs from 0 by less than the tolerance, so it stands from 0 on.
         if self.way == Way::Least && is_none(bracket.inside) {
             return End::natural(0.0);
         }
@@ -202,7 +208,8 @@ impl Threshold {
                     mechanism,
                 }
             }
-            // Only the last millionth below the largest value is undecided, so the interval ends at the largest value.
+            // The verdict is undecided only within 1e-6 of the largest value, so the interval ends at the largest
+            // value.
             None if is_last && self.stands_at_the_last(trial, setting) => End::natural(self.most),
             None => End::Unconfirmed {
                 stands: bracket.inside,
@@ -211,19 +218,20 @@ impl Threshold {
         }
     }
 
-    /// True if the search is for the largest admissible value, the bracket ends at `most`, and no mechanism was found
-    /// there.
+    /// True if no fall was found up to the largest value: the search is for the largest admissible value, and the
+    /// bracket ends at `most` without a mechanism.
     fn is_last(&self, bracket: &Bracket) -> bool {
         self.way == Way::Most && bracket.outside == self.most && bracket.mechanism.is_none()
     }
 
-    /// True if the component stands a millionth below the largest value.
+    /// True if the component stands at a value that is 1e-6 (relative) below the largest value.
     fn stands_at_the_last(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> bool {
         let last = self.most * (1.0 - Self::NEAR);
         trial.judge_at(&setting(last), Place::AtEdge).0 == Verdict::Stable
     }
 
-    /// Returns values at growing distances from `at`, on the given side of it.
+    /// Returns values at growing distances from the threshold `at`, on the side where the component stands (`Inside`)
+    /// or falls (`Beyond`).
     pub(super) fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
         let size = if at > 0.0 { at } else { self.natural };
         let sign = match (self.way, side) {
@@ -242,7 +250,7 @@ impl Threshold {
         std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
             .take_while(move |step| *step <= far)
             .map(move |step| (at + sign * step).clamp(0.0, most))
-            // Values beyond 0 or `most` are clamped to it. Try such an end once, then stop.
+            // Steps that pass 0 or `most` are clamped to this limit. Return the limit once, then stop.
             .take_while(move |value| {
                 let last = *value == 0.0 || *value == most;
                 !std::mem::replace(&mut ended, last)
@@ -261,7 +269,8 @@ struct Bracket {
 }
 
 impl Bracket {
-    /// Decides the component at a value inside the bracket, first with cached proofs, and narrows the bracket.
+    /// Decides the component at a value inside the bracket, and moves one end of the bracket to this value. The bracket
+    /// stays if the verdict is undecided.
     fn take(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
         let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
         match verdict {

@@ -1,4 +1,4 @@
-//! [`Exclusion`]: values of a parameter at which a frame falls by one motion.
+//! [`Exclusion`]: a range of values of a parameter in which a frame falls by the same motion.
 //!
 //! A frame that stands at no value of a parameter has a few of them, which cover all values: one motion that no value
 //! stops, two parts of the structure that need values apart from each other, or arcs of tilts.
@@ -18,7 +18,7 @@ pub struct Exclusion {
 }
 
 impl Exclusion {
-    /// Creates the exclusion of all values: no value of the parameter stops the motion.
+    /// Creates the exclusion of all values: the frame falls by this motion at every value of the parameter.
     pub(super) fn everywhere(mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             from: None,
@@ -27,7 +27,7 @@ impl Exclusion {
         }
     }
 
-    /// Creates the exclusion of all values below `to`.
+    /// Creates the exclusion of all values below `to`, where the frame falls by this motion.
     pub(super) fn below(to: f64, mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             to: Some(to),
@@ -35,7 +35,7 @@ impl Exclusion {
         }
     }
 
-    /// Creates the exclusion of all values above `from`.
+    /// Creates the exclusion of all values above `from`, where the frame falls by this motion.
     pub(super) fn above(from: f64, mechanism: Vec<Motion>) -> Exclusion {
         Exclusion {
             from: Some(from),
@@ -44,8 +44,8 @@ impl Exclusion {
     }
 }
 
-/// Returns the fewest of these arcs of tilts, in degrees, that still cover a full turn, in the order of their
-/// beginnings. Two arcs count as joined if the distance between them is at most `gap`.
+/// Selects as few of these arcs of tilts, in degrees, as still cover a full turn, sorted by their beginning. Two arcs
+/// count as joined if the gap between them is at most `gap`. Returns all arcs if they do not cover a full turn.
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
     let ends = |arc: &Exclusion| {
         let [from, to] = [arc.from, arc.to];
@@ -58,7 +58,7 @@ pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<E
     let (first, mut kept) = (first.fold(f64::INFINITY, f64::min), Vec::new());
     let mut reached = first;
     while reached < first + 360.0 {
-        // Choose the arc that reaches farthest among those that begin before the covered range ends.
+        // Of the arcs that begin within the covered range, choose the arc that ends farthest.
         let joined = arcs
             .iter()
             .filter(|arc| ends(arc).0 <= reached + gap(reached));

@@ -50,8 +50,8 @@ pub enum End {
 }
 
 impl End {
-    /// Creates an end at which the range of the parameter ends. The structure does not fall there, so there is no
-    /// mechanism.
+    /// Creates an end at the first or last possible value of a parameter, such as friction 0. The structure stands
+    /// there, so the end has no mechanism.
     pub(super) fn natural(value: f64) -> End {
         End::At {
             value,
@@ -59,8 +59,7 @@ impl End {
         }
     }
 
-    /// Returns the value of a confirmed end. `None` if the interval is unbounded on this side, or if the end is
-    /// unconfirmed.
+    /// Returns the value of this end. `None` if the interval is unbounded on this side, or if the end is not confirmed.
     pub fn value(&self) -> Option<f64> {
         match self {
             End::At { value, .. } => Some(*value),
@@ -68,8 +67,8 @@ impl End {
         }
     }
 
-    /// Returns the farthest value at which the frame is known to stand; `otherwise` if the interval is unbounded on
-    /// this side.
+    /// Returns the outermost value on this side at which the frame is known to stand. Returns `otherwise` if the
+    /// interval is unbounded on this side.
     fn stands(&self, otherwise: f64) -> f64 {
         match self {
             End::At { value, .. } => *value,
@@ -89,12 +88,12 @@ impl Interval {
         high: End::Unbounded,
     };
 
-    /// Returns an empty interval, because no value stops this motion.
+    /// Returns an empty interval: the frame falls by this motion at every value.
     pub(super) fn excluded_by(mechanism: Vec<Motion>) -> Interval {
         Interval::Empty(vec![Exclusion::everywhere(mechanism)])
     }
 
-    /// Returns the lower end; `None` if the interval is empty or undecided.
+    /// Returns the lower end of the interval; `None` if the interval is empty or undecided.
     pub fn low(&self) -> Option<&End> {
         match self {
             Interval::Between { low, .. } => Some(low),
@@ -102,7 +101,7 @@ impl Interval {
         }
     }
 
-    /// Returns the upper end; `None` if the interval is empty or undecided.
+    /// Returns the upper end of the interval; `None` if the interval is empty or undecided.
     pub fn high(&self) -> Option<&End> {
         match self {
             Interval::Between { high, .. } => Some(high),
@@ -120,11 +119,11 @@ impl Interval {
         }
     }
 
-    /// Returns the values at which two components of one frame both stand.
+    /// Returns the intersection of two intervals: the values at which two components of a frame both stand.
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
             (Interval::Empty(a), Interval::Empty(b)) => {
-                // Keep the explanation with fewer motions.
+                // Both intervals are empty. Keep the reason with fewer motions.
                 return Interval::Empty(if b.len() < a.len() { b } else { a });
             }
             (empty @ Interval::Empty(_), _) | (_, empty @ Interval::Empty(_)) => return empty,
@@ -154,12 +153,12 @@ impl Interval {
             }
         };
         let (least, most) = (low.stands(f64::NEG_INFINITY), high.stands(f64::INFINITY));
-        // Two intervals may meet in one value.
+        // Two intervals may have only one value in common, so allow for rounding.
         if least <= most + SAME_VALUE * most.abs() {
             return Interval::Between { low, high };
         }
         match (low, high) {
-            // One component falls below its lower end, another one above its upper end.
+            // No value suits both components: one falls below its lower end, the other falls above its upper end.
             (
                 End::At {
                     value: low,
@@ -173,7 +172,7 @@ impl Interval {
                 Exclusion::below(low, below),
                 Exclusion::above(high, above),
             ]),
-            // Both components may stand at values at which the verdict of one of them is unknown.
+            // One end is not confirmed. Both components may stand at a value beyond it, so the intersection is unknown.
             _ => Interval::Undecided,
         }
     }

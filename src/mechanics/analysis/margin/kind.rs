@@ -29,18 +29,19 @@ impl MarginKind {
         MarginKind::Robots,
     ];
 
-    /// Returns the margin with this name in results; `None` if there is none. Hyphens count as underscores.
+    /// Returns the margin with this name in results; `None` if no margin has this name. A hyphen counts as an
+    /// underscore.
     pub fn from_word(word: &str) -> Option<MarginKind> {
         let word = word.replace('-', "_").to_ascii_lowercase();
         MarginKind::ALL.into_iter().find(|kind| kind.word() == word)
     }
 
-    /// True if the margin is one number, whose sensitivity can be computed: every margin except that of the robots.
+    /// True if a sensitivity can be computed for this margin: for every margin except the limits of robots.
     pub fn has_sensitivity(self) -> bool {
         self != MarginKind::Robots
     }
 
-    /// Returns the name of this margin in results.
+    /// Returns the name of this margin in results, such as `load_factor`.
     pub fn word(self) -> &'static str {
         match self {
             MarginKind::Friction => "friction",
@@ -63,13 +64,13 @@ impl MarginKinds {
     /// All of them.
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
-    /// Creates the set of requested margins from a list.
+    /// Creates a set of margins from a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }
     }
 
-    /// Returns the set with one more margin.
+    /// Returns this set with one margin added.
     #[must_use]
     pub fn with(self, kind: MarginKind) -> MarginKinds {
         MarginKinds {

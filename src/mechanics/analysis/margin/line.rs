@@ -1,4 +1,5 @@
-//! [`Line`]: finds the ends of the interval of a parameter if the loads, or the limits of forces, are linear in it.
+//! [`Line`]: finds the values of a parameter between which a component stands. The loads, or the limits of forces, must
+//! be linear in this parameter.
 //!
 //! The power of the loads along a fixed mechanism is linear in such a parameter. One mechanism therefore shows that a
 //! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley
@@ -56,8 +57,11 @@ const MAX_VALUE: f64 = 1e6;
 const MAX_REACH: f64 = 1e6;
 
 impl Line<'_> {
-    /// Finds the end of the interval in the direction `outward` (−1 or 1), from a value at which the component
-    /// stands.
+    /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `from`, at which the
+    /// component stands.
+    ///
+    /// `hint` is the end that a linear program found. The forces and the motion of this program are already in the
+    /// cache of `trial`.
     ///
     /// `hint` is the end according to a linear program. The trial's cache already contains the forces and the motion
     /// of that program.
@@ -65,7 +69,7 @@ impl Line<'_> {
         let hint = hint
             .map(|hint| self.rounded(hint))
             .filter(|hint| (hint - from) * outward >= -STABLE_BEYOND * self.size(*hint));
-        // The least meaningful value of the parameter may itself be the end.
+        // The interval may end at the smallest possible value of the parameter, such as 0.
         let is_natural = outward < 0.0 && self.least.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.least)
@@ -77,11 +81,11 @@ impl Line<'_> {
             inside: from,
             beyond: None,
         };
-        // Compute verdicts around the hint: two of them often confirm the end.
+        // Compute verdicts on both sides of the hint. They often confirm the end at once.
         if let Some(hint) = hint {
             self.enclose(trial, &mut bracket, hint, outward);
         }
-        // Step outward until the component falls. Then cut and bisect until both sides are within `NEAR`.
+        // Step outward until the component falls. Then narrow the bracket by cutting planes and bisection.
         for _ in 0..MAX_STEPS {
             let Some((beyond, mechanism)) = &bracket.beyond else {
                 match self.farther(trial, &mut bracket, outward) {
@@ -90,7 +94,7 @@ impl Line<'_> {
                 }
             };
             if (beyond - bracket.inside) * outward <= NEAR * self.size(*beyond) {
-                // A verdict may be stable a little beyond the end, within the tolerance of the proofs.
+                // The stable value may lie slightly beyond the end, within the tolerance of the proofs.
                 let within = hint.filter(|hint| {
                     (hint - bracket.inside) * outward >= -NEAR * self.size(*hint)
                         && (beyond - hint) * outward >= 0.0
@@ -100,8 +104,8 @@ impl Line<'_> {
                     mechanism: mechanism.clone(),
                 };
             }
-            // Try a value just inside the limit up to which the mechanism proves the fall. If its verdict is undecided,
-            // try the middle.
+            // `beyond` is where the mechanism ceases to prove a fall. Try a value just inside it. If the verdict there
+            // is undecided, try the middle of the bracket.
             let (beyond, inside) = (*beyond, bracket.inside);
             let just = beyond - 0.5 * outward * NEAR * self.size(beyond);
             let found = [just, 0.5 * (inside + beyond)]
@@ -124,7 +128,7 @@ impl Line<'_> {
         self.unconfirmed(bracket, hint, outward)
     }
 
-    /// Returns three values: the end, a value just inside it, and a value well beyond it.
+    /// Returns three values for an end of the interval: the end, a value just inside it, and a value clearly beyond it.
     pub fn around(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
         [
@@ -134,13 +138,13 @@ impl Line<'_> {
         ]
     }
 
-    /// Returns `value`, but at most a large finite number, from which the search can go inward.
+    /// Returns `value`, limited to a large finite number, so that an inward search can start there.
     pub fn from(&self, value: f64) -> f64 {
         value.min(MAX_VALUE * self.reach)
     }
 
-    /// Returns the end if the verdicts on its two sides are not close together: the hint if both sides agree with it,
-    /// otherwise an unconfirmed end.
+    /// Returns the end if the bracket could not be narrowed enough. This is the hint if the verdicts on both sides
+    /// agree with it, otherwise an unconfirmed end.
     fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
         let Some((beyond, mechanism)) = beyond else {
@@ -149,7 +153,7 @@ impl Line<'_> {
                 beyond: outward * f64::INFINITY,
             };
         };
-        // The linear program gives the value, and the verdicts on both sides are close enough to confirm it.
+        // The hint is confirmed if the verdicts on both sides are close enough to it.
         let agrees = |hint: &f64| {
             let [from_inside, to_beyond] =
                 [hint - inside, beyond - hint].map(|apart| apart * outward / self.size(*hint));
@@ -165,7 +169,8 @@ impl Line<'_> {
         }
     }
 
-    /// Finds verdicts on both sides of the expected end. Cached proofs are tried first, because they need no program.
+    /// Computes verdicts on both sides of `hint`, the expected end, and narrows the bracket to these values. Tries
+    /// cached proofs first, because they need no program.
     fn enclose(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
         let size = self.size(hint);
         let steps = || {
@@ -208,7 +213,7 @@ impl Line<'_> {
         }
     }
 
-    /// Narrows a bracket with a mechanism that was found at a value.
+    /// Narrows a bracket with the mechanism by which the component falls at `value`.
     fn cut(
         &self,
         trial: &Trial,
@@ -220,8 +225,8 @@ impl Line<'_> {
         let reached = match self.reach(trial, value, &motion) {
             Cut::Above(bound) if outward > 0.0 => bound,
             Cut::Below(bound) if outward < 0.0 => bound,
-            // The mechanism also excludes values at which the verdict is stable, so that verdict holds only within its
-            // tolerance. Cut at the value itself.
+            // The mechanism even excludes values with a stable verdict, which is then true only within its tolerance.
+            // Use `value` itself as the outer end.
             _ => value,
         };
         let bound = if (reached - bracket.inside) * outward < 0.0 {
@@ -238,8 +243,8 @@ impl Line<'_> {
         }
     }
 
-    /// Takes a step outward if no value is known at which the component falls. Returns an end if there is no farther
-    /// value, otherwise `None`.
+    /// Moves a bracket outward that has no outer end yet: decides the component at a larger distance. Returns the end
+    /// of the interval if the search must stop, otherwise `None`.
     fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.reach;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
@@ -264,9 +269,9 @@ impl Line<'_> {
         None
     }
 
-    /// Finds the value nearest to `present` at which the component stands; it falls at `present` itself. `hint` is the
-    /// result of a linear program. The error is the interval if no such value is found: empty if mechanisms exclude all
-    /// values, otherwise undecided.
+    /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is
+    /// this value according to a linear program. If no value is found, the error is the interval: empty if mechanisms
+    /// exclude all values, otherwise undecided.
     pub fn nearest(
         &self,
         trial: &mut Trial,
@@ -274,7 +279,7 @@ impl Line<'_> {
         hint: Option<f64>,
     ) -> Result<f64, Interval> {
         let (mut low, mut high) = (self.least, f64::INFINITY);
-        // The motions that exclude all values below `low` and all values above `high`.
+        // `below` and `above` are the exclusions of all values below `low` and above `high`.
         let [mut below, mut above] = [None, None];
         let limit = MAX_REACH * self.reach;
         let mut next = Some(present);
@@ -315,8 +320,8 @@ impl Line<'_> {
         Err(Interval::Undecided)
     }
 
-    /// Decides a value. If it is undecided, decides values between `low` and `high` at growing distances on both
-    /// sides. Returns the verdict, the value that it belongs to, and the mechanism.
+    /// Returns the verdict at `value`. If it is undecided, tries values near it, between `low` and `high`. Also returns
+    /// the value that the verdict belongs to, and the mechanism if the component falls there.
     fn beside(
         &self,
         trial: &mut Trial,
@@ -339,16 +344,16 @@ impl Line<'_> {
         (Verdict::Undecided, value, last)
     }
 
-    /// Returns the values that a mechanism found at `value` excludes.
+    /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
     fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
         let [without, with] = [0.0, self.reach].map(|at| trial.power(&(self.setting)(at), motion));
-        // The power along the mechanism is linear in the value: A + B·value. It vanishes at −A/B.
+        // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
         let slope = (with - without) / self.reach;
         let bound = -without / slope;
         if !bound.is_finite() || bound.abs() > MAX_REACH * self.reach {
             return Cut::All;
         }
-        // The mechanism has positive power at `value`, so it excludes this value, too.
+        // The mechanism was found at `value`, so the excluded range must contain `value`.
         if slope > 0.0 {
             Cut::Above(bound.min(value))
         } else {
@@ -360,7 +365,7 @@ impl Line<'_> {
         trial.judge_at(&(self.setting)(value), Place::AtEdge)
     }
 
-    /// Returns the size to which distances from a value are relative: its magnitude, or `natural` if it is nearly 0.
+    /// Returns the magnitude of `value`, to which distances are relative; `natural` if `value` is nearly 0.
     fn size(&self, value: f64) -> f64 {
         if value.abs() < 1e-3 * self.natural {
             self.natural
@@ -369,7 +374,7 @@ impl Line<'_> {
         }
     }
 
-    /// Rounds a value to 0 if it differs from 0 only by rounding.
+    /// Returns `value`, or 0 if `value` differs from 0 only by rounding.
     fn rounded(&self, value: f64) -> f64 {
         if value.abs() < 1e-9 * self.natural {
             0.0

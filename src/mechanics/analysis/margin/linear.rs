@@ -1,4 +1,4 @@
-//! Computes the interval of a parameter in which the loads are linear.
+//! Computes the values of a parameter between which a component stands, if its loads are linear in the parameter.
 //!
 //! 1. If the component falls at the present value, find the nearest value at which it stands ([`nearest_start`]).
 //! 2. From a value at which it stands, find the end in each direction ([`end`]): one linear program, confirmed by verdicts.
@@ -17,7 +17,11 @@ struct Start {
     facing_end: Option<f64>,
 }
 
-/// Returns the interval of a parameter in which the loads are linear.
+/// Returns the interval of values of a parameter at which a component stands. The loads must be linear in the
+/// parameter.
+///
+/// `stands` is true if the component stands at the value `present`. `alone(±1)` returns the component with only those
+/// loads that grow in this direction. If it stands, the interval may be unbounded in this direction.
 ///
 /// `stands` is true if the component stands at `present`. `alone` returns the component with only the loads that grow
 /// in one direction. If contacts and unlimited robots carry these loads, the interval has no end in that direction.
@@ -52,10 +56,10 @@ pub(super) fn linear(
     Interval::Between { low, high }
 }
 
-/// Finds the value nearest to `present` at which the component stands. The error is the interval if no such value is
-/// found.
+/// Finds the value nearest to `present` at which the component stands. If there is no such value, the error is the
+/// interval: empty or undecided.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
-    // A linear program predicts the value.
+    // A linear program predicts the nearest value.
     let (program, toward) = trial.direction(
         &(line.setting)(present),
         &(line.setting)(present + line.reach),
@@ -65,8 +69,8 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         Limit::At(change) => (present + change * line.reach).max(line.least),
         _ => present,
     };
-    // Cache the forces and the motion of this program, because they often prove later verdicts. If the component stands
-    // at no value, the motion belongs to the present value.
+    // Add the forces and the motion of this program to the cache: they often prove later verdicts. If the component
+    // stands at no value, the motion is that at the value `present`.
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
         Limit::Never => [present; 3],
@@ -81,8 +85,8 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     })
 }
 
-/// Finds the end in the direction `outward` from `start`, a value at which the component stands. `base` is the
-/// present value, if the component stands there.
+/// Finds the end of the interval in the direction `outward` from `start`, a value at which the component stands. `base`
+/// is the present value if the component stands there, otherwise `None`.
 fn end(
     trial: &mut Trial,
     line: &Line,
@@ -91,7 +95,7 @@ fn end(
     base: Option<f64>,
     alone: &dyn Fn(f64) -> Setting,
 ) -> End {
-    // If the component stands at the least meaningful value, the end is there. This needs no linear program.
+    // If the component stands at the smallest possible value, the interval ends there. This needs no linear program.
     if outward < 0.0
         && line.least.is_finite()
         && trial.judge(&(line.setting)(line.least)).0 == Verdict::Stable
@@ -109,9 +113,10 @@ fn end(
             trial.learn_edge(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))
         }
-        // The component stands only within the proof's tolerance, so the start is the end.
+        // The program finds no balancing forces at the start. The component stands there only within the tolerance of
+        // the proof, so the start is also the end.
         Limit::Never => line.end(trial, start, outward, Some(start)),
-        // The program was not solved, or its unbounded ray could not be confirmed: search the end by verdicts alone.
+        // The program failed, or its result (unbounded) was not confirmed. Search for the end by verdicts only.
         _ => line.end(trial, start, outward, None),
     }
 }

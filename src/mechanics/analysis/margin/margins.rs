@@ -1,4 +1,4 @@
-//! [`Margins`]: the distances of a frame from collapse, which are computed from [`Intervals`].
+//! [`Margins`]: how far each parameter may change before a frame falls. They are read from [`Intervals`].
 
 use super::interval::{End, Interval, Intervals};
 use super::kind::{MarginKind, MarginKinds};
@@ -34,7 +34,7 @@ pub enum Margin {
 }
 
 impl Margin {
-    /// Returns the value of [`Margin::Value`]; `None` for all other variants.
+    /// Returns the limit of stability, in the unit of the margin. `None` if the margin has no confirmed value.
     pub fn at(&self) -> Option<f64> {
         match self {
             Margin::Value { at, .. } => Some(*at),
@@ -97,8 +97,8 @@ impl Margins {
     /// The largest friction coefficient that is tried.
     pub const MOST_FRICTION: f64 = 1e3;
 
-    /// Returns the least sufficient load factor, and the mechanism by which the frame falls below it. `None` unless
-    /// larger factors are sufficient without limit, or if there is no such mechanism.
+    /// Returns the smallest load factor with which the frame stands, and the mechanism by which it falls below this
+    /// factor. `None` if the frame also has a largest load factor, or if there is no such mechanism.
     pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
         let low = self.intervals.load_factor.as_ref()?.low()?;
         match (&self.load_factor, low) {
@@ -126,7 +126,7 @@ pub struct RobotMargins {
 }
 
 impl Margins {
-    /// Derives the requested margins from the intervals.
+    /// Reads the requested margins from the intervals.
     pub(super) fn new(intervals: Intervals, kinds: MarginKinds) -> Margins {
         let robots = intervals.robots.iter().map(|robot| RobotMargins {
             robot: robot.robot,
@@ -153,7 +153,8 @@ impl Margins {
 }
 
 impl Sides {
-    /// Returns the distances from 0 to both ends of an interval. They are [`Margin::None`] if it does not contain 0.
+    /// Returns how far the interval extends from 0 to the left and to the right. Both margins are [`Margin::None`] if
+    /// the interval does not contain 0.
     fn around_zero(interval: Option<&Interval>) -> Sides {
         let both = |margin: Margin| Sides {
             left: margin.clone(),
@@ -170,17 +171,17 @@ impl Sides {
     }
 }
 
-/// Returns the lower end as a margin: the least sufficient value.
+/// Returns the lower end of an interval as a margin: the smallest value at which the frame stands.
 fn least(interval: &Interval) -> Margin {
     interval.low().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// Returns the upper end as a margin: the largest admissible value.
+/// Returns the upper end of an interval as a margin: the largest value at which the frame stands.
 fn most(interval: &Interval) -> Margin {
     interval.high().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// Converts an end to a margin, with its value multiplied by `sign`.
+/// Converts an end of an interval to a margin. Its value is multiplied by `sign` (−1 or 1).
 fn margin(end: &End, sign: f64) -> Margin {
     // Adding 0 turns −0 into 0.
     let signed = |value: f64| sign * value + 0.0;

@@ -1,5 +1,5 @@
-//! [`Margins`]: the values of friction, tilt, loads, kernel and robot limits at which a frame stands, and how far the
-//! frame is from the ends of these ranges.
+//! [`Margins`]: how far a frame is from collapse. For friction, tilt, loads, kernel and robot limits, they give the
+//! range of values at which the frame stands.
 //!
 //! The balance equations are linear in the forces, in a factor on loads and in a horizontal fraction of the weights.
 //! The bounds on forces are linear in a robot's limit. More friction and a smaller kernel only add admissible forces.
@@ -59,8 +59,8 @@ impl Part<'_> {
         Trial::new(self.component, forces)
     }
 
-    /// Returns the interval of a parameter that does not affect the component: `all` if the component stands, empty
-    /// if it falls, otherwise undecided.
+    /// Returns the interval for a parameter that does not affect this component: `all` if the component stands, the
+    /// empty interval if it falls, otherwise undecided.
     fn at_present(&self, all: Interval) -> Interval {
         match self.found.verdict {
             Verdict::Stable => all,
@@ -82,8 +82,8 @@ pub(super) struct ComponentIntervals {
 }
 
 impl ComponentIntervals {
-    /// Returns the interval of the parameter of a margin. `None` if it was not computed, or if the margin is
-    /// [`MarginKind::Robots`].
+    /// Returns the interval of values at which the component stands, for the parameter of a margin. `None` if it was
+    /// not computed, or if the margin is [`MarginKind::Robots`].
     pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
         match kind {
             MarginKind::Friction => self.friction.as_ref(),
@@ -96,8 +96,7 @@ impl ComponentIntervals {
     }
 }
 
-/// Computes the margins of a frame from its components. Also returns the number of changed components that were decided
-/// for them.
+/// Computes the margins of a frame from its components. Also returns how many changed components were decided for this.
 ///
 /// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
 /// 2. Intersect them: a frame stands if all its components stand.
@@ -123,7 +122,8 @@ pub(super) fn find_margins(
         intervals.tilt = Some(nearest_tilt::nearest(&mut trials));
         judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
     }
-    // Only if no loads are listed and no robot has a finite limit, it is certain that the tilts form a single arc.
+    // The tilts at which a frame stands surely form a single arc only if no loads are listed and no robot has a finite
+    // limit.
     let is_cone =
         |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
     if let Some(Interval::Between { .. }) = intervals.tilt
@@ -134,8 +134,8 @@ pub(super) fn find_margins(
     (Margins::new(intervals, kinds), judged)
 }
 
-/// Finds the intervals of components that are not in `known`, and adds them to it. Returns the number of changed
-/// components that were decided.
+/// Computes the intervals of components that are missing in `known`, and adds them to it. Returns how many changed
+/// components were decided for this.
 fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
@@ -152,7 +152,7 @@ fn find_fresh_intervals(
     let each = fresh.par_iter();
     #[cfg(not(feature = "parallel"))]
     let each = fresh.iter();
-    // A deadline is valid on one thread only, so pass it to the worker threads.
+    // A deadline guard works only on its own thread, so each worker thread creates one.
     let deadline = deadline();
     let found: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
@@ -170,7 +170,7 @@ fn find_fresh_intervals(
     judged
 }
 
-/// Returns the intervals of a frame: the intersections of the intervals of its components.
+/// Returns the intervals of a frame, which are the intersections of the intervals of its components.
 fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
     let whole =
         |kind: MarginKind, all: Interval, of: fn(&ComponentIntervals) -> &Option<Interval>| {
@@ -194,7 +194,8 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
         robots: robots(components),
         notes: Vec::new(),
     };
-    // A component without loads stands at every factor or at none. If no component has loads, the factor has no meaning.
+    // The load factor has a meaning only if some component is loaded. A component without loads stands at every factor
+    // or at none.
     let is_loaded = |(_, found): &(&Part, &ComponentIntervals)| found.load_factor.is_some();
     if components.iter().any(is_loaded) {
         let loaded = whole(MarginKind::LoadFactor, from_zero(), |found| {
@@ -214,8 +215,7 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
                        tilts too; this interval contains 0, or is the nearest one where the frame falls unturned";
 
-/// Returns the intervals of all limits of robots. An interval is empty if a component falls that the robot does not
-/// hold.
+/// Returns the intervals of the limits of all robots. They are empty if a component falls that the robot does not hold.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, found)) in components.iter().enumerate() {
@@ -234,7 +234,7 @@ fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
             });
         }
     }
-    // The holds of a frame are in the order of the robots.
+    // Sort by robot, which is also the order of the holds in a frame.
     robots.sort_by_key(|robot| robot.robot);
     robots
 }

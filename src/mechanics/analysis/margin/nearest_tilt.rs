@@ -1,4 +1,4 @@
-//! Finds the tilt nearest to 0 at which a frame stands, if it falls without tilt.
+//! Finds the tilt of gravity nearest to 0 at which a frame stands, for a frame that falls without tilt.
 //!
 //! The mechanism of a tilt excludes an arc of tilts. Arc by arc the excluded range around 0 grows, until the frame stands at
 //! one of its ends or until the range is a full turn.
@@ -16,8 +16,8 @@ use crate::analysis::decide::Place;
 const SLOW: f64 = 1e-2;
 /// How far the search looks ahead, as a multiple of the gain.
 const AHEAD: f64 = 16.0;
-/// Returns the interval of tilts nearest to 0 at which a frame stands, in degrees, for a frame that falls without
-/// tilt.
+/// Returns the interval of tilts at which a frame stands, in degrees, for a frame that falls without tilt. If there are
+/// several such intervals, it returns the interval nearest to 0.
 pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     match first_standing(trials) {
         Err(interval) => interval,
@@ -28,15 +28,15 @@ pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// Finds the tilt nearest to 0 at which all components stand, in degrees. If no such tilt is found, the error is the
-/// interval: empty or undecided. Each mechanism excludes an arc around 0, until the frame stands at one end of the
-/// excluded range.
+/// Finds the tilt nearest to 0 at which all components stand, in degrees. Each mechanism excludes an arc of tilts
+/// around 0; the search goes on from the nearer end of the excluded range. If no tilt is found, the error is the
+/// interval: empty or undecided.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let mut excluded = Excluded::default();
     let mut turn = 0.0;
     'cuts: for _ in 0..MAX_CUTS {
         let outward = if turn < 0.0 { -1.0 } else { 1.0 };
-        // Exactly at the end of the excluded range the verdict may be undecided.
+        // The verdict may be undecided exactly at the end of the excluded range, so also try tilts slightly beyond it.
         let far = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
         let steps = std::iter::once(0.0)
             .chain(steps())
@@ -48,7 +48,7 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
                 Together::Undecided => {}
                 Together::Falls(arc) => {
                     excluded.add(arc);
-                    // If the arc does not enlarge the excluded range, take a small step.
+                    // Enlarge the excluded range by a small step, in case the arc does not enlarge it.
                     if outward > 0.0 {
                         excluded.high = excluded.high.max(at + MIN_GAP);
                     } else {
@@ -91,7 +91,7 @@ struct Excluded {
 }
 
 impl Excluded {
-    /// Adds an arc to the excluded range. A gap between them belongs to the range, too: the verdicts there were
+    /// Adds an arc to the excluded range. Tilts between the range and the arc are also excluded: their verdicts were
     /// undecided.
     fn add(&mut self, arc: Exclusion) {
         let from = arc.from.unwrap_or(f64::NEG_INFINITY);
@@ -109,7 +109,7 @@ impl Excluded {
         self.high - self.low >= 360.0
     }
 
-    /// Returns the end of the excluded range that is nearer to 0.
+    /// Returns the end of the excluded range that is nearer to 0, in degrees.
     fn nearest_end(&self) -> f64 {
         if self.high <= -self.low {
             self.high
@@ -118,7 +118,8 @@ impl Excluded {
         }
     }
 
-    /// Returns the result if the excluded range is a full turn: empty, or undecided if the range contains gaps.
+    /// Returns the interval of stable tilts if the excluded range is a full turn: empty, or undecided if the range
+    /// contains tilts without a verdict.
     fn interval(self) -> Interval {
         let everywhere = self.arcs.iter().find(|arc| arc.from.is_none());
         if let Some(motion) = everywhere {
@@ -131,8 +132,8 @@ impl Excluded {
     }
 }
 
-/// Returns the distance, in degrees, up to which two arcs near a tilt count as joined. Verdicts cannot resolve a
-/// smaller distance.
+/// Returns the largest gap, in degrees, between two arcs near the tilt `turn` that still count as joined. Verdicts
+/// cannot resolve smaller gaps.
 fn gap(turn: f64) -> f64 {
     FAR * size(turn)
 }
@@ -145,7 +146,8 @@ enum Together {
     Falls(Exclusion),
 }
 
-/// Returns the verdict of the whole frame at a tilt.
+/// Returns the verdict of the whole frame with gravity tilted by `turn` degrees. If the frame falls, also returns the
+/// tilts at which its mechanism proves the fall.
 fn judged_together(trials: &mut [Trial], turn: f64) -> Together {
     let mut together = Together::Stands;
     for trial in trials {

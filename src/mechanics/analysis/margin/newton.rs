@@ -1,5 +1,5 @@
-//! Newton's method for a [`Threshold`]: finds the root of the least residual, from the side on which the component
-//! falls.
+//! Newton's method for a [`Threshold`]: searches for the parameter value at which the least residual force becomes 0.
+//! It starts where the component falls.
 
 use super::edge::{Side, Threshold};
 use super::trial::{Setting, Trial};
@@ -40,8 +40,8 @@ struct Steps {
 }
 
 impl Steps {
-    /// Narrows the bracket by the verdict at a value. Returns true if the component falls there; `None` if the program
-    /// is not solved.
+    /// Solves for the least residual at `value`, and moves one end of the bracket there. Returns true if the component
+    /// falls at `value`; `None` if the program could not be solved.
     fn take(
         &mut self,
         trial: &mut Trial,
@@ -64,8 +64,11 @@ impl Steps {
 }
 
 impl Threshold {
-    /// Finds the threshold with Newton's method on the least residual, from the side on which the component falls.
-    /// `None` if the method does not converge.
+    /// Finds the threshold with Newton's method: the value at which the least residual becomes 0. It starts on the side
+    /// where the component falls. `None` if the method does not converge.
+    ///
+    /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds
+    /// the forces and the motion that confirm the threshold to the cache of `trial`.
     ///
     /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds the forces
     /// and the motion that confirm the threshold to the trial's cache.
@@ -82,8 +85,8 @@ impl Threshold {
             standing: None,
         };
         let mut falling = Vec::new();
-        // The last root at which the component stands, with the value at which its tangent was computed; and the length
-        // of the next step from the inner end, as a fraction of the bracket.
+        // `reached`: the last root at which the component stands, and the value of its tangent. `share`: the length of
+        // the next step from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
         for _ in 0..STEPS {
             if at.tangent.left <= LEFT {
@@ -92,7 +95,7 @@ impl Threshold {
             let (inside, outside) = (at.inside, at.outside);
             let size = inside.max(outside);
             let root = trial.root(&at.tangent, setting, [outside, inside]);
-            // Compute the change of the parameter that changes the least residual by 1.
+            // Compute by how much the parameter must change to change the least residual by 1.
             let run = (root - outside).abs() / at.tangent.left;
             let is_within = at.contains(root);
             let is_near = is_within || (root - inside).abs() <= 4.0 * LEFT * run;
@@ -100,8 +103,8 @@ impl Threshold {
                 tangent_at != outside && (root - other).abs() <= (AGREES * size).max(NOISE * run)
             };
             falling.push((outside, at.tangent.clone()));
-            // The method has converged in two cases. The two sides of the bracket are close; or the root of the tangent
-            // is close to the falling side or to the root of another tangent.
+            // The method has converged in two cases: the bracket is narrow, or the root of the tangent agrees with the
+            // falling end of the bracket or with the root of another tangent.
             let is_bracketed = (inside - outside).abs() <= CLOSE * size;
             let is_root = (root - outside).abs() <= CLOSE * size || reached.is_some_and(agrees);
             if is_bracketed || (is_near && is_root) {
@@ -109,7 +112,8 @@ impl Threshold {
                 self.learn_sides(trial, setting, edge, falling, at.standing);
                 return Some(edge);
             }
-            // Take Newton's step to the root of the tangent. If the root lies outside the bracket, step into the bracket.
+            // Go to the root of the tangent (Newton's step). If the root lies outside the bracket, go to a value inside
+            // the bracket.
             if !is_within {
                 let falls = at.take(trial, setting, inside + share * (outside - inside))?;
                 share = if falls && reached.is_some() {
@@ -119,7 +123,7 @@ impl Threshold {
                 };
             } else if !at.take(trial, setting, root)? {
                 (reached, share) = (Some([root, outside]), CLOSER);
-                // The component stands at the end of the step. Test whether it falls just beyond this value.
+                // The component stands at the root. Test whether it falls just beyond the root.
                 let beside = root + 0.4 * CLOSE * size * (outside - root).signum();
                 if at.contains(beside) {
                     at.take(trial, setting, beside)?;
@@ -129,8 +133,8 @@ impl Threshold {
         None
     }
 
-    /// Adds a motion just beyond the threshold and forces just inside it to the trial's cache. They come from
-    /// Newton's steps or from new tangents.
+    /// Adds the motion of a value just beyond the threshold, and the forces of a value just inside it, to the cache of
+    /// `trial`. They come from earlier Newton steps or from new tangents.
     fn learn_sides(
         &self,
         trial: &mut Trial,
@@ -140,7 +144,8 @@ impl Threshold {
         standing: Option<(f64, Tangent)>,
     ) {
         let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
-        // This value is close enough to confirm the threshold, and far enough for a strong proof.
+        // Choose a falling value that is close enough to confirm the threshold, but far enough from it for a strong
+        // proof.
         let near = falling
             .into_iter()
             .rev()

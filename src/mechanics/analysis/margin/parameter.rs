@@ -1,4 +1,5 @@
-//! Computes the interval of each parameter for one component.
+//! Computes the interval of values at which a component stands, for each parameter: friction, tilt, loads, kernel,
+//! robot limits.
 
 use super::edge::Threshold;
 use super::interval::{End, Interval, RobotIntervals};
@@ -12,8 +13,8 @@ use crate::analysis::Verdict;
 use crate::program::Scale;
 use crate::solve::{Limit, least_grip_limit};
 
-/// Returns all requested intervals of a component. `stands` is true if the component stands at present. `with_tilt` is
-/// true if all components of its frame stand, so that the tilts around 0 are needed.
+/// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
+/// stands. `with_tilt` is true if its whole frame stands; only then are its tilts around 0 computed.
 pub(super) fn intervals(
     trial: &mut Trial,
     stands: bool,
@@ -34,7 +35,7 @@ pub(super) fn intervals(
         }
     });
     let robots = robots.collect();
-    // If only weights act, the tilt follows from the horizontal load.
+    // The interval of tilts may follow from the horizontal load, so compute the horizontal load for both margins.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];
     let horizontal_load = horizontal
         .iter()
@@ -108,8 +109,8 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
     linear(trial, &line, 1.0, stands, &alone)
 }
 
-/// Returns the interval of one limit of one grip, in N or N·m. `component` is 0 for force x, 1 for force y, 2 for
-/// torque. `stands` is true if the component stands with the limits of the scene.
+/// Returns the values of one robot limit at which the component stands, in N or N·m. `component` selects the limit: 0
+/// is force x, 1 is force y, 2 is the torque. `stands` is true if the component stands with the limits of the scene.
 fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
     let setting = |most: f64| Setting {
         limits: Limited::One {
@@ -130,7 +131,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         natural: unit * Scale::HEAVIEST,
         reach: unit * Scale::HEAVIEST,
     };
-    // The limit of the scene is sufficient if the component stands.
+    // If the component stands, the limit in the scene is sufficient, and the search starts there.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
         match trial.judge(&setting(f64::INFINITY)) {
@@ -140,7 +141,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         }
     }
     let enough = if stands { given } else { f64::INFINITY };
-    // One linear program gives the least limit, and verdicts confirm it.
+    // A linear program gives the smallest sufficient limit. Verdicts then confirm it.
     let found = least_grip_limit(&program, grip, component);
     let hint = match found.limit {
         Limit::At(at) => {

@@ -1,4 +1,4 @@
-//! Finds the rotations of gravity (tilts) at which a frame stands.
+//! Finds the tilts at which a frame stands: the angles by which gravity may rotate.
 //!
 //! Changed gravity has two components: one along the original direction and one across it. The pairs of components at
 //! which a structure stands form a convex set in a plane. Tilts form a circle in this plane. If only weights act and
@@ -28,8 +28,8 @@ const STRIDE: f64 = 77.7;
 /// The largest number of cuts of one search.
 pub(super) const MAX_CUTS: usize = 200;
 
-/// Returns the interval of tilts around 0, in degrees, of a component that stands without tilt. `horizontal` is its
-/// interval of horizontal loads.
+/// Returns the interval of tilts around 0, in degrees, at which a component stands. It must stand at tilt 0.
+/// `horizontal` is its interval of horizontal loads.
 pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
     match horizontal {
         Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
@@ -41,7 +41,8 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
     }
 }
 
-/// Returns the interval of tilts of a component around the tilt `from`, at which it stands, in degrees.
+/// Returns the interval of tilts, in degrees, at which a component stands, around the tilt `from`. It must stand at
+/// `from`.
 pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
         let mut arc = Arc {
@@ -72,8 +73,8 @@ enum Exit {
 impl Arc<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // If the search does not start at the tilt 0, the frame falls at the tilt 0. The first step towards 0 then ends
-        // at 0.
+        // A search that starts at another tilt than 0 means that the frame falls at tilt 0. The first step towards 0
+        // then goes to 0.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
         loop {
@@ -81,7 +82,7 @@ impl Arc<'_, '_> {
                 (Verdict::Unstable, motion) => Some(self.edge(reached, next, motion)),
                 (Verdict::Stable, _) => self.gap(reached, next),
                 (Verdict::Undecided, _) => {
-                    // Try another value; its verdict may be decided.
+                    // The verdict is undecided, so try a tilt between the last stable tilt and this tilt.
                     let other = 0.5 * (reached + next) + 0.137 * (next - reached);
                     match self.judge(other) {
                         (Verdict::Unstable, motion) => Some(self.edge(reached, other, motion)),
@@ -118,14 +119,14 @@ impl Arc<'_, '_> {
         }
     }
 
-    /// Finds the end of the stable tilts between the way `stands`, at which the component stands, and the way `falls`,
-    /// at which it falls by `motion`.
+    /// Finds the first tilt beyond which the component falls. It lies between the distances `stands` and `falls` from
+    /// the start, in degrees. The component stands at `stands`, and falls at `falls` by `motion`.
     fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
-        // If a mechanism excludes hardly any tilts, the next step is a bisection.
+        // If the last mechanism excluded hardly any tilts, bisect in the next step.
         let mut is_slow = false;
         for _ in 0..MAX_CUTS {
-            // The mechanism excludes every tilt from `bound` to `falls`, where it was found.
+            // The mechanism was found at `falls`. It excludes every tilt from `bound` to `falls`.
             let arc = cut(self.trial, self.from + self.outward * falls, &motion);
             let bound = arc.map_or(stands, |[low, high]| {
                 let turn = if self.outward > 0.0 { low } else { high };
@@ -136,7 +137,7 @@ impl Arc<'_, '_> {
             }
             let size = size(self.from + self.outward * bound);
             let near = steps().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
-            // If the verdicts near the end are undecided, a value farther away narrows the search.
+            // If the verdicts near the end of this range are undecided, a tilt farther away narrows the search.
             let far = [0.5, 0.75, 0.25].map(|share| stands + share * (bound - stands));
             let mut ways: Vec<(f64, bool)> = near.map(|way| (way, true)).collect();
             let first_far = if is_slow { 0 } else { ways.len() };
@@ -167,8 +168,8 @@ impl Arc<'_, '_> {
         Exit::Unconfirmed(stands, falls)
     }
 
-    /// Finds the first end between two ways at which the component stands; `None` if it stands at every way between
-    /// them.
+    /// Finds the first tilt at which the component ceases to stand, between the distances `from` and `to` from the
+    /// start, in degrees. The component stands at both. `None` if it stands at all tilts between them.
     ///
     /// The components of gravity at which the structure stands form a convex set. If the set contains both ends of an
     /// arc and the intersection of the tangents there, it contains the triangle of these points, and therefore the
@@ -202,8 +203,7 @@ impl Arc<'_, '_> {
     }
 }
 
-/// Returns the setting in which gravity is rotated by an angle in degrees, positive to the right, and multiplied by
-/// `stretch`.
+/// Returns the setting with gravity rotated by an angle in degrees, positive to the right, and multiplied by `stretch`.
 pub(super) fn turned(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
     Setting {
@@ -213,8 +213,8 @@ pub(super) fn turned(degrees: f64, stretch: f64) -> Setting {
     }
 }
 
-/// Returns the arc of tilts in degrees, around the tilt `turn`, at which a component falls by a motion; `None` if it
-/// falls at every tilt.
+/// Returns the first and the last tilt, in degrees, at which a motion proves a fall. The tilt `turn`, at which the
+/// motion was found, lies between them. `None` if the motion proves a fall at every tilt.
 pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
         let setting = Setting {
@@ -239,20 +239,21 @@ pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2
     Some([turn - off - half, turn - off + half])
 }
 
-/// Returns growing distances from an end, as fractions of its size.
+/// Returns growing distances from the end of an interval of tilts, as fractions of [`size`].
 pub(super) fn steps() -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
         .take_while(|step| *step <= FAR)
 }
 
-/// Returns the size in degrees to which distances from a tilt are relative: its magnitude, from 1 to a right angle.
+/// Returns the angle, in degrees, to which distances from a tilt are relative: the magnitude of the tilt, but at least
+/// 1 and at most 90.
 pub(super) fn size(turn: f64) -> f64 {
     turn.abs().clamp(1.0, 90.0)
 }
 
-/// Returns the end of the tilts on one side (`side` is −1 or 1) if only weights act and no limit bounds a force. The
-/// admissible loads then form a cone, and the tangent of the tilt is the largest horizontal load. Beyond 90° the
-/// tangent of the remaining angle is the largest upward fraction of the weights.
+/// Returns the largest tilt on one side (`side` is −1 or 1), for a component with only weights and no finite robot
+/// limits. Up to 90°, the tangent of this tilt is the largest horizontal load. Beyond 90°, a second linear program
+/// gives the largest upward fraction of the weights, whose arctangent is added to 90°.
 fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
     let turn = |share: f64| libm::atan(share).to_degrees();
     match horizontal {

@@ -1,4 +1,4 @@
-//! [`Trial`]: decides a component with changed parameters.
+//! [`Trial`]: decides copies of a component with changed parameters, such as friction, tilt or loads.
 //!
 //! Forces and motions that proved the verdict on one changed component are cached. If they also prove the verdict on
 //! the next one, no program is solved.
@@ -19,7 +19,7 @@ use crate::solve::{Extreme, Tangent};
 /// The number of changed components that this process has decided.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
-/// Returns the number of changed components that this process has decided for margins, for a progress bar.
+/// Returns how many changed components this process has decided for margins. A progress bar uses this number.
 pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }
@@ -83,7 +83,8 @@ pub(super) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// Creates a trial of a component. `forces` balance the unchanged component; they are `None` if it does not stand.
+    /// Creates a trial, which decides changed copies of a component. `forces` balance the unchanged component; they are
+    /// `None` if it does not stand.
     pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
         let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
@@ -107,12 +108,14 @@ impl<'a> Trial<'a> {
         is_loaded(self.given)
     }
 
-    /// True if a limit of some robot is neither 0 nor infinite. The forces are then not proportional to the loads.
+    /// True if some robot has a limit other than 0 and infinity. The forces at the limit of stability are then not
+    /// proportional to the loads.
     pub fn is_limited(&self) -> bool {
         is_limited(self.given)
     }
 
-    /// Returns the heaviest weight as a multiple of the largest listed load; 1 without weights or loads.
+    /// Returns the ratio of the heaviest weight to the largest listed load; 1 if there are no weights or no listed
+    /// loads.
     pub fn weights_to_loads(&self) -> f64 {
         let bodies = || self.given.bodies.iter();
         let weights = bodies().map(|body| body.weight * self.given.pull.norm());
@@ -125,23 +128,26 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Returns the verdict on the changed component, and its mechanism if it falls (otherwise an empty list).
+    /// Returns the verdict on the component with the parameters `setting`, and its mechanism if it falls (otherwise an
+    /// empty list).
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judge_at(setting, Place::Anywhere)
     }
 
-    /// Like [`Trial::judge`]. `place` tells whether the component is known to be near its limit of stability.
+    /// Like [`Trial::judge`]. `place` says whether the changed component is known to be at its limit of stability.
     pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
         self.count();
         decide_verdict(&self.changed(setting), place, &mut self.guesses)
     }
 
-    /// Like [`Trial::judge`], with cached proofs only; undecided if no cached proof holds.
+    /// Like [`Trial::judge`], but tries only cached proofs and solves no program. The verdict is undecided if no cached
+    /// proof holds.
     pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         verdict_from_cache(&self.changed(setting), &self.guesses)
     }
 
-    /// Returns the least residual of the changed component and its derivative; `None` if the program is not solved.
+    /// Returns the least residual force of the changed component, with its derivative. `None` if the program could not
+    /// be solved.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))
@@ -152,8 +158,8 @@ impl<'a> Trial<'a> {
         TRIALS.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Returns the parameter value at which the tangent of the least residual at `from` is zero: a step of Newton's
-    /// method. `to` is another value, in whose direction the tangent is evaluated.
+    /// Returns the parameter value at which the least residual becomes 0 according to its tangent at `from`: one step
+    /// of Newton's method. The tangent is evaluated at a second value, `to`.
     pub fn root(
         &self,
         tangent: &Tangent,
@@ -164,7 +170,8 @@ impl<'a> Trial<'a> {
         from + (to - from) * tangent.left / (tangent.left - there)
     }
 
-    /// Caches the forces and the motion of a tangent: the forces if the component stands, the motion if it falls.
+    /// Adds the results of a least-residual program to the cache: its forces if the verdict is stable, its motion if it
+    /// is unstable.
     pub fn learn_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
         let changed = self.changed(setting);
         let program = Program::new(&changed, Scale::from_assembly(&changed));
@@ -177,8 +184,9 @@ impl<'a> Trial<'a> {
         remember_limit(&ends, &mut self.guesses);
     }
 
-    /// Caches the results of one program at the end of an interval: the forces at `at`, and the motion at `beyond`. If
-    /// `base` is given (the present value, for linear loads), also caches the forces at `inside`.
+    /// Adds the results of the program for an end of an interval to the cache: its forces, for the value `at`, and its
+    /// motion, for the value `beyond`. If `base` (the present value) is given, also adds interpolated forces for the
+    /// value `inside`.
     pub fn learn_edge(
         &mut self,
         program: &Program,
@@ -206,24 +214,25 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Returns the power of the changed loads along a motion, less the power that limited robots can absorb, in
-    /// watts.
+    /// Returns the power of the changed loads along a motion, in watts, minus the largest power that limited robots can
+    /// absorb.
     pub fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
         net_power(&self.changed(setting), motion)
     }
 
-    /// Returns the program of the changed component in its own scale.
+    /// Returns the linear program of the component with the parameters `setting`, in units chosen for it.
     pub fn program(&self, setting: &Setting) -> Program {
         let changed = self.changed(setting);
         Program::new(&changed, Scale::from_assembly(&changed))
     }
 
-    /// Returns the program with the setting `from`, and the change of its load vector from there to the setting `to`.
+    /// Returns the linear program for the setting `from`, and the difference between its load vector and that for the
+    /// setting `to`.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());
         let scale = Scale::new(self.given.length, heaviest);
-        // Both programs have the same scale, so that their load vectors can be subtracted.
+        // Use one scale for both programs, so that their load vectors can be subtracted.
         let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
         let toward = toward.collect();
@@ -238,7 +247,7 @@ impl<'a> Trial<'a> {
         if let Some(mu) = setting.friction {
             changed = changed.with_friction(mu);
         }
-        // Weights along gravity and weights across it are together equal to weights along changed gravity.
+        // Weights along and across the original gravity together equal weights along a changed gravity vector.
         let down = self.given.pull;
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
@@ -251,13 +260,13 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// True if the scene lists a load on a component.
+/// True if the scene lists a load on some body of a component.
 pub(super) fn is_loaded(component: &Assembly) -> bool {
     let mut bodies = component.bodies.iter();
     bodies.any(|body| body.listed != LoadVector::NONE)
 }
 
-/// True if a limit of a robot on the component is neither 0 nor infinite.
+/// True if a robot that holds a body of the component has a limit other than 0 and infinity.
 pub(super) fn is_limited(component: &Assembly) -> bool {
     component.grips.iter().any(|grip| {
         [grip.limits.fx, grip.limits.fy, grip.limits.torque]
@@ -266,8 +275,8 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
     })
 }
 
-/// Returns the limits of grip `number` in a setting: unchanged, with one limit replaced, or with all finite limits set
-/// to 0.
+/// Returns the limits of the grip with index `number` as `setting` changes them: unchanged, with one limit replaced, or
+/// with all finite limits set to 0.
 fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
@@ -292,8 +301,8 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
     }
 }
 
-/// Interpolates between two sets of forces. The result is `first` at a share of 0, and `last` at a share of 1. The
-/// result is admissible, because admissible forces form a convex set.
+/// Interpolates linearly between two sets of forces, from `first` (share 0) to `last` (share 1). The result is
+/// admissible, because admissible forces form a convex set.
 fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);
