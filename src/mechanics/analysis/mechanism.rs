@@ -1,4 +1,5 @@
-//! [`Analysis::elementary`]: replaces the collapse mechanism of each falling part by one elementary mechanism.
+//! [`Analysis::elementary`]: simplifies collapse mechanisms for drawing. Each falling part gets one elementary
+//! mechanism, with as few hinges and sliding joints as possible.
 //!
 //! The motion that proves a fall opens every contact that can open. This gives the strongest proof, but the motion is
 //! a sum of many mechanisms. A thin arch then shows eight hinges on seven bodies, although four are enough. An
@@ -52,8 +53,8 @@ impl Toward {
 }
 
 impl Analysis {
-    /// Returns a copy of the analysis in which one elementary mechanism replaces the motion of each falling part, for
-    /// drawing. Sliding blocks move along their joints if possible. The proofs and all other results are unchanged.
+    /// Returns a copy of the analysis for drawing, in which each falling part moves by one elementary mechanism.
+    /// Sliding blocks move along their joints if possible. Proofs and all other results stay unchanged.
     ///
     /// Units: the fastest point has speed 1, as in [`FrameAnalysis::mechanism`].
     pub fn elementary(&self) -> Analysis {
@@ -66,9 +67,9 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the limit of stability of a frame (numbered from 0) that is nearer to 0, and the elementary mechanism
-    /// there. `None` if the margin was not computed, or if the frame does not fall in this direction. If the load
-    /// factor has no upper limit, its lower limit is returned.
+    /// Returns how far a parameter may change before a frame (numbered from 0) falls, and the elementary mechanism at
+    /// this limit. Of two limits, returns the limit nearer to 0. A load factor without an upper limit has a lower limit
+    /// instead. `None` if the margin was not computed, or if no change makes the frame fall.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -86,12 +87,13 @@ impl Analysis {
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
             Toward::LoadFactor => [side(&margins.load_factor, 1.0), margins.least_factor()],
         };
-        // Take the limit that is nearer to 0.
+        // Choose the limit that is nearer to 0.
         let (at, motions) = edges
             .into_iter()
             .flatten()
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-        // Exactly at the limit the loads have no power along the mechanism. Slightly beyond the limit they have power.
+        // The loads have no power along the mechanism exactly at the limit, but they have power slightly beyond it.
+        // Therefore change the scene to a value slightly beyond the limit.
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         match toward {
             Toward::Tilt => {
@@ -122,7 +124,8 @@ impl Analysis {
         self.mechanisms_of(&self.scene, found, &found.mechanism)
     }
 
-    /// Returns one elementary mechanism for each part that falls by `motions` under the loads of `scene`.
+    /// Replaces `motions`, by which a frame falls under the loads of `scene`, by one elementary mechanism for each
+    /// falling part. The fastest point has speed 1.
     pub(super) fn mechanisms_of(
         &self,
         scene: &Scene,
@@ -130,12 +133,12 @@ impl Analysis {
         motions: &[Motion],
     ) -> Vec<Motion> {
         let mut all = Vec::new();
-        // Each part that falls by itself has its own mechanism. A part that is too large keeps the motion of the proof.
+        // Each connected part has a mechanism of its own. A part that is too large keeps the motion of its proof.
         for part in parts(found, motions) {
             let fall = Fall::new(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
-        // The speeds of all parts are scaled together such that the fastest point has speed 1.
+        // Scale all parts by one factor, so that the fastest point has speed 1.
         let fastest = all
             .iter()
             .map(|m| m.fastest(&self.scene))
@@ -151,8 +154,8 @@ impl Analysis {
     }
 }
 
-/// Splits motions into parts: sets of moving blocks that are connected by contacts. Blocks at rest do not connect
-/// parts.
+/// Splits the moving blocks into parts that are connected by contacts between moving blocks. A block at rest does not
+/// connect two parts.
 fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
     let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
@@ -162,7 +165,7 @@ fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
             next.entry(b).or_default().push(a);
         }
     }
-    // Depth-first search over the blocks that move, along contacts between blocks.
+    // Find the parts by depth-first search along the contacts between moving blocks.
     let mut seen: BTreeSet<BlockId> = BTreeSet::new();
     let mut parts = Vec::new();
     for first in motions.keys() {
@@ -217,8 +220,8 @@ impl<'a> Fall<'a> {
         }
     }
 
-    /// Returns one elementary mechanism, with sliding along the joints if possible; `None` if no such mechanism is
-    /// found.
+    /// Returns an elementary mechanism of this part, in which blocks slide along their joints if possible. `None` if it
+    /// was not found.
     fn elementary(&self) -> Option<Vec<Motion>> {
         if self.motions.len() > MOST_BLOCKS {
             return None;
@@ -228,15 +231,16 @@ impl<'a> Fall<'a> {
             .iter()
             .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
             .collect();
-        // Go from the proof's motion to an extreme ray of the cone. Every step closes one contact.
+        // Go from the motion of the proof to an extreme ray of the cone of motions. Each step closes one contact.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
-        // If there is a motion along the slipping joints, it replaces the motion that opens them.
+        // In the extreme ray, sliding joints also open. If a motion along the joints exists, use it instead.
         let sliding = self.along_joints(&y);
         let motions = self.motions_of(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)
     }
 
-    /// Returns, as a row, the velocity of a point of a body in a direction, times `sign`; empty for bodies at rest.
+    /// Returns `sign` times the velocity of a point of a body in the direction `along`, as a row of coefficients of the
+    /// block velocities. The row is empty for a body at rest.
     fn speed(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
         let BodyId::Block(block) = body else {
             return Row::new();
@@ -252,15 +256,16 @@ impl<'a> Fall<'a> {
         ]
     }
 
-    /// Returns, as a row, the velocity at which the two bodies of an interface separate at a point, in a direction.
+    /// Returns the relative velocity of two bodies at a point in the direction `along`, positive if they separate, as a
+    /// row of coefficients of the block velocities.
     fn parting(&self, bodies: [BodyId; 2], at: Point, along: Vector) -> Row {
         let mut row = self.speed(bodies[0], at, along, 1.0);
         row.extend(self.speed(bodies[1], at, along, -1.0));
         row
     }
 
-    /// Returns the rows that must not be negative. If a row is negative, an admissible force opposes the motion. Robots
-    /// at their limits yield in the directions of `start`.
+    /// Returns the conditions row · y ≥ 0 on a motion y: no admissible force may oppose it. Robots at their limits
+    /// yield in the directions in which `start` moves them.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.found.contacts {
@@ -270,12 +275,13 @@ impl<'a> Fall<'a> {
                 if opening.is_empty() {
                     continue;
                 }
-                // Without friction, only closing of the contact is excluded.
+                // Without friction, the only condition is that the contact does not close.
                 if interface.friction <= 0.0 {
                     rows.push(opening);
                     continue;
                 }
-                // With friction, no force on an edge of the friction cone may oppose the motion: two rows.
+                // With friction there are two conditions: neither of the two extreme forces of the friction cone
+                // opposes the motion.
                 for side in [1.0, -1.0] {
                     let rubbing = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
@@ -287,7 +293,7 @@ impl<'a> Fall<'a> {
         for (row, limit) in self.grips() {
             let now: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
             let turned: Row = row.iter().map(|(k, v)| (*k, -v)).collect();
-            // A robot without limits holds its block at rest. A robot at its limit yields in the direction of `start`.
+            // A robot without limits keeps its block at rest. A robot at its limit yields in the direction of `start`.
             if limit.is_finite() {
                 rows.push(if now < 0.0 { turned } else { row });
             } else {
@@ -298,7 +304,8 @@ impl<'a> Fall<'a> {
         rows
     }
 
-    /// Returns, as rows, the velocities of grips that robots resist, each with the largest force, or torque/L.
+    /// Returns, for each component of each robot's grip, the velocity as a row of coefficients, and the limit of the
+    /// force, N. The limit of the torque is divided by L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
         for robot in &self.found.robots {
@@ -321,7 +328,8 @@ impl<'a> Fall<'a> {
         grips
     }
 
-    /// Returns, as a row, the power of the loads along a motion, less the power that yielding robots absorb.
+    /// Returns the power of the loads minus the power that yielding robots absorb, as a row of coefficients of the
+    /// block velocities.
     fn power(&self, start: &[f64]) -> Row {
         let mut power = Row::new();
         for motion in &self.motions {
@@ -347,8 +355,8 @@ impl<'a> Fall<'a> {
         power
     }
 
-    /// Returns the motion nearest to `y` that keeps every closed contact closed and slides along its joint. `None` if
-    /// nothing slides, or if this motion differs too much, has no power, or closes another contact.
+    /// Returns the motion nearest to `y` in which sliding blocks move along their joints and closed contacts stay
+    /// closed. `None` if nothing slides, or if this motion is too different, does not fall, or closes another contact.
     fn along_joints(&self, y: &[f64]) -> Option<Vec<f64>> {
         let value = |row: &Row, y: &[f64]| row.iter().map(|(k, v)| v * y[*k]).sum::<f64>();
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
@@ -390,7 +398,7 @@ impl<'a> Fall<'a> {
         (like && falls && clear).then_some(flat)
     }
 
-    /// Converts velocities to the motions of the blocks that are not at rest.
+    /// Converts the velocities `y` to motions. Blocks at rest are left out.
     fn motions_of(&self, y: &[f64]) -> Vec<Motion> {
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
         let motion = |(place, motion): (usize, &Motion)| {

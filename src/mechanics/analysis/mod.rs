@@ -75,7 +75,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Returns the word for this verdict in JSON results.
+    /// Returns the name of this verdict in JSON results: `stable`, `undecided` or `unstable`.
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Stable => "stable",
@@ -161,8 +161,8 @@ pub struct FrameAnalysis {
 }
 
 impl Analysis {
-    /// Analyses every frame of a scene. The analysis keeps the scene. A `Scene` is moved into it, an `Arc` is shared,
-    /// and the scene behind a reference is cloned.
+    /// Analyses every frame of a scene with default options. The analysis keeps the scene: a `Scene` is moved into it,
+    /// an `Arc` is shared, and a scene behind a reference is cloned.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict};
@@ -181,7 +181,7 @@ impl Analysis {
         Analysis::with(scene, &Options::default())
     }
 
-    /// Analyses every frame of a scene with options, such as margins.
+    /// Analyses every frame of a scene. `options` request additional results, such as margins.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
         let scene = scene.into();
         let (found, mut frames) = analyse::analyse(&scene, options);

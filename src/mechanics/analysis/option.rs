@@ -1,4 +1,4 @@
-//! [`Options`]: the accuracy of an analysis, and the results that are computed in addition to the verdict.
+//! [`Options`]: how accurate an analysis must be, and what it computes in addition to the verdict.
 //!
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
@@ -48,7 +48,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// Returns the threshold that a proof must reach for this accuracy.
+    /// Returns the threshold that a proof must meet at this accuracy.
     pub fn demand(self) -> ProofThreshold {
         match self {
             Accuracy::Standard => ProofThreshold::STANDARD,
@@ -86,8 +86,8 @@ impl Options {
         deadline: None,
     };
 
-    /// Returns the margins to compute: those that are requested, and the margin whose derivatives are requested. `None`
-    /// if there are none.
+    /// Returns the margins to compute: the requested margins, and the margin whose derivatives are requested. `None` if
+    /// neither is requested.
     pub(super) fn wanted_margins(self) -> Option<MarginKinds> {
         let requested = self.margins.then_some(self.margin_kinds);
         match (requested, self.sensitivity) {
@@ -102,11 +102,12 @@ impl Options {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// Returns the solver settings in the order in which they are tried until a proof is strong enough.
+    /// Returns the solver settings. They are tried in this order until a proof is strong enough.
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
-            // An error of a motion comes from the solver. Only a more exact solution makes it smaller.
+            // A strict proof needs a smaller tolerance: only a more exact solution reduces the solver's error in a
+            // motion.
             Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,
                 ..Conditioning::Full.into()

@@ -1,4 +1,4 @@
-//! [`pair`]: joins two frames of two scenes into one scene with two frames, to compare them.
+//! [`pair`]: joins a frame of one scene and a frame of another scene into one scene, so that a figure can compare them.
 //!
 //! Two blocks with the same name, outline, weight and loads become one block. If any of these differs, both blocks
 //! are kept: the first is missing in the second frame, and the second is new there.
@@ -11,18 +11,20 @@ use crate::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
 /// outline.
 const ALIKE: f64 = 1e-9;
 
-/// Returns a scene with two frames, `before` and `after` (each an analysis and the number of a frame, from 0), and
-/// their results. `titles` are the titles of the frames. The second title also lists other differences of the scenes:
-/// kernel, friction, corner contacts.
+/// Joins two frames into one scene with two frames, and returns it with the results of both. `before` and `after` are
+/// each an analysis and the number of a frame, from 0. `titles` are the titles of the frames. The second title also
+/// lists other differences of the scenes: kernel, friction, corner contacts.
 ///
-/// # Errors Returns a sentence if the scenes have different ground or different directions of gravity.
+/// # Errors
+/// Returns a sentence for the user if the scenes differ in their ground, their direction of gravity or their listed
+/// contacts.
 pub fn pair(
     before: (&Analysis, usize),
     after: (&Analysis, usize),
     titles: [String; 2],
 ) -> Result<(Scene, Vec<FrameAnalysis>), String> {
     let (first, second) = (&*before.0.scene, &*after.0.scene);
-    // A scene has only one ground and one direction of gravity.
+    // The common scene has only one ground, one direction of gravity and one list of contacts.
     check_ground_and_gravity(first, second)?;
     let mut scene = first.clone();
     if first.title != second.title {
@@ -32,14 +34,14 @@ pub fn pair(
         blocks: add_blocks(&mut scene, first, second),
         robots: add_robots(&mut scene, second),
     };
-    // Blocks that both scenes share have the same loads. The loads on new blocks are added.
+    // A block that both scenes share has the same loads in both. Add the loads on new blocks.
     let new = |load: &&Load| moved.block(load.block).0 >= first.blocks.len();
     let more = second.loads.iter().filter(new).map(|load| Load {
         block: moved.block(load.block),
         ..*load
     });
     scene.loads.extend(more);
-    // Take the two frames. The title of the second frame also lists the other differences.
+    // Take one frame of each scene. The title of the second frame also lists the other differences.
     let [title, later] = titles;
     let differences = differences(first, second);
     let mut frames = vec![
@@ -59,7 +61,7 @@ pub fn pair(
     Ok((scene, found))
 }
 
-/// Returns an error if two scenes have different ground or different directions of gravity.
+/// Returns an error if two scenes differ in their ground, their direction of gravity or their listed contacts.
 fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
     if (first.down() - second.down()).norm() > ALIKE {
         return Err("gravity points another way in the second; turn one of the two".into());
@@ -80,8 +82,8 @@ fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String>
     Ok(())
 }
 
-/// Adds the blocks of the second scene that differ from those of the first. Returns the number of each block of the
-/// second scene in the common scene.
+/// Adds the blocks of the second scene that the first scene does not contain in the same form. Returns the index of
+/// each block of the second scene in the common scene.
 fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> {
     let mut places = Vec::new();
     for (number, block) in second.blocks.iter().enumerate() {
@@ -98,7 +100,7 @@ fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> 
     places
 }
 
-/// Adds the robots of the second scene whose names the first does not contain. Returns the number of each robot of
+/// Adds the robots of the second scene whose names do not occur in the first scene. Returns the index of each robot of
 /// the second scene in the common scene.
 fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     let first = scene.robots.len();
@@ -115,7 +117,7 @@ fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     places
 }
 
-/// Describes the differences of two scenes in words, except those of blocks, loads and robots.
+/// Lists the differences of two scenes in words: kernel, friction and corner contacts.
 fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     let mut words = Vec::new();
     let mut compare = |what: &str, a: f64, b: f64| {
@@ -123,9 +125,9 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
             words.push(format!("{what} {b} in place of {a}"));
         }
     };
-    // Quantities of the whole scene.
+    // Compare the settings of the whole scene.
     compare("kernel", first.kernel, second.kernel);
-    // The friction coefficients of all bodies, each once.
+    // Compare the friction coefficients of all bodies, each counted once.
     let rubs = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
         let mut all: Vec<f64> = bodies
@@ -167,7 +169,7 @@ fn same(a: &Block, b: &Block) -> bool {
         && (a.weight - b.weight).abs() <= ALIKE * a.weight.max(b.weight)
 }
 
-/// Returns the loads on a block: force x and y (N), point x and y (m), torque (N·m).
+/// Returns the loads on a block, each as force x, force y (N), point x, point y (m) and torque (N·m).
 fn loads(scene: &Scene, block: BlockId) -> Vec<[f64; 5]> {
     let own = scene.loads.iter().filter(|l| l.block == block);
     own.map(|l| [l.force.x, l.force.y, l.at.x, l.at.y, l.torque])
@@ -241,7 +243,7 @@ impl Moved {
         for motion in &mut found.mechanism {
             motion.block = self.block(motion.block);
         }
-        // The result contains only the numbers that a comparison shows.
+        // Leave out the margins, which a comparison does not show.
         found.margins = None;
         found
     }

@@ -1,4 +1,5 @@
-//! [`Analysis::thrust_states`]: the range of the possible forces of a frame that stands.
+//! [`Analysis::thrust_states`]: between which extremes the forces of a stable frame may lie, such as least and greatest
+//! thrust.
 //!
 //! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest
 //! value: two linear programs on the constraints of the verdict. The most central forces stay within the largest
@@ -57,9 +58,9 @@ pub struct ThrustStates {
 }
 
 impl Analysis {
-    /// Returns the states of least and greatest horizontal thrust and the most central state of a frame, numbered
-    /// from 0. They are empty if the frame does not stand, stands without thrust, or has more than 200 blocks. They
-    /// are also empty if the frame does not rest on the ground with exactly two blocks.
+    /// Returns three sets of balancing forces of a frame (numbered from 0): of least horizontal thrust, of greatest
+    /// horizontal thrust, and the most central forces. They are empty if the frame does not stand, needs no thrust, or
+    /// has more than 200 blocks. They are also empty if the frame does not rest on the ground with exactly two blocks.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
@@ -84,7 +85,8 @@ impl Analysis {
         }
     }
 
-    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (−1); `None` if its forces have no proof.
+    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (`sign` −1). `None` if its forces have no
+    /// proof.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &*self.scene;
         let frame = &scene.frames[number];
@@ -107,7 +109,8 @@ impl Analysis {
         })
     }
 
-    /// Computes the state at the largest kernel; `None` if its margin is unknown or the forces have no proof.
+    /// Computes the most central forces: those within the largest safety kernel. `None` if the margin of the kernel is
+    /// unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
@@ -125,8 +128,8 @@ impl Analysis {
     }
 }
 
-/// Returns half the sum of the inward horizontal forces of all supports, N. Left of the middle, inward means to the
-/// right.
+/// Returns the horizontal thrust, N: half the sum of the inward horizontal forces of all supports on the blocks. Inward
+/// means towards the middle between the outermost supports.
 fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     let across = quarter_turn(scene.down());
     let supports = supports(contacts);
@@ -145,7 +148,7 @@ fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     0.5 * pushes.sum::<f64>()
 }
 
-/// Returns the contacts with the ground, each with its block.
+/// Returns the contacts between a block and the ground, each with its block.
 fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
     let support = |contact: &'_ Contact| match contact.interface.bodies {
         [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => {
@@ -159,14 +162,14 @@ fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
         .collect()
 }
 
-/// Returns the mean of the least and the largest of these coordinates, metres.
+/// Returns the mean of the smallest and the largest of the coordinates, metres.
 fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let least = places.clone().fold(f64::INFINITY, f64::min);
     0.5 * (least + places.fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// Returns the forces of a component with the least (`sign` 1) or greatest (−1) inward thrust at its supports; `None`
-/// if they have no proof.
+/// Returns the forces of a component with the least (`sign` 1) or the greatest (`sign` −1) inward thrust at its
+/// supports. `None` if they have no proof.
 fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forces> {
     let across = quarter_turn(scene.down());
     let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);
@@ -234,7 +237,7 @@ fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> For
     }
 }
 
-/// Writes the forces of a component and their resultants into a frame.
+/// Copies the forces of a component, in newtons, to the contacts and robots of a frame, and computes their resultants.
 fn enter(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
     for (at, pressed) in component.contacts.iter().zip(&forces.contacts) {
         let contact = &mut state.contacts[at.interface];

@@ -1,4 +1,4 @@
-//! [`UndecidedReason`]: the reason why a frame is undecided.
+//! [`UndecidedReason`]: why it could not be decided whether a frame stands.
 
 use std::fmt;
 
@@ -75,11 +75,11 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
-    /// Returns the reasons in words, with the numbers of both proofs; empty if the frame is not undecided.
+    /// Returns why the frame is undecided, in words, with the errors of both proofs. Empty if the frame is decided.
     pub fn doubt(&self) -> String {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {
-            // Add the reasons that were found before the deadline.
+            // After the time limit, also list the reasons that were found earlier.
             [UndecidedReason::Late, _, ..] => {
                 format!("{}: {}", reasons[0], reasons[1..].join("; "))
             }

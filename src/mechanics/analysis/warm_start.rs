@@ -1,4 +1,4 @@
-//! Route 0: finds the verdict of a frame from the active set of the previous frame.
+//! Route 0 (warm start): decides a frame quickly, starting from the active set of the previous frame.
 //!
 //! The balance is a nonnegative least-squares problem ([`BoundedNnls`]). If its residual is 0, its solution balances
 //! the frame. Otherwise the negative residual is a motion by which the frame falls. The active set of one frame is
@@ -24,7 +24,7 @@ const MAX_BODIES: usize = 500;
 /// Units are chosen again if lengths or loads become this many times larger or smaller.
 const MAX_SCALE_RATIO: f64 = 100.0;
 
-/// Returns the verdict of each frame, as in [`Analysis::with`], without any other results.
+/// Returns only the verdict of each frame. The verdicts are the same as those of [`Analysis::with`].
 ///
 /// ```
 /// use drystone::{Scene, analysis::{Options, Verdict, verdicts}};
@@ -53,8 +53,8 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// True if verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed with
-/// and without them.
+/// True if verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed
+/// twice: with and without them.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
     let none =
         found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
@@ -90,7 +90,7 @@ enum Origin {
 }
 
 impl WarmStart {
-    /// Returns the verdict of a frame, and how it was found.
+    /// Returns the verdict of a frame, and how it was found: by the warm start or by a complete analysis.
     pub(crate) fn verdict(
         &mut self,
         scene: &Scene,
@@ -114,9 +114,9 @@ impl WarmStart {
         (verdict, Source::Examined)
     }
 
-    /// Returns the verdict on an assembly; `None` if the warm start proves no verdict.
+    /// Decides an assembly by the warm start alone. `None` if neither forces nor a motion are proved.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
-        // If there is no active set from an earlier frame, fewer bodies are allowed.
+        // Without the active set of an earlier frame, the warm start is only fast for fewer bodies.
         let most = match self.columns.is_empty() {
             true => MAX_NEW_BODIES,
             false => MAX_BODIES,
@@ -125,13 +125,13 @@ impl WarmStart {
             *self = WarmStart::default();
             return None;
         }
-        // Write the equilibrium equations in numbers without units, in the scale of the earlier frames.
+        // Write the equilibrium equations without units, in the scale of the earlier frames.
         let scale = self.scale(assembly);
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        // Find the forces with the least residual. It is 0 if the frame stands. Otherwise, its negative is a motion by
-        // which the frame falls.
+        // Find the forces with the least residual. If the residual is 0, the frame stands. Otherwise its negative is a
+        // motion by which the frame falls.
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
@@ -140,8 +140,8 @@ impl WarmStart {
         Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
     }
 
-    /// Returns the scale of the warm start. If it does not suit the assembly, discards the warm start and returns the
-    /// assembly's own scale.
+    /// Returns the scale of the earlier frames. If it does not suit this assembly, discards the warm start and returns
+    /// the scale of the assembly.
     fn scale(&mut self, assembly: &Assembly) -> Scale {
         let own = Scale::from_assembly(assembly);
         let near = |a: f64, b: f64| a <= MAX_SCALE_RATIO * b && b <= MAX_SCALE_RATIO * a;
@@ -157,7 +157,8 @@ impl WarmStart {
         }
     }
 
-    /// Transfers the active set to the columns of another frame. A column is kept only if its values are the same.
+    /// Transfers the active set to the columns of the next frame. Keeps a column only if its coefficients are
+    /// unchanged.
     fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
         let begins = begins(assembly, &columns);
         let mut new: Vec<(Origin, usize)> =
@@ -165,8 +166,8 @@ impl WarmStart {
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.nearest.renumber(|k| {
-            // Find the contact or grip of the old column. Then find the new column at the same place of this contact or
-            // grip.
+            // Find the contact or grip that the old column belongs to. Then find the corresponding column of this
+            // contact or grip in the new frame.
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);
             let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
             let place = new.binary_search_by(|(other, _)| other.cmp(origin)).ok()?;
@@ -179,7 +180,7 @@ impl WarmStart {
     }
 }
 
-/// Returns the index of the first column of each contact and grip, in the order of the columns.
+/// Returns, for each contact and grip, the index of its first column, in the order of the columns.
 fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
     let bits = |p: crate::geometry::Point| [p.x.to_bits(), p.y.to_bits()];
     let mut begins: Vec<(usize, Origin)> = Vec::new();
@@ -193,7 +194,7 @@ fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
                 let grip = &assembly.grips[grip];
                 Origin::Grip(grip.robot, assembly.bodies[grip.body].block, bits(grip.at))
             }
-            // All admissible forces belong to one of these two kinds.
+            // The columns of the warm start are only of these two kinds.
             _ => continue,
         };
         if begins.last().is_none_or(|(_, last)| *last != origin) {

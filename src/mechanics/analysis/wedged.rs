@@ -1,4 +1,4 @@
-//! [`Wedged`]: the proof that a frame stands only by a self-stress, in metres and newtons.
+//! [`Wedged`]: the proof that a frame stands only by wedging, that is, by a self-stress, in metres and newtons.
 
 use super::Motion;
 use crate::assembly::Assembly;
@@ -67,7 +67,7 @@ pub struct FaceCase {
 }
 
 impl Wedged {
-    /// Converts the self-stress of one component from program units to metres and newtons.
+    /// Converts the proof for one component from program units to metres and newtons.
     pub(super) fn new(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
         let motion = |pure: &[f64]| {
             let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
@@ -93,7 +93,7 @@ impl Wedged {
     }
 }
 
-/// Converts a case that the solver excluded, so that its contacts have the indices of the frame.
+/// Converts a case that the solver ruled out: replaces contact indices of the component by those of the frame.
 fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();

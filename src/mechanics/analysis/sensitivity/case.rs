@@ -1,4 +1,4 @@
-//! [`Case`]: one component at one end of the interval of a parameter.
+//! [`Case`]: a component exactly at an end of the interval of a parameter, where it begins to fall.
 
 use crate::analysis::margin::MarginKind;
 use crate::assembly::{Assembly, LoadVector};
@@ -31,7 +31,7 @@ const SHARES: [f64; 3] = [0.05, 2e-3, 1e-4];
 const SAME_END: f64 = 1e-3;
 
 impl Case<'_> {
-    /// Returns the component with another value of the parameter.
+    /// Returns the component with the parameter set to `value`.
     pub fn at(&self, value: f64) -> Assembly {
         let given = self.component.clone();
         let down = given.pull;
@@ -48,8 +48,8 @@ impl Case<'_> {
         }
     }
 
-    /// Returns the derivative of the load of each body with respect to the parameter at `value`. `None` if the loads do
-    /// not depend on the parameter.
+    /// Returns the derivative of the load on each body with respect to the parameter, at `value`. `None` if the loads
+    /// do not depend on the parameter.
     pub fn growth(&self, value: f64) -> Option<Vec<LoadVector>> {
         let down = self.component.pull;
         let along = match self.kind {
@@ -72,8 +72,8 @@ impl Case<'_> {
         Some(growth.collect())
     }
 
-    /// Returns a load on each body that pushes the component beyond the end. It is the outward derivative of the loads.
-    /// If the loads do not depend on the parameter, it is a force along the mechanism.
+    /// Returns a load on each body that makes the component fall: the change of the loads if the parameter goes beyond
+    /// the end. If the loads do not depend on the parameter, it is a force along the mechanism.
     pub fn push(&self, value: f64) -> Vec<LoadVector> {
         if let Some(growth) = self.growth(value) {
             let outward = growth.into_iter().map(|load| load.times(self.outward));
@@ -91,8 +91,8 @@ impl Case<'_> {
         along.collect()
     }
 
-    /// Computes forces and mechanism at the end. Returns the program and its state. `None` if there are no loads, or if
-    /// the program does not end at the end of the interval.
+    /// Computes the forces and the mechanism at the end of the interval. Returns the linear program and its solution.
+    /// `None` if there are no loads, or if the program finds another end.
     pub fn solved(&self, changed: &Assembly) -> Option<(Program, LimitState)> {
         let program = Program::new(changed, Scale::from_assembly(changed));
         let scale = program.scale;
@@ -118,7 +118,7 @@ impl Case<'_> {
     }
 }
 
-/// Returns a load as force x, force y, and moment about `origin`.
+/// Converts a load about the centroid to force x, force y and the moment about `origin`.
 pub(super) fn load_at(
     load: &LoadVector,
     centroid: crate::geometry::Point,

@@ -1,4 +1,5 @@
-//! [`Corners`]: which corners move together, and in which directions, if the contacts are kept.
+//! [`Corners`]: in which directions the corners of blocks can move, and which corners move with them, if no contact may
+//! open.
 //!
 //! If corners of two bodies lie at the same end of their contact, they are one *joined corner*: they move together, and
 //! both bodies change. If a corner of one body lies inside an edge of another body, this edge guides it. The corner can
@@ -53,7 +54,7 @@ pub(super) struct Corners {
 }
 
 impl Corners {
-    /// Finds the corners of a frame and their moves.
+    /// Finds the corners of all bodies of a frame, and how they can move.
     pub fn new(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Corners {
         let mut finder = Finder::new(scene, frame);
         for interface in interfaces {
@@ -83,12 +84,12 @@ impl Corners {
         corners
     }
 
-    /// Returns the positions of the corners before and after a corner in its ring.
+    /// Returns the positions of the two neighbours of a corner in its outline, in metres.
     pub fn around(&self, place: usize) -> [Point; 2] {
         self.all[place].neighbours.map(|place| self.all[place].at)
     }
 
-    /// Finds the moves of every joined corner to which a corner of a block belongs.
+    /// Finds the possible moves of every joined corner that belongs to a block.
     fn find_moves(&mut self, guides: &[Guide]) {
         let mut has_block = vec![false; self.count];
         for (corner, joined) in self.all.iter().zip(&self.joined) {
@@ -119,11 +120,11 @@ impl Corners {
         }
     }
 
-    /// Adds to each move the displacements of the guided corners of one part. Removes the moves that do not keep these
-    /// corners on their edges.
+    /// Adds to each move the displacements of the corners that must follow it, because they lie on moving edges.
+    /// Removes moves for which these corners cannot stay on their edges.
     fn follow(&mut self, guides: &[Guide], normals: &[Vec<Vector>]) {
-        // The unknowns are the displacements of guided corners: along the normal for one guide, along both axes for
-        // several.
+        // The unknowns are the displacements of corners on edges: along the normal of one edge, or along x and y if
+        // there are several edges.
         let mut guided: Vec<usize> = guides.iter().map(|guide| guide.of).collect();
         guided.sort_unstable();
         guided.dedup();
@@ -180,7 +181,7 @@ impl Corners {
         }
     }
 
-    /// Removes the moves that change the normal of a contact of two corners, because the change of this normal is not
+    /// Removes moves that rotate the normal of a contact of two corners. The derivative of such a rotation is not
     /// computed.
     fn freeze(&mut self, contacts: &[Found], interfaces: &[&Interface]) {
         let mut is_frozen = vec![false; self.count];
@@ -207,7 +208,7 @@ impl Corners {
     }
 }
 
-/// Returns the position of one corner of each joined corner.
+/// Returns the position of each joined corner, metres: that of one of its corners.
 fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
     let mut positions = vec![Point::origin(); count];
     for (corner, joined) in all.iter().zip(joined) {
@@ -216,7 +217,7 @@ fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
     positions
 }
 
-/// Returns the guides in groups; guides in different groups do not depend on each other.
+/// Groups the guides, such that guides in different groups are independent of each other.
 fn parts(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
     let mut is_guided = vec![false; count];
     guides.iter().for_each(|guide| is_guided[guide.of] = true);

@@ -1,4 +1,4 @@
-//! [`Elimination`]: solves small dense systems of linear equations, and finds all solutions if there are several.
+//! [`Elimination`]: solves small dense systems of linear equations, also if they have many solutions or none.
 //!
 //! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
 
@@ -19,8 +19,8 @@ pub(super) struct Elimination {
 }
 
 impl Elimination {
-    /// Solves a system of equations for several right-hand sides. Each row has `unknowns` coefficients. Each list in
-    /// `sides` has one number for each row.
+    /// Solves a linear system for several right-hand sides. Each row has `unknowns` coefficients. Each list in `sides`
+    /// is a right-hand side, with one number for each row.
     pub fn new(rows: &[Vec<f64>], unknowns: usize, sides: &[Vec<f64>]) -> Elimination {
         let mut table: Vec<Vec<f64>> = rows.to_vec();
         for (k, row) in table.iter_mut().enumerate() {
@@ -28,7 +28,7 @@ impl Elimination {
         }
         let entries = rows.iter().flatten();
         let largest = entries.fold(0.0, |most: f64, v| most.max(v.abs()));
-        // For each row that is finished, the unknown that it determines.
+        // The column of the pivot in each row that is already eliminated.
         let mut pivots: Vec<usize> = Vec::new();
         let mut is_free = vec![true; unknowns];
         while pivots.len() < table.len() {
@@ -71,7 +71,7 @@ impl Elimination {
     }
 }
 
-/// Returns row, column and absolute value of the largest entry in the free columns; `None` if there is no such entry.
+/// Returns the row, the column and the magnitude of the largest entry in the free columns. `None` if no column is free.
 fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f64)> {
     let mut best: Option<(usize, usize, f64)> = None;
     for (number, row) in rows.iter().enumerate() {
@@ -85,8 +85,8 @@ fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f
     best
 }
 
-/// Divides the pivot row such that its entry in the given column is 1. Then subtracts it from all other rows such that
-/// their entries in this column are 0.
+/// Makes one column of the table a unit vector: divides the pivot row by its entry in this column, and subtracts
+/// multiples of it from all other rows.
 fn clear_column(table: &mut [Vec<f64>], pivot: usize, column: usize) {
     let by = table[pivot][column];
     for value in &mut table[pivot] {

@@ -1,4 +1,4 @@
-//! Finds the sensitivity of a frame from the sensitivities of its components.
+//! Combines the sensitivities of the components of a frame into the sensitivity of the frame.
 
 use super::case::Case;
 use super::corners::Corners;
@@ -24,7 +24,7 @@ type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
 /// falls there.
 const SAME_END: f64 = 1e-6;
 
-/// Finds how both ends of a margin of a frame change with corners, weights, friction and loads.
+/// Computes how both ends of the interval of a margin change with corners, weights, friction and loads.
 pub(in crate::mechanics::analysis) fn find(
     context: &FrameContext,
     parts: &[Part],
@@ -39,7 +39,7 @@ pub(in crate::mechanics::analysis) fn find(
         MarginKind::LoadFactor => &intervals.load_factor,
         MarginKind::Robots => &None,
     };
-    // If the scene lists its contacts, they do not follow the corners of the outlines, so there are no derivatives.
+    // Contacts that the scene lists do not move with the corners of the outlines, so there are no derivatives.
     let (low, high) = match interval
         .as_ref()
         .filter(|_| !context.scene.lists_contacts())
@@ -120,8 +120,8 @@ impl Search<'_> {
         Ok(self.slopes(exact, &branches, outward))
     }
 
-    /// Returns the mechanism by which a component falls at the end of the frame's interval; `None` if it does not fall
-    /// there.
+    /// Returns the mechanism by which a component falls beyond the end of the frame's interval. `None` if other
+    /// components fall there, but not this component.
     fn mechanism_of<'m>(
         &self,
         part: &'m Part,
@@ -151,7 +151,7 @@ impl Search<'_> {
         }
     }
 
-    /// Combines the derivatives of all components that fall at the end into the slopes of the frame.
+    /// Combines the derivatives of all components that fall at this end into the derivatives of the frame.
     fn slopes(&self, value: f64, branches: &[Branch], outward: f64) -> EndSensitivity {
         let (scene, frame) = (self.context.scene, self.context.frame);
         let slope = |largest: f64, read: &dyn Fn(&Rates) -> f64| {
@@ -202,7 +202,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the slopes of all corners of blocks. `largest` is the largest derivative with respect to a corner.
+    /// Returns the derivatives for the corners of all placed blocks. `largest` is the largest derivative for any
+    /// corner.
     fn corners(&self, slope: &SlopeOf<'_>, largest: f64) -> Vec<CornerSlope> {
         let corners = self.corners;
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); corners.count];

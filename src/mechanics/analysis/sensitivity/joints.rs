@@ -1,4 +1,4 @@
-//! [`Finder`]: finds the corners at the ends of joints, and the corners that lie on edges.
+//! [`Finder`]: finds the corners of bodies at the ends of joints, and the corners that lie on edges of other bodies.
 
 use crate::assembly::DisjointSets;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
@@ -31,8 +31,8 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    /// Returns the factor of the normal displacement of `corner` in the condition that the corner `of` stays on the
-    /// edge. It is 0 for a corner that does not occur in the condition.
+    /// Returns the coefficient of the normal displacement of `corner` in this condition: the corner `of` stays on the
+    /// edge between `from` and `to`. The coefficient is 0 for any other corner.
     pub fn factor(&self, corner: usize) -> f64 {
         let mut factor = 0.0;
         for (place, value) in [
@@ -102,7 +102,7 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// Returns the indices of the corners of a body.
+    /// Returns the range of the indices, in `all`, of the corners of a body.
     fn corners_of(&self, body: BodyId) -> std::ops::Range<usize> {
         let place = self.first.partition_point(|(other, _)| *other < body);
         let from = self.first.get(place).map_or(0, |(_, first)| *first);
@@ -117,7 +117,7 @@ impl<'s> Finder<'s> {
         (REACH * gap).max(ROUNDING * size)
     }
 
-    /// Returns the corner of a body that is nearest to a point; `None` if its distance is larger than `reach`.
+    /// Returns the corner of a body that is nearest to a point. `None` if it is farther away than `reach`, metres.
     fn corner_at(&self, body: BodyId, at: Point, reach: f64) -> Option<usize> {
         let near = self
             .corners_of(body)
@@ -128,8 +128,8 @@ impl<'s> Finder<'s> {
             .map(|(place, _)| place)
     }
 
-    /// Returns the two corners of the edge of a body that is nearest to a point. If `along` is given, only edges in
-    /// about this direction count.
+    /// Returns the two corners of the edge of a body that is nearest to a point. If `along` is given, the edge must
+    /// have about this direction.
     fn edge_at(&self, body: BodyId, at: Point, along: Option<Vector>) -> Option<[usize; 2]> {
         let edges = self.corners_of(body).filter_map(|place| {
             let next = self.all[place].neighbours[1];
@@ -143,7 +143,7 @@ impl<'s> Finder<'s> {
         nearest.map(|(edge, _)| edge)
     }
 
-    /// Joins the corners of both bodies at each end of an interface.
+    /// At each end of an interface, joins the corners of both bodies that lie there: they will move together.
     pub fn join(&mut self, interface: &Interface) {
         let reach = self.reach(interface);
         for end in interface.ends {
@@ -156,7 +156,7 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// Finds the corners at the ends of an interface, and the corners that lie on its edges.
+    /// Finds the corners at the ends of an interface. Records which of them lie on an edge of the other body.
     pub fn contact(&mut self, interface: &Interface) -> Found {
         let reach = self.reach(interface);
         let is_corner = interface.kind == ContactKind::Corner;
@@ -188,7 +188,7 @@ impl<'s> Finder<'s> {
         found
     }
 
-    /// Notes that corners inside a straight joint lie on the line between its ends.
+    /// Records that each corner inside a straight joint lies on the line between the two ends of the joint.
     fn guide_inside(&mut self, interface: &Interface, ends: [usize; 2], reach: f64) {
         let along = interface.tangent();
         for body in interface.bodies {
@@ -205,7 +205,8 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// Returns the index of the joined corner of each corner, and the number of joined corners.
+    /// Returns, for each corner, the index of the joined corner that it belongs to. Also returns the number of joined
+    /// corners.
     pub fn joined(&mut self) -> (Vec<usize>, usize) {
         let mut number = vec![usize::MAX; self.all.len()];
         let mut count = 0;
@@ -221,7 +222,7 @@ impl<'s> Finder<'s> {
         (joined, count)
     }
 
-    /// Returns the conditions on joined corners, each of them once.
+    /// Returns the conditions that joined corners stay on their edges, without duplicates.
     pub fn guides(&self, joined: &[usize]) -> Vec<Guide> {
         let guides = self.on_edges.iter().filter_map(|(corner, edge)| {
             let [from, to] = edge.map(|place| self.all[place].at);

@@ -1,4 +1,4 @@
-//! [`Sensitivity`]: how an end of a margin changes with corners, weights, friction and loads.
+//! [`Sensitivity`]: the derivatives of a margin with respect to corners, weights, friction and loads.
 //!
 //! At the end of a margin the forces x balance, and the power of all forces along the mechanism u is 0. If a quantity p
 //! changes, the value λ of the margin changes such that this power stays 0. Therefore dλ/dp = −(u·∂r/∂p) / (u·∂r/∂λ),
@@ -36,7 +36,8 @@ pub(super) use find::{Part, find};
 pub use slope::Slope;
 
 impl Analysis {
-    /// Returns how a margin of a frame (numbered from 0) changes with corners, weights, friction and loads.
+    /// Returns the derivatives of a margin of a frame (numbered from 0) with respect to corners, weights, friction and
+    /// loads.
     ///
     /// The derivatives are in the unit of the margin (degrees for the tilt), per metre, per newton, or per unit of
     /// friction. The frame is analysed again unless [`Options::sensitivity`] requested this margin.
@@ -97,8 +98,8 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Returns the margin whose sensitivity a figure shows unless another one is requested: the load factor if a placed
-    /// block has a load, otherwise the tilt.
+    /// Returns the margin whose sensitivity a figure shows by default: the load factor if a placed block has a load,
+    /// otherwise the tilt.
     pub fn default_kind(scene: &Scene) -> MarginKind {
         let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
         match scene.loads.iter().any(|load| placed(load.block)) {
@@ -107,8 +108,9 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the end that a figure shows: the one nearer to the present state, for the load factor the upper one if it
-    /// has a value. The flag is true for the upper end. `None` if neither end has a value.
+    /// Returns the derivatives of the end of the interval that a figure shows. This is the end nearer to 0; for the
+    /// load factor it is the upper end, if that has derivatives. The flag is true for the upper end. `None` if neither
+    /// end has derivatives.
     pub fn nearest(&self) -> Option<(bool, &EndSensitivity)> {
         match (&self.low, &self.high) {
             (Err(_), Err(_)) => None,
@@ -124,14 +126,16 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the ends that have derivatives, the lower end first. The flag is true for the upper end.
+    /// Returns those ends of the interval that have derivatives, the lower end first. The flag is true for the upper
+    /// end.
     pub fn ends(&self) -> impl Iterator<Item = (bool, &EndSensitivity)> {
         let both = [(false, &self.low), (true, &self.high)];
         both.into_iter()
             .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
     }
 
-    /// Returns the reason for the upper end if neither end has derivatives; otherwise `None`.
+    /// Returns why there are no derivatives, if neither end of the interval has any: the reason for the upper end. Otherwise
+    /// `None`.
     pub fn reason(&self) -> Option<NoSensitivity> {
         match (&self.low, &self.high) {
             (Err(_), Err(reason)) => Some(*reason),
@@ -216,7 +220,7 @@ pub enum CornerMoves {
 }
 
 impl CornerMoves {
-    /// Returns the derivative as a vector, which points in the direction of the largest increase. `None` if a
+    /// Returns the gradient, which points in the direction in which the margin's value increases most. `None` if a
     /// derivative is not unique, or if the corner cannot move.
     pub fn gradient(self) -> Option<Vector> {
         match self {

@@ -1,4 +1,4 @@
-//! [`State`]: forces and a mechanism at one end of an interval.
+//! [`State`]: the forces and the mechanism of a component at an end of an interval, where it begins to fall.
 
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::proof::ContactForces;
@@ -19,7 +19,7 @@ impl RigidMotion {
         spin: 0.0,
     };
 
-    /// Returns the velocity of a point of the body.
+    /// Returns the velocity of a point that moves with the body.
     pub fn at(&self, point: Point) -> Vector {
         self.velocity + quarter_turn(point - self.origin) * self.spin
     }

@@ -1,4 +1,4 @@
-//! [`Rates`]: the derivatives of the value at an end of an interval, for one state of forces and mechanism.
+//! [`Rates`]: the derivatives of the limit of stability, if forces and mechanism at this limit are known.
 //!
 //! Every derivative is −u·∂r/∂p divided by u·∂r/∂λ. Here r is the sum of the forces on each body, u the mechanism, p
 //! the quantity that changes, and λ the parameter of the margin. The bodies of the mechanism move rigidly. If the point
@@ -24,8 +24,8 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// Computes the derivatives for all corners, blocks, loads and `interfaces` of the frame. `None` if the parameter
-    /// does no work along the mechanism.
+    /// Computes the derivatives with respect to all corners, weights, friction coefficients and load points of a frame.
+    /// `interfaces` is the number of its interfaces. `None` if the margin's parameter does no work along the mechanism.
     pub fn new(
         scene: &Scene,
         corners: &Corners,
@@ -57,7 +57,7 @@ impl Rates {
             let Some(body) = body_of_block[load.block.0] else {
                 continue;
             };
-            // Moving the force by d changes its power by spin · (d × force).
+            // If the point of the force moves by d, the power of the force changes by spin · (d × force).
             let force = load.force * changed.load_factor;
             *rate = -quarter_turn(force) * state.motions[body].spin;
             if load.at_centroid {
@@ -88,7 +88,7 @@ impl Rates {
         Some(rates)
     }
 
-    /// Adds the change of the power of a contact's forces if its ends move, if its normal rotates with them, or if its
+    /// Adds how the power of a contact's forces changes if its ends move, which also rotates its normal, or if its
     /// friction coefficient changes.
     fn add_contact(
         &mut self,
@@ -111,7 +111,8 @@ impl Rates {
         let Some(place) = &corners.contacts[contact.interface] else {
             return;
         };
-        // Power per metre that each application point moves, and per radian that the normal rotates.
+        // Compute the change of power if an application point moves (per metre), and if the normal rotates (per
+        // radian).
         let at_point = |k: usize| {
             let friction = if k == 0 { forces.friction } else { 0.0 };
             let force = normal * forces.normal[k] + tangent * friction;
@@ -121,7 +122,7 @@ impl Rates {
         for (force, at) in forces.normal.iter().zip(contact.points) {
             turning += force * tangent.dot(&apart(at));
         }
-        // The application points are the ends, moved inward by the same fraction of the length.
+        // The application points are the ends of the contact, moved inward by the same fraction of its length.
         let length = (contact.ends[1] - contact.ends[0]).norm();
         let inward = match length > 0.0 {
             true => (contact.points[0] - contact.ends[0]).norm() / length,
@@ -162,7 +163,7 @@ impl CornerShift {
         let [before, after] = corners.around(place).map(|at| at - centroid);
         let own = corner.at - centroid;
         // The area is half the sum of the cross products of neighbouring corners. The first moment is a sixth of the
-        // sum of each cross product times the sum of its two corners.
+        // sum of (cross product) · (sum of the two corners).
         let of_area = -quarter_turn(after - before) * 0.5;
         let of_axes = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)].map(|d| {
             let (before_turn, after_turn) = (cross(before, d), cross(d, after));
@@ -178,8 +179,8 @@ impl CornerShift {
         }
     }
 
-    /// Returns the derivative of a quantity with respect to the corner. `rate` is the derivative of this quantity with
-    /// respect to the centroid.
+    /// Converts a derivative with respect to the centroid, `rate`, to the derivative with respect to this corner (x and
+    /// y).
     fn of_centroid(&self, rate: Vector) -> Vector {
         Vector::new(rate.dot(&self.of_axes[0]), rate.dot(&self.of_axes[1]))
     }

@@ -1,4 +1,4 @@
-//! [`Reduced`]: the equilibrium equations of the groups of bodies that move as one body at the end of an interval.
+//! [`Reduced`]: equilibrium equations for groups of bodies that move as one rigid body at the limit of stability.
 //!
 //! Each group has three rows: force x, force y, and moment about a common origin, divided by the length L. Forces are
 //! in units of the program.
@@ -33,7 +33,8 @@ pub(super) struct Reduced {
 }
 
 impl Reduced {
-    /// Groups the bodies that are held together by the basic forces.
+    /// Groups the bodies that contacts or robots hold together at the limit of stability, and keeps the forces between
+    /// these groups as unknowns.
     pub fn new(case: &Case, program: &Program, solved: &LimitState) -> Reduced {
         let given = case.component;
         let (all, limits) = unknowns(program, solved);
@@ -52,7 +53,7 @@ impl Reduced {
         for (number, body) in given.bodies.iter().enumerate() {
             if let Some(group) = group[number] {
                 let [u, v, spin] = [0, 1, 2].map(|row| solved.motion[3 * number + row]);
-                // The velocity of the origin if it moves with this body.
+                // Compute the velocity at the common origin, as if the origin moved with this body.
                 let arm = quarter_turn(origin - body.centroid) * (spin / length);
                 motion[3 * group..3 * group + 3].copy_from_slice(&[u + arm.x, v + arm.y, spin]);
             }
@@ -70,14 +71,14 @@ impl Reduced {
         }
     }
 
-    /// Returns the indices of the basic unknowns.
+    /// Returns the indices of the basic unknowns: the forces that may differ from 0.
     pub fn basic(&self) -> impl Iterator<Item = usize> + '_ {
         let all = self.unknowns.iter().enumerate();
         all.filter(|(_, unknown)| unknown.is_basic).map(|(k, _)| k)
     }
 
-    /// True if the force of a grip at its limit has hardly any power: at most `speed` per unit of force. Such a limit
-    /// may or may not be reached beyond the end.
+    /// True if some robot force at its limit has a power of at most `speed` per unit of force. The motion then does not
+    /// show whether this force stays at its limit.
     pub fn has_idle_limit(&self, changed: &Assembly, speed: f64, motion: &[f64]) -> bool {
         self.limits.iter().any(|(grip, component, _)| {
             let source = Source::Grip {
@@ -90,7 +91,7 @@ impl Reduced {
         })
     }
 
-    /// Returns the entries (row, value) of one unit of an unknown force in the rows of the groups.
+    /// Returns the column of an unknown force in the equilibrium equations, as (row, value) for a force of one unit.
     fn entries(&self, changed: &Assembly, source: Source) -> Vec<(usize, f64)> {
         match source {
             Source::Contact {
@@ -119,8 +120,8 @@ impl Reduced {
         }
     }
 
-    /// Returns the entries (row, value) of a force at a point of a body and of a torque. Empty if the body rests with
-    /// the ground.
+    /// Returns the entries (row, value) of a force at a point of a body, plus a torque, in the equilibrium equations.
+    /// Empty if the body is at rest with the ground.
     fn wrench(&self, body: usize, at: Point, force: Vector, torque: f64) -> Vec<(usize, f64)> {
         let Some(group) = self.group[body] else {
             return Vec::new();
@@ -130,8 +131,7 @@ impl Reduced {
         vec![(row, force.x), (row + 1, force.y), (row + 2, moment)]
     }
 
-    /// Returns the sum of the loads in the rows of the groups. Forces are in the unit of `loads`; moments are divided
-    /// by L.
+    /// Returns the sum of the loads on each group: force x, force y and moment/L. Forces are in the unit of `loads`.
     pub fn grouped(&self, changed: &Assembly, loads: &[LoadVector]) -> Vec<f64> {
         let mut sum = vec![0.0; 3 * self.groups];
         for ((body, group), load) in changed.bodies.iter().zip(&self.group).zip(loads) {
@@ -145,7 +145,7 @@ impl Reduced {
         sum
     }
 
-    /// Returns the rows of the equilibrium equations, with one entry for each of the chosen unknowns.
+    /// Returns the rows of the equilibrium equations, with one column for each unknown in `chosen`.
     pub fn rows(&self, changed: &Assembly, chosen: &[usize]) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; chosen.len()]; 3 * self.groups];
         for (column, place) in chosen.iter().enumerate() {
@@ -156,13 +156,13 @@ impl Reduced {
         rows
     }
 
-    /// Returns the power of one unit of an unknown along a motion of the groups.
+    /// Returns the power of a unit of one unknown force along a motion of the groups.
     pub fn power(&self, changed: &Assembly, unknown: &Unknown, motion: &[f64]) -> f64 {
         let entries = self.entries(changed, unknown.source).into_iter();
         entries.map(|(row, value)| value * motion[row]).sum()
     }
 
-    /// Returns the unbalanced force in each row, in units of the program.
+    /// Returns the unbalanced force of each group (force x, force y, moment/L), in units of the program.
     pub fn residual(&self, changed: &Assembly, amounts: &[f64]) -> Vec<f64> {
         let loads: Vec<LoadVector> = changed.bodies.iter().map(|body| body.load).collect();
         let mut sum = self.grouped(changed, &loads);
@@ -201,8 +201,8 @@ impl Reduced {
                 continue;
             };
             let contact = &changed.contacts[contact];
-            // A larger friction coefficient adds force along the tangent. A larger kernel moves the points inward, each
-            // by half the length per unit.
+            // A larger friction coefficient increases the tangential force. A larger kernel moves both points inward,
+            // each by half the length of the contact per unit.
             let (force, torque) = match case.kind {
                 MarginKind::Friction => (contact.tangent() * (side * amount), 0.0),
                 _ => {
@@ -223,8 +223,8 @@ impl Reduced {
         sum
     }
 
-    /// Returns the contact forces in newtons, the motions of the bodies in metres, and the power per unit of the
-    /// parameter.
+    /// Converts forces and motion to a [`State`]: contact forces in newtons, motions of all bodies in metres, and power
+    /// per unit of the parameter.
     pub fn state(
         &self,
         case: &Case,

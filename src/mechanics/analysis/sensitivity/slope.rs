@@ -1,4 +1,4 @@
-//! [`Slope`]: a derivative, unique or one-sided.
+//! [`Slope`]: the derivative of a margin. It has one value, or two values if the margin has a kink.
 
 use super::rates::Rates;
 use super::state::Freedom;
@@ -24,7 +24,7 @@ impl Slope {
     /// The slope of an end that does not change.
     pub(super) const ZERO: Slope = Slope::Unique(0.0);
 
-    /// Returns the derivative if it is unique; otherwise `None`.
+    /// Returns the derivative if it is the same on both sides; otherwise `None`.
     pub fn unique(self) -> Option<f64> {
         match self {
             Slope::Unique(slope) => Some(slope),
@@ -32,7 +32,7 @@ impl Slope {
         }
     }
 
-    /// Returns two derivatives: the first if the number decreases, the second if it increases. `None` if they were not
+    /// Returns the two one-sided derivatives: if the number decreases, and if it increases. `None` if they were not
     /// computed.
     pub fn both(self) -> Option<[f64; 2]> {
         match self {
@@ -42,8 +42,8 @@ impl Slope {
         }
     }
 
-    /// Combines the slopes of two ends that have the same value. The result is the slope of the smaller end, or of the
-    /// larger end if `outward` is negative.
+    /// Returns the slope of the minimum of two functions that have the same value here, or of their maximum if
+    /// `outward` is negative. `self` and `other` are the slopes of the two functions.
     pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
         let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
             return Slope::AtKink;
@@ -55,7 +55,7 @@ impl Slope {
         )
     }
 
-    /// Returns a unique slope, the mean, if both derivatives are equal within a tolerance. Otherwise returns both.
+    /// Returns the mean as a unique slope if both derivatives differ by at most `tolerance`. Otherwise returns both.
     fn one_sided(backward: f64, forward: f64, tolerance: f64) -> Slope {
         match (backward - forward).abs() <= tolerance {
             true => Slope::Unique(0.5 * (backward + forward)),
@@ -75,8 +75,8 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Returns the slope of the number that `read` takes from the rates. `largest` is the largest derivative of the
-    /// same kind.
+    /// Returns the slope of one derivative, which `read` takes from [`Rates`]. `largest` is the largest derivative of
+    /// the same kind; the tolerance is relative to it.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
             return Slope::AtKink;
@@ -94,8 +94,8 @@ impl Branch {
         }
         let least = others().fold(f64::INFINITY, f64::min);
         let most = others().fold(f64::NEG_INFINITY, f64::max);
-        // Each mechanism gives one limit of the parameter, and the end is the nearest limit. An upper end therefore
-        // follows the least derivative if the number increases, and the largest if it decreases.
+        // Each mechanism gives a limit of the parameter, and the nearest limit decides. An upper end therefore changes
+        // with the smallest derivative if the number increases, and with the largest if it decreases.
         if self.freedom != Freedom::Mechanisms {
             return Slope::AtKink;
         }

@@ -1,4 +1,5 @@
-//! [`EndState`]: computes forces and mechanism at one end of an interval, and whether they are unique.
+//! [`EndState`]: computes the forces and the mechanism of a component at its limit of stability, and whether they are
+//! unique.
 //!
 //! In the mechanism at the end, the two bodies of a contact either are held together or move relative to each other.
 //! Bodies that are held together are one *group*. Only the contacts between groups matter. In the other contacts the
@@ -63,7 +64,8 @@ pub(super) struct EndState {
 }
 
 impl EndState {
-    /// Computes the states at an end; `None` if the solution is not exact, or if there are too many groups.
+    /// Computes forces and mechanism at an end of an interval. `None` if the equations are not solved accurately, or if
+    /// there are too many groups.
     pub fn new(case: &Case) -> Option<EndState> {
         let (program, solved) = case.solved(&case.at(case.value))?;
         let mut reduced = Reduced::new(case, &program, &solved);
@@ -77,8 +79,8 @@ impl EndState {
         if reduced.has_idle_limit(&changed, ZERO * largest(&motions.first), &motions.first) {
             return None;
         }
-        // Unknowns without force along which the mechanism does no work may have a force in another state of
-        // equilibrium.
+        // A force that is 0, and along which the mechanism does no work, may differ from 0 in another equilibrium. It
+        // also counts as basic.
         let speed = largest(&motions.first);
         let is_idle = |unknown: &Unknown| {
             let power = reduced.power(&changed, unknown, &motions.first);
@@ -111,7 +113,7 @@ impl EndState {
         Some(found)
     }
 
-    /// Adds the other states if the first state is not unique, and sets `freedom`.
+    /// If forces or mechanism are not unique, adds further states, and sets `freedom` accordingly.
     fn add_others(
         &mut self,
         case: &Case,
@@ -140,7 +142,7 @@ impl EndState {
             self.freedom = Freedom::Unknown;
             return;
         }
-        // Combine every motion with every set of forces, because the derivative is linear in both.
+        // Combine every motion with every set of forces: the derivative is linear in each of them.
         self.freedom = Freedom::Hull;
         let moved = |first: &[f64], by: &[f64]| -> Vec<f64> {
             let share = largest(first) / largest(by);
@@ -160,8 +162,8 @@ impl EndState {
     }
 }
 
-/// Solves for the forces between groups, and for the value at which they balance the loads, by Newton's method. The
-/// method starts from the forces of the program. Forces that are not basic stay 0. `None` if it does not converge.
+/// Solves by Newton's method for the forces between groups and for the value of the parameter at which they balance the
+/// loads. Starts from the forces of the linear program; forces that are not basic stay 0. `None` without convergence.
 fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>> {
     let basic: Vec<usize> = reduced.basic().collect();
     let mut amounts: Vec<f64> = reduced.unknowns.iter().map(|u| u.amount).collect();
@@ -197,8 +199,8 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
     (largest(&rest) <= ROUNDING * reduced.load).then_some(amounts)
 }
 
-/// Returns a basis of the changes of the forces that keep the balance at the value of the end. `None` if one of these
-/// changes needs another value.
+/// Returns a basis of the changes of the forces that keep the balance while the parameter keeps its value. `None` if
+/// one of these changes would change the value.
 fn null_balances(
     case: &Case,
     reduced: &Reduced,
@@ -232,14 +234,14 @@ struct Motions {
 }
 
 impl Motions {
-    /// Corrects the motion of the program such that basic forces do no work and the outward loads have the power 1.
-    /// `None` if no such motion exists.
+    /// Corrects the motion of the linear program, such that basic forces do no work and the loads that push outward
+    /// have the power 1. `None` if no such motion exists.
     fn new(case: &Case, reduced: &Reduced, changed: &Assembly, value: f64) -> Option<Motions> {
         let basic: Vec<usize> = reduced.basic().collect();
         let columns = reduced.rows(changed, &basic);
         let push = reduced.grouped(changed, &case.push(value));
         let unit = largest(&push);
-        // One equation for each basic force, and one equation for the power.
+        // There is one equation for each basic force, and one equation for the power.
         let mut rows: Vec<Vec<f64>> = (0..basic.len())
             .map(|k| columns.iter().map(|row| row[k]).collect())
             .collect();
@@ -265,7 +267,8 @@ impl Motions {
     }
 }
 
-/// Returns all extreme motions. `None` if their set is unbounded, or if there are too many combinations of conditions.
+/// Returns all extreme points of the set of possible motions. `None` if the set is unbounded, or if there are too many
+/// combinations of conditions to test.
 ///
 /// A motion is first + Σ share · other. Forces between groups that are 0 must not do negative work. At an extreme
 /// motion, as many of these conditions hold with equality as there are shares.
@@ -299,7 +302,7 @@ fn extreme_motions(
             .map(|k| conditions[*k].shares.clone())
             .collect()
     };
-    // The set of motions is unbounded if some direction meets all conditions.
+    // If some direction satisfies all conditions, the set of motions is unbounded.
     for chosen in combinations(conditions.len(), free - 1)? {
         let found = Elimination::new(&rows(&chosen), free, &[]);
         if let [direction] = found.null_space.as_slice() {
@@ -325,7 +328,8 @@ fn extreme_motions(
             all.push(motion);
         }
     }
-    // A bounded set has more extreme points than dimensions.
+    // A bounded set of this dimension has more extreme points than dimensions. With fewer points, the result is
+    // incomplete.
     (all.len() > free).then_some(all)
 }
 
@@ -337,15 +341,14 @@ struct Condition {
 }
 
 impl Condition {
-    /// Returns the power along a motion: `with` times the first motion, plus the given shares of the other motions.
+    /// Returns the power along a combination of motions: `with` times the first motion, plus `shares` times the others.
     fn power(&self, shares: &[f64], with: f64) -> f64 {
         let change: f64 = self.shares.iter().zip(shares).map(|(a, b)| a * b).sum();
         with * self.first + change
     }
 }
 
-/// Returns all ways to choose `count` different numbers from 0 up to, but not including, `of`. `None` if there are too
-/// many ways.
+/// Returns all subsets of `count` numbers from 0, 1, …, `of` − 1. `None` if there are too many.
 fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..count {

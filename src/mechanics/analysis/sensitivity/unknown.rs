@@ -1,5 +1,5 @@
-//! [`Unknown`]: the forces of contacts and grips at an end of an interval, and the groups of bodies that they hold
-//! together.
+//! [`Unknown`]: the unknown forces of contacts and robots at the limit of stability, and the groups of bodies that
+//! these forces hold together.
 
 use crate::assembly::{Assembly, DisjointSets};
 use crate::program::{Force, Program};
@@ -37,7 +37,8 @@ pub(super) enum Source {
     Grip { grip: usize, component: usize },
 }
 
-/// Returns the unknown forces of contacts and grips, and the forces of grips at their limits (grip, component, force).
+/// Returns the unknown forces of contacts and grips. Also returns the components of grip forces that are at their
+/// limits, as (grip, component, force).
 pub(super) fn unknowns(
     program: &Program,
     solved: &LimitState,
@@ -97,7 +98,7 @@ pub(super) fn unknowns(
     (unknowns, limits)
 }
 
-/// Returns the group of each body and the number of groups. The group is `None` for bodies that rest with the ground.
+/// Returns the group of each body, and the number of groups. The group is `None` for a body at rest with the ground.
 ///
 /// A contact holds its bodies together if both of its points have basic forces, and one point has them on both sides of
 /// the friction cone. Then neither point can move, so the bodies cannot move. A robot holds a body if all three
