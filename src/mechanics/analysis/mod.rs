@@ -145,8 +145,8 @@ pub struct FrameAnalysis {
     pub sensitivity: Option<Sensitivity>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
-    /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not requested,
-    /// if the frame does not stand, or if no answer was found.
+    /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not
+    /// requested, if the frame does not stand, or if no answer was found.
     pub only_by_wedging: Option<bool>,
     /// The proof that the frame stands only by a self-stress, if it does.
     pub wedged: Option<Wedged>,

@@ -1,4 +1,4 @@
-//! Processes a stream of scenes with several threads and returns the answers in the order of the stream.
+//! Passes many scenes to several threads, and returns the answers in the order of the input.
 //!
 //! 1. [`Records`] reads lines and files one at a time.
 //! 2. [`in_order`] passes them to several threads. The records in progress never exceed its [`Capacity`].

@@ -1,8 +1,8 @@
-//! [`in_order`]: an ordered parallel map over a stream, with bounded memory.
+//! [`in_order`]: processes the items of a stream in parallel and returns the results in order, with bounded memory.
 //!
-//! One thread reads the items, several workers compute the answers, and the calling thread receives them. An item counts
-//! towards the [`Capacity`] from when it is read until its answer has been received. A slow item or a slow receiver
-//! therefore stops the reader, and the memory stays bounded.
+//! One thread reads the items, several workers compute the answers, and the calling thread receives them. An item
+//! counts towards the [`Capacity`] from when it is read until its answer has been received. A slow item or a slow
+//! receiver therefore stops the reader, and the memory stays bounded.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
@@ -22,8 +22,8 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// Returns the capacity for `threads` workers: 64 items per worker, so that a slow item does not stop the others,
-    /// and 64 MiB in total.
+    /// Returns the limits for `threads` worker threads: 64 items in progress per thread, so that a slow item does not
+    /// stop the others, and 64 MiB in total.
     pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
         Capacity {
@@ -36,7 +36,7 @@ impl Capacity {
 
 /// The memory that an item occupies.
 pub trait ByteSize {
-    /// Returns the approximate size in bytes.
+    /// Returns the approximate size of the item in memory, in bytes.
     fn byte_size(&self) -> usize;
 }
 
@@ -63,15 +63,17 @@ struct Shared<T> {
 
 impl<T> Shared<T> {
     fn lock(&self) -> MutexGuard<'_, State<T>> {
-        // A poisoned lock is safe to use: no thread leaves the counts or the list half changed.
+        // A lock is also used if a thread panicked while it held the lock: no thread can leave the counts or the list
+        // half changed.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Calls `work` for every item of a stream, and calls `receive` for every answer in the order of the stream.
+/// Calls `work` for every item of a stream in several threads. Calls `receive` for every answer, in the order of the
+/// stream.
 ///
-/// `receive` is called with `None` whenever no answer is ready; that is the time to flush an output. If it returns
-/// `Break`, everything stops. A thread that is reading input at that moment stays until the input arrives.
+/// `receive` is called with `None` whenever no answer is ready, so that it can flush its output. If `receive` returns
+/// `Break`, everything stops. A thread that waits for input at this moment ends only when the input arrives.
 ///
 /// # Panics
 ///
@@ -114,7 +116,8 @@ pub fn in_order<T, R>(
     shared.space.notify_all();
 }
 
-/// Runs in the reading thread: queues items while the capacity allows it.
+/// Reads items and queues them for the workers. Waits while the items in progress fill the capacity. Runs in the
+/// reading thread.
 fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, capacity: Capacity) {
     for (number, item) in (0..).zip(input) {
         let size = item.byte_size();
@@ -141,7 +144,8 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, cap
     shared.work.notify_all();
 }
 
-/// Runs in each worker thread: takes items and sends their answers until the input has ended.
+/// Takes items from the queue, processes them and sends the answers, until the input has ended. Runs in each worker
+/// thread.
 fn answer_all<T: ByteSize, R>(
     shared: &Shared<T>,
     work: &impl Fn(T) -> R,
@@ -172,13 +176,13 @@ fn answer_all<T: ByteSize, R>(
     }
 }
 
-/// Runs in the calling thread: puts the answers into order and passes them on.
+/// Sorts the answers into the order of the items and passes them to `receive`. Runs in the calling thread.
 fn receive_all<T, R>(
     shared: &Shared<T>,
     answers: &Receiver<(u64, usize, R)>,
     receive: &mut impl FnMut(Option<R>) -> ControlFlow<()>,
 ) {
-    // Answers that have arrived, but wait for the answers of earlier items.
+    // Answers that arrived before the answers of earlier items.
     let mut early: BTreeMap<u64, (usize, R)> = BTreeMap::new();
     let mut next = 0;
     loop {

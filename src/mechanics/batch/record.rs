@@ -1,4 +1,4 @@
-//! [`Records`]: reads the scenes of a batch as bytes, one at a time.
+//! [`Records`]: reads the scene files of a batch, one scene at a time, without parsing them.
 
 use std::fmt;
 use std::fs::File;
@@ -52,7 +52,7 @@ impl fmt::Debug for Input {
 }
 
 impl Input {
-    /// Returns an input that reads one scene from each line of an open stream.
+    /// Creates an input from an open stream that contains one scene on each line.
     pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
         Input::Lines {
             file,
@@ -83,7 +83,7 @@ impl fmt::Debug for Open {
 }
 
 impl Records {
-    /// Returns an iterator over the records of the given inputs, in order.
+    /// Creates an iterator over the scenes of the inputs, in order.
     pub fn new(inputs: Vec<Input>) -> Records {
         Records {
             inputs: inputs.into_iter(),
@@ -92,7 +92,7 @@ impl Records {
         }
     }
 
-    /// Returns the number of bytes read so far, as a counter that the reader shares. It serves to show progress.
+    /// Returns a shared counter of the bytes that were read so far, for showing progress.
     pub fn read(&self) -> Arc<AtomicU64> {
         Arc::clone(&self.read)
     }
@@ -136,7 +136,7 @@ impl Iterator for Records {
                         line: Some(number),
                         bytes,
                     };
-                    // Do not read on after an error: the stream could return the same error for ever.
+                    // Stop reading this stream after an error: it could return the same error for ever.
                     if size == 0 {
                         self.open = None;
                     }
@@ -177,8 +177,8 @@ impl Iterator for Records {
     }
 }
 
-/// Returns the size in bytes of the next line with its line ending, and the line without it. The size is 0 at the end
-/// of the stream and after an error.
+/// Reads a line. Returns its size in bytes, including the line ending, and its text without the line ending. The size
+/// is 0 at the end of the stream and after an error.
 fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
     let mut line = Vec::new();
     let mut size = 0;
@@ -193,7 +193,7 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         }
         let end = found.iter().position(|b| *b == b'\n');
         let piece = &found[..end.unwrap_or(found.len())];
-        // A line that is too long is read to its end, but not kept.
+        // Read a line that is too long to its end, but do not store it.
         if size + piece.len() <= MAX_RECORD_BYTES {
             line.extend_from_slice(piece);
         }

@@ -1,4 +1,4 @@
-//! [`Column`]: a force with an amount ≥ 0, and its entries in the balance rows.
+//! [`Column`]: one unknown force, at least 0, and its coefficients in the equilibrium equations.
 //!
 //! The columns of a contact are the generators of the friction cone at each application point: the pure normal force
 //! n̂, and the normal force with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each costs 1 per unit. Every
@@ -59,8 +59,8 @@ pub enum Force {
 }
 
 impl Force {
-    /// True if the force is sticking: a contact or robot cannot exert it. Such a force only shows which force is
-    /// missing.
+    /// True if the force is adhesion (sticking), which no contact or robot can exert. It only shows which force is
+    /// missing in a structure that falls.
     pub fn is_adhesion(&self) -> bool {
         matches!(
             self,
@@ -70,7 +70,7 @@ impl Force {
         )
     }
 
-    /// Returns the effect, such as friction, that the force belongs to.
+    /// Returns the effect that the force belongs to, such as friction or robots.
     fn effect(&self, program: &Program) -> EffectName {
         match *self {
             Force::Ray {
@@ -104,7 +104,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// Returns the nonzero entries as (row, value) pairs.
+    /// Returns the nonzero coefficients of the column as (row, value) pairs.
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.filled().iter().copied()
     }
@@ -113,7 +113,7 @@ impl Column {
         &self.places[..self.count]
     }
 
-    /// True if another column has the same values and the same limit. The rows may differ.
+    /// True if two columns have the same coefficients, in whatever rows, and the same limit.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
         let mut pairs = self.filled().iter().zip(other.filled());
         self.count == other.count
@@ -121,8 +121,8 @@ impl Column {
             && self.limit == other.limit
     }
 
-    /// Returns the inner product with virtual velocities `y` of the bodies: the velocity of the point of application in
-    /// the direction of the force. For a force between two bodies, it is their relative velocity.
+    /// Returns the inner product with the velocities `y` of the bodies. It is the velocity of the point of application
+    /// in the direction of the force; for a force between two bodies, it is their relative velocity.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (row, value) in self.filled() {
@@ -131,7 +131,7 @@ impl Column {
         sum
     }
 
-    /// Returns the inner product of two columns.
+    /// Returns the inner product of this column and another column.
     pub fn dot_column(&self, other: &Column) -> f64 {
         if !self.shares_block(other) {
             return 0.0;
@@ -147,7 +147,7 @@ impl Column {
         sum
     }
 
-    /// True if both columns have entries in the rows of a common body. The entries of each body are consecutive.
+    /// True if both columns have coefficients for a common body. The coefficients of each body are consecutive.
     fn shares_block(&self, other: &Column) -> bool {
         let blocks = |column: &Column| {
             let last = column.count.saturating_sub(1);
@@ -157,14 +157,14 @@ impl Column {
         blocks(other).iter().any(|block| own.contains(block))
     }
 
-    /// Adds `amount` times this column to the vector `sum`, which has one entry per row.
+    /// Adds `amount` times this column to the vector `sum`, which has one element for each row.
     pub fn add_to(&self, sum: &mut [f64], amount: f64) {
         for (row, value) in self.filled() {
             sum[*row] += amount * value;
         }
     }
 
-    /// Returns the difference of two columns that act on the same bodies.
+    /// Returns this column minus another column. Both must act on the same bodies.
     pub(super) fn minus(&self, other: &Column) -> Column {
         let mut difference = Column { count: 0, ..*self };
         let mut put = |row: usize, value: f64| match (0..difference.count)
@@ -191,7 +191,7 @@ impl Column {
         }
     }
 
-    /// Appends the entries of a force on body `block` and of its moment about the body's centroid.
+    /// Appends the coefficients of a force on the body with index `block`, and of its moment about the centroid.
     fn enter(&mut self, block: usize, force: Vector, moment: f64) {
         for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
             if value != 0.0 {
@@ -210,7 +210,7 @@ pub struct UnknownCounts {
 }
 
 impl UnknownCounts {
-    /// Counts the columns of a program by the effect that each belongs to.
+    /// Counts the unknowns of a program for each effect.
     pub fn new<'a>(
         program: &Program,
         columns: impl IntoIterator<Item = &'a Column>,
@@ -228,7 +228,7 @@ impl UnknownCounts {
         entry.map_or(0, |entry| entry.1)
     }
 
-    /// Returns the sum of two counts, effect by effect.
+    /// Returns the sum of two counts, separately for each effect.
     pub fn plus(mut self, other: &UnknownCounts) -> UnknownCounts {
         for (effect, count) in &other.counts {
             self.add(*effect, *count);
@@ -244,7 +244,7 @@ impl UnknownCounts {
     }
 }
 
-/// Returns the columns of all admissible forces of a program: contacts first, then grips.
+/// Returns the columns of all forces that contacts and robots can exert: contacts first, then grips.
 pub fn columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(6 * program.contacts.len() + 4 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -255,7 +255,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // Scale each generator so that its normal force and its friction add up to 1. Columns then have similar
+                // Scale each generator so that its normal force and its friction sum to 1. Columns then have similar
                 // sizes for every friction coefficient.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
@@ -294,10 +294,10 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Returns the columns of all sticking forces of a program, without limits.
+/// Returns the columns of all adhesive forces of a program, which have no limits.
 ///
-/// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. Sticking friction is one force
-/// per interface, because the friction forces at both ends act along the same line.
+/// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. There is only one adhesive
+/// friction force per interface, because the friction forces at both ends act along the same line.
 pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -337,7 +337,7 @@ pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Builds the column of a force at an application point of a contact. If the contact has another body, the opposite
+/// Creates the column of a force at an application point of a contact. If the contact has a second body, the opposite
 /// force acts on that body.
 fn contact_column(
     contact: &ContactTerm,
@@ -355,7 +355,7 @@ fn contact_column(
     column
 }
 
-/// Builds the column of a component of a robot's force or torque, in the direction `sign`.
+/// Creates the column of one component of a robot's force or torque, in the direction `sign` (−1 or 1).
 fn grip_column(grip: &GripTerm, component: usize, sign: f64, force: Force, limit: f64) -> Column {
     let mut column = Column::new(force, 1.0, limit);
     let direction = match component {

@@ -1,4 +1,4 @@
-//! [`Program`]: the equilibrium of one component of an assembly, in numbers without units.
+//! [`Program`]: the equilibrium equations of one component of an assembly, without units.
 //!
 //! Each block has three rows: force x, force y, and moment about its centroid divided by L. Each force has a column
 //! ([`Column`]). Invariant: lengths are divided by the median interface length L, and forces are scaled so that the
@@ -78,7 +78,7 @@ pub struct GripTerm {
 }
 
 impl Program {
-    /// Builds the program of an assembly in the units of `scale`. Contacts and grips keep their order.
+    /// Sets up the equilibrium equations of an assembly in the units of `scale`. Contacts and grips keep their order.
     pub fn new(assembly: &Assembly, scale: Scale) -> Program {
         let arms = |body: usize, points: [Point; 2]| {
             let centroid = assembly.bodies[body].centroid;
@@ -121,11 +121,12 @@ impl Program {
     /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
     const NON_BINDING: f64 = 10.0;
 
-    /// Returns the program without the robots' limits that are far above the loads and hardly ever bind. `None` if
-    /// there are no such limits.
+    /// Returns the program without those limits of robots that are far above the loads. `None` if there are no such
+    /// limits.
     ///
-    /// A limit adds a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. If a result
-    /// violates an omitted limit, its proof fails, and the program is solved again with all limits.
+    /// A limit adds a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. The caller
+    /// checks with [`Program::allows`] whether a result exceeds an omitted limit, and then solves the program again
+    /// with all limits.
     pub fn without_non_binding_limits(&self) -> Option<Program> {
         let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
         let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING * sum;
@@ -144,7 +145,7 @@ impl Program {
         })
     }
 
-    /// True if the given grip forces, in scaled units, are within this program's limits up to rounding.
+    /// True if robot forces, in program units, are within the limits of this program, up to rounding.
     pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
         self.grips.iter().zip(grips).all(|(term, given)| {
             term.limits

@@ -14,8 +14,8 @@ const SAME_DIRECTION: f64 = 1e-5;
 const ROUNDING: f64 = 1e-12;
 
 impl Program {
-    /// Returns the program with all nearly parallel or perpendicular joints made exactly so. `None` if this changes
-    /// nothing.
+    /// Returns the program with all nearly parallel or perpendicular joints made exactly parallel or perpendicular.
+    /// `None` if this changes no joint.
     ///
     /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only if the
     /// block moves with a velocity of 10⁶, and the solver ends without a status. It solves the program if the faces are
@@ -34,8 +34,8 @@ impl Program {
     }
 }
 
-/// Returns the rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly
-/// so.
+/// Returns by which angle, in radians, each direction must rotate, so that nearly parallel or perpendicular directions
+/// become exactly parallel or perpendicular.
 ///
 /// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). All directions of a cluster are
 /// rotated to its mean angle.
@@ -43,7 +43,8 @@ fn turns(directions: &[Vector]) -> Vec<f64> {
     let angles = directions.iter().map(|d| beyond_axis(*d));
     let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();
     angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Angles are periodic: a cluster at 45° is at both ends of the list. Rotate the list so that it starts after a gap.
+    // Angles are periodic: a cluster at 45° lies at both ends of the list. Rotate the list so that it starts after a
+    // gap.
     let gap = angles
         .windows(2)
         .position(|w| w[1].0 - w[0].0 > SAME_DIRECTION);
@@ -71,7 +72,8 @@ fn turned(direction: Vector, angle: f64) -> Vector {
     )
 }
 
-/// Returns the angle from the nearest axis to a direction, in radians, from −π/4 to π/4.
+/// Returns the angle between a direction and the nearest coordinate axis, in radians, anticlockwise positive, from −π/4
+/// to π/4.
 fn beyond_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)

@@ -1,6 +1,7 @@
-//! Builds the optimisation problems of a program in the form that the solvers accept.
+//! Writes the optimisation problems of a program as matrices, in the form that the solvers accept.
 //!
-//! [`QuadraticProgram`]: minimise ½ xᵀPx + qᵀx subject to Ax = b in the first `equalities` rows and Ax ≤ b in the others.
+//! [`QuadraticProgram`]: minimise ½ xᵀPx + qᵀx subject to Ax = b in the first `equalities` rows and Ax ≤ b in the
+//! others.
 //!
 //! Most problems are built in their dual, the kinematic form: the unknowns are the velocities of the bodies, and the
 //! forces are the multipliers of the rows. It has three unknowns per body; the static form has six per contact.
@@ -26,7 +27,8 @@ pub struct QuadraticProgram {
 }
 
 impl QuadraticProgram {
-    /// Appends the row columnᵀx (= or ≤) `bound`.
+    /// Appends a constraint whose coefficients are those of `column` and whose right-hand side is `bound`. The position
+    /// of the row decides whether it is = or ≤.
     fn push_column_row(&mut self, column: &Column, bound: f64) {
         let row = self.bound.len();
         self.matrix
@@ -35,12 +37,12 @@ impl QuadraticProgram {
     }
 }
 
-/// Returns the kinematic dual of "minimise the cost of forces that balance `loads`": max loadsᵀy  s.t.  columnᵀy ≤
-/// cost.
+/// Returns the dual of "minimise the cost of forces that balance `loads`", with velocities y as unknowns: max loadsᵀy
+/// s.t. columnᵀy ≤ cost.
 ///
 /// There are three unknowns y per body and one row per column. A column with a limit gets one more unknown w ≥ 0, with
-/// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component without limit, whose costs are
-/// opposite or 0, become one equality, because a pair of opposite inequalities has no interior.
+/// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component without limit, whose costs
+/// are opposite or 0, become one equality, because a pair of opposite inequalities has no interior.
 ///
 /// Returns the problem and the row of each column: the multiplier of that row is the amount of the force. The
 /// multiplier of an equality is the amount of the first direction minus that of the second. The second direction has no
@@ -64,7 +66,7 @@ pub fn kinematic_dual(
             && columns[k].limit.is_infinite()
             && cost(&columns[k]) == -cost(&columns[k + 1])
     };
-    // First add the equalities: one for each pair of opposite columns without limit whose costs are opposite.
+    // First add the equalities: one for each pair of opposite columns without limit and with opposite costs.
     let mut k = 0;
     while k < columns.len() {
         if is_free_pair(k) {
@@ -75,7 +77,7 @@ pub fn kinematic_dual(
         k += 1;
     }
     dual.equalities = dual.bound.len();
-    // Then add the inequalities of all other columns.
+    // Then add an inequality for each of the other columns.
     let mut k = 0;
     while k < columns.len() {
         if row_of[k] != usize::MAX {
@@ -86,7 +88,7 @@ pub fn kinematic_dual(
         dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
-    // Last add the unknowns w for the limits, with their rows w ≥ 0.
+    // At last add an unknown w for each limit, with the constraint w ≥ 0.
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
             let w = dual.unknowns;
@@ -100,7 +102,7 @@ pub fn kinematic_dual(
     (dual, row_of)
 }
 
-/// True if columns k and k + 1 are the positive and the negative direction of one grip component.
+/// True if the columns k and k + 1 are the positive and the negative direction of the same grip component.
 fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     let next = columns.get(k + 1).map(|column| column.force);
     match columns[k].force {
@@ -119,8 +121,8 @@ fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     }
 }
 
-/// Returns the dual of the load factor problem  max λ  s.t.  Σ amount·column = loads + λ·toward: max loadsᵀy  s.t.
-/// columnᵀy ≤ 0, towardᵀy ≥ 1.
+/// Returns the dual of the load factor problem. The primal is max λ s.t. Σ amount·column = loads + λ·toward. The dual
+/// is max loadsᵀy s.t. columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The multiplier of the last row is the largest λ ≥ 0. The returned rows are those of [`kinematic_dual`].
 pub fn load_factor_dual(
@@ -136,8 +138,8 @@ pub fn load_factor_dual(
     (problem, row_of)
 }
 
-/// Returns the dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤
-/// towardᵀy ≤ 1.
+/// Returns the dual of the problem of the smallest change of the loads. The primal is min |λ| s.t. Σ amount·column =
+/// loads + λ·toward. The dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
 ///
 /// λ is the multiplier of the second-last row minus the multiplier of the last row.
 pub fn nearest_factor_dual(
@@ -157,10 +159,11 @@ pub fn nearest_factor_dual(
     (problem, row_of)
 }
 
-/// Returns the dual of  min Σ |residual of the balance|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+/// Returns the dual of the problem of the least residual: the primal is min Σ |residual of the equilibrium equations|,
+/// the dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
-/// It always has an optimum. Its multipliers are the forces with the least residual. Its solution y gives the
-/// velocities −y for which the loads have the largest power.
+/// The dual always has an optimum. Its multipliers are the forces with the least residual. The velocities −y of its
+/// solution y give the loads the largest power.
 pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
@@ -172,8 +175,8 @@ pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgr
     (problem, row_of)
 }
 
-/// Returns the problem of the least change d of velocities: min ½ |d|² s.t. columnᵀd = value for the first `equalities`
-/// columns, and columnᵀd ≥ value for the others.
+/// Returns the problem of the least change d of given velocities: min ½ |d|² s.t. columnᵀd = value for the first
+/// `equalities` columns, and columnᵀd ≥ value for the other columns.
 pub fn least_change(
     unknowns: usize,
     columns: &[(&Column, f64)],
@@ -199,7 +202,7 @@ pub fn least_change(
     problem
 }
 
-/// Returns the problem of finding amounts, positive or negative, that balance `loads` with the least Σ amount².
+/// Returns the problem of balancing `loads` with the least Σ amount². The amounts may be positive or negative.
 pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     QuadraticProgram {
@@ -223,7 +226,7 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// Returns the problem of finding amounts ≥ 0 that balance `loads` with the least sum of squared forces.
+/// Returns the problem of balancing `loads` with the least sum of squared forces. All amounts must be at least 0.
 ///
 /// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
 /// The result therefore does not depend on how the friction cone is divided into columns.
@@ -278,8 +281,8 @@ pub fn least_squares(
 /// A second cost for each column, and the largest allowed value of Σ cost·amount.
 pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
-/// Returns the static (primal) form, in which the forces are the unknowns: min Σ cost·amount  s.t.  Σ amount·column =
-/// `loads`, 0 ≤ amount ≤ limit.
+/// Returns the primal problem, in which the forces are the unknowns: min Σ cost·amount s.t. Σ amount·column = `loads`,
+/// 0 ≤ amount ≤ limit.
 ///
 /// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max, for the second stage of a lexicographic
 /// optimisation. If the structure is close to its limit, this form takes fewer iterations than the kinematic dual.
@@ -301,8 +304,7 @@ pub fn force_primal(
     problem
 }
 
-/// Returns the inner product of two unit forces in the coordinates (N1, N2, T) of one contact, or in the components of
-/// one grip.
+/// Returns the inner product of two unit forces, in the components (N1, N2, T) of a contact or (F_x, F_y, M) of a grip.
 ///
 /// `None` if they belong to different contacts or grips, or to different kinds of columns.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
@@ -321,7 +323,8 @@ enum Site {
     GripAdhesion(usize),
 }
 
-/// Returns where a unit force acts, and its components there: (N1, N2, T) for a contact, (F_x, F_y, M) for a grip.
+/// Returns the contact or grip at which a unit force acts, and the components of the force: (N1, N2, T) for a contact,
+/// (F_x, F_y, M) for a grip.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

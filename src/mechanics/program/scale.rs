@@ -1,4 +1,4 @@
-//! [`Scale`]: the metres and newtons per unit of a program.
+//! [`Scale`]: the units of length and force of a program, in metres and newtons.
 //!
 //! The tolerances of an interior-point solver are absolute numbers, so its data must have a suitable size. For 3 000
 //! towers with lengths of about 1, every verdict was right if the heaviest load was between 0.1 and 10⁴. In SI units,
@@ -17,7 +17,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Creates the scale of an assembly from its length L and its heaviest load.
+    /// Chooses the units for an assembly from its median interface length and its heaviest load.
     pub fn from_assembly(assembly: &Assembly) -> Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
@@ -25,8 +25,8 @@ impl Scale {
     /// The heaviest load of a frame in scaled units. A tenth of it and ten times its value also gave right verdicts.
     pub const HEAVIEST: f64 = 300.0;
 
-    /// Creates the scale for a median interface length (m) and a heaviest load (N). Without loads, 1 N is used as the
-    /// load.
+    /// Chooses the units from a median interface length (m) and the heaviest load (N). If there are no loads, the
+    /// heaviest load counts as 1 N.
     pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
         Scale {
@@ -35,7 +35,7 @@ impl Scale {
         }
     }
 
-    /// Returns the moment, N·m, that is one unit of the program.
+    /// Returns the unit of moment of the program, in N·m.
     pub fn moment(&self) -> f64 {
         self.length * self.force
     }

@@ -1,4 +1,5 @@
-//! A box of 4 m by 3 m on the ground, held by a robot, in numbers worked out by hand: L = 2 m, 2 N to the unit of force.
+//! A box of 4 m by 3 m on the ground, held by a robot, in numbers worked out by hand: L = 2 m, 2 N to the unit of
+//! force.
 
 use super::*;
 use crate::effect::EffectName;
@@ -81,8 +82,8 @@ fn dense(column: &Column, length: usize) -> Vec<f64> {
 fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
     let program = example();
     let columns = columns(&program);
-    // About the centroid, L/2 to the side and 3/4 L above the joint, a unit straight up turns by 1/2; of a unit with all its
-    // friction 2/3 press and 1/3 rub.
+    // About the centroid, L/2 to the side and 3/4 L above the joint, a unit straight up turns by 1/2; of a unit with
+    // all its friction 2/3 press and 1/3 rub.
     let expected: [&[(usize, f64)]; 12] = [
         &[(1, 1.0), (2, 0.5)],
         &[(0, -THIRD), (1, 2.0 * THIRD), (2, 1.0 / 12.0)],

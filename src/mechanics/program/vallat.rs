@@ -1,13 +1,15 @@
-//! [`vallat_program`]: the soft program of [Vallat23](crate::doc::references), exactly as it is stated there.
+//! [`vallat_program`]: the linear program of [Vallat23](crate::doc::references) in which every force may exceed its
+//! limit at a high cost, exactly as published.
 
 use super::pose::QuadraticProgram;
 use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
 
-/// Returns the soft program of [Vallat23](crate::doc::references) §2.0.7–8.
+/// Returns the linear program of [Vallat23](crate::doc::references) §2.0.7–8, in which every force may exceed its limit
+/// at the high cost β.
 ///
-/// Every interface and every grip has six unknowns, and each of these has an opposite partner at cost β; all are ≥ 0.
-/// The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. This program is
-/// used only to measure how much a large β reduces speed and accuracy.
+/// Every interface and every grip has six unknowns. Each of these has an opposite partner at cost β. All are at least
+/// 0. The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. This program
+/// is used only to measure how much a large β reduces speed and accuracy.
 ///
 /// The order of the unknowns is N1, f1⁺, f1⁻, N2, f2⁺, f2⁻ for each interface, then Fx±, Fy±, M± for each grip, then
 /// all opposite partners in the same order.
@@ -23,7 +25,7 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     }
     let mut bound = program.loads.clone();
     let equalities = bound.len();
-    // Friction: f⁺ + f⁻ − μN ≤ 0.
+    // Friction cone at each application point: f⁺ + f⁻ − μN ≤ 0.
     for (first, friction) in unknowns.cones {
         let row = bound.len();
         matrix.extend([
@@ -62,7 +64,8 @@ struct SourceUnknowns {
     limits: Vec<(usize, f64)>,
 }
 
-/// Derives Vallat's unknowns from the columns of two programs: one with μ = 1, and one with grips without limits.
+/// Builds Vallat's unknowns from the columns of two auxiliary programs: one with friction coefficient 1, and one with
+/// robots without limits.
 fn source_unknowns(program: &Program) -> SourceUnknowns {
     let mut unknowns = SourceUnknowns {
         columns: Vec::new(),
@@ -79,7 +82,8 @@ fn source_unknowns(program: &Program) -> SourceUnknowns {
         grips: Vec::new(),
         ..program.clone()
     };
-    // With μ = 1 the generators of a point are n̂, (n̂ + t̂)/2 and (n̂ − t̂)/2; their differences are t̂ and −t̂.
+    // With μ = 1 the three generators at a point are n̂, (n̂ + t̂)/2 and (n̂ − t̂)/2. The differences of the last two
+    // are t̂ and −t̂.
     for generators in columns(&rough).chunks(3) {
         if let Force::Ray { contact, .. } = generators[0].force {
             let friction = program.contacts[contact].friction;

@@ -1,4 +1,4 @@
-//! Computes the imbalance τ of each body, relative to the forces on that body only.
+//! Computes how well each body is balanced: its imbalance τ, relative to the forces on this body only.
 //!
 //! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its amount and moved
 //! by at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), where M is its moment about the
@@ -69,7 +69,7 @@ impl BodyForces {
         acting
     }
 
-    /// Adds a load, given as a force and a moment about the centroid.
+    /// Adds a load on the body: a force, N, and a moment about the centroid, N·m.
     fn load(&mut self, force: Vector, moment: f64) {
         self.residual[0].add(force.x);
         self.residual[1].add(force.y);
@@ -80,7 +80,7 @@ impl BodyForces {
         self.load += force.norm() + moment.abs() / self.radius;
     }
 
-    /// Adds a force that acts at the point `at`.
+    /// Adds a force on the body, N, that acts at the point `at`.
     fn force(&mut self, at: Point, force: Vector) {
         let arm = at - self.centroid;
         self.residual[0].add(force.x);
@@ -92,32 +92,33 @@ impl BodyForces {
         self.total += force.norm();
     }
 
-    /// Adds a torque, N·m.
+    /// Adds a torque on the body, N·m.
     fn torque(&mut self, torque: f64) {
         self.residual[2].add(torque);
         self.generators.push([0.0, 0.0, torque / self.radius]);
     }
 
-    /// Returns the unbalanced force, and the unbalanced moment divided by the radius, N.
+    /// Returns the sum of all forces on the body, N: F_x, F_y, and the moment divided by the radius. The body balances
+    /// if all are 0.
     fn residual(&self) -> Vec3 {
         let [x, y, moment] = self.residual.map(CompensatedSum::value);
         [x, y, moment / self.radius]
     }
 
-    /// Adds the generators that do not belong to a single force: the displacement of all forces, and the allowed
-    /// rounding.
+    /// Adds the generators for changes that concern all forces together: a displacement of all forces, and the allowed
+    /// rounding error.
     fn add_common_generators(&mut self) {
         // Moving every force by τ R changes M/R by at most τ Σ |F|.
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            // Unused friction inside the cone can balance a rounding error along the contact.
+            // Friction below its limit can compensate for a rounding error along the contact.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
             }
         }
-        // A body without a load is allowed the full rounding, because no load could make it move.
+        // A body without a load may have the full rounding error, because no load can make it move.
         let turned = match self.load {
             0.0 => rounding,
             load => rounding.min(load),
@@ -126,7 +127,7 @@ impl BodyForces {
         self.generators.push([0.0, turned, 0.0]);
     }
 
-    /// Returns the smallest τ to which the body balances; values up to [`GOOD_ENOUGH`] are upper bounds. Call
+    /// Returns the imbalance τ of the body. A value up to [`GOOD_ENOUGH`] is only an upper bound of τ. Call
     /// [`Self::add_common_generators`] first.
     fn imbalance(&self) -> f64 {
         let residual = self.residual();
@@ -140,8 +141,8 @@ impl BodyForces {
     }
 }
 
-/// Returns the imbalance τ of each body, in the order of the bodies; infinite if no change of the forces makes the
-/// body balance.
+/// Returns the imbalance τ of each body, in the order of the bodies. It is infinite if the body does not balance
+/// however much its forces change.
 ///
 /// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
@@ -150,10 +151,10 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
     all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// Returns the largest imbalance τ of all bodies, and the largest residual of a body relative to its load.
+/// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load.
 ///
-/// Bodies are taken in the order of decreasing upper bounds. τ is computed only while the bound exceeds the largest τ
-/// found so far.
+/// Bodies are taken in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound exceeds the
+/// largest τ found so far.
 pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;
@@ -164,7 +165,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
             continue;
         }
         let [x, y, moment] = residual;
-        // The residual relative to the load is only reported. It does not affect the verdict.
+        // The ratio of residual and load is only reported. It does not affect the verdict.
         if body.load > 0.0 {
             share = share.max(libm::hypot(x, y).max(moment.abs()) / body.load);
         }
@@ -172,8 +173,8 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
         let bound = quick_gauge_bound(&body.generators, residual).unwrap_or(f64::INFINITY);
         bounds.push((bound, number));
     }
-    // Start with the largest bound. If a bound is not larger than the τ found so far, no later body can have a larger
-    // τ.
+    // Start with the body that has the largest bound. If a bound is not larger than the largest τ found so far, no
+    // later body can have a larger τ.
     bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     let mut imbalance: f64 = 0.0;
     for (bound, number) in bounds {
@@ -193,14 +194,14 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
         .collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
-        // Two normal forces at their points, and the friction force. The friction force acts along the interface, so
-        // any point of the interface is a valid point of application.
+        // Two normal forces act at their points. The friction force acts along the interface, so any point of the
+        // interface can be its point of application.
         let pushes = [
             (contact.points[0], contact.normal * first),
             (contact.points[1], contact.normal * second),
             (contact.ends[0], contact.tangent() * pressed.friction),
         ];
-        // The force acts on one body, and its reaction on the other. The ground needs no balance.
+        // The force acts on the first body, the opposite force on the second body. The ground needs no balance.
         let sides = [(Some(contact.on), 1.0), (contact.from, -1.0)];
         for (body, sign) in sides {
             let Some(number) = body else {
@@ -221,8 +222,8 @@ fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     }
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let acting = &mut acting[grip.body];
-        // Each component is a separate generator, because τ limits the change of each component relative to its own
-        // amount.
+        // Add each component as a separate force, because τ limits the change of each component relative to its own
+        // size.
         acting.force(grip.at, Vector::new(held.force.x, 0.0));
         acting.force(grip.at, Vector::new(0.0, held.force.y));
         acting.torque(held.torque);

@@ -1,4 +1,4 @@
-//! Computes a lower bound of the sum of forces that balance an assembly, by weak duality and from the geometry.
+//! Computes a lower bound of the sum of forces that any balance of an assembly needs, by weak duality from a motion.
 //!
 //! If forces balance the loads, contacts and grips absorb the power P of the loads along every motion. A contact force
 //! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its
@@ -9,8 +9,8 @@ use super::{Forces, Motion, NON_BINDING, ROUNDING, moving_load, power_of_loads, 
 use crate::assembly::Assembly;
 
 impl Forces {
-    /// Returns the sum of all forces in newtons, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L); `length` is L in
-    /// metres.
+    /// Returns the sum of the magnitudes of all forces, N: Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L). `length` is L
+    /// in metres.
     pub fn sum(&self, length: f64) -> f64 {
         let contacts = self.contacts.iter();
         let contacts = contacts.map(|c| c.normal[0] + c.normal[1] + c.friction.abs());
@@ -20,20 +20,21 @@ impl Forces {
     }
 }
 
-/// Returns a lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
+/// Returns a lower bound, N, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
-/// The motion must be scaled like the dual variables: a unit force may act against a speed of at most 1. The bound is 0
-/// if the motion gives no better bound. Torques are divided by the assembly's length L.
+/// The bound follows from the motion. The motion must be scaled like the dual variables: a unit force may act against a
+/// speed of at most 1. The bound is 0 if the motion proves no better bound. Torques are divided by the assembly's
+/// length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // A limit above this value counts as no limit.
+    // A robot limit above this value counts as unlimited.
     let binding = NON_BINDING * moving_load(assembly, motions);
-    // `worst` is δ. Components of grips without a binding limit can increase it. For components with such a limit, the
-    // excess over δ is subtracted from the power.
+    // `worst` is δ. Robot components without a limit can increase δ. For a component with a limit, the power beyond δ
+    // is subtracted from the power of the loads.
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
-        // Compute the speeds against which the components of the robot's force act, rounding included.
+        // Compute the speed of the grip against each component of the robot's force, including its rounding error.
         let at_grip = motion.about(body.centroid, grip.at);
         let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
@@ -51,7 +52,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
             }
         }
     }
-    // The bound is (power − excess of limited robots − rounding) / δ.
+    // The bound is (power of the loads − excess of limited robots − rounding error) / δ.
     let (power, summed) = power_of_loads(assembly, motions);
     let spent = limited
         .iter()

@@ -75,12 +75,12 @@ impl Proof {
     /// [`Proof::IMBALANCE_TOL`].
     pub const MIN_POWER_RATIO: f64 = 1e7;
 
-    /// True if the proof meets [`ProofThreshold::STANDARD`].
+    /// True if the proof is strong enough for a verdict: it meets [`ProofThreshold::STANDARD`].
     pub fn holds(&self) -> bool {
         self.meets(ProofThreshold::STANDARD)
     }
 
-    /// True if the proof meets the threshold.
+    /// True if the errors of the proof are within the threshold.
     pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
             Proof::Forces {
@@ -96,10 +96,11 @@ impl Proof {
         }
     }
 
-    /// Returns the force sum below which the motion rules out equilibrium: Σ(N + |T|), relative to the moving loads.
+    /// Returns the sum of forces, Σ(N + |T|) relative to the moving loads, below which the motion excludes any balance.
     ///
-    /// It equals power / violation, and includes the forces of robots without limits. It is infinite if the motion
-    /// violates nothing: then no forces balance the loads, however large they are. It is 0 for a proof by forces.
+    /// This sum equals power / violation, and includes the forces of robots without limits. It is infinite if the
+    /// motion violates no contact: then no forces balance the loads, however large they are. It is 0 for a proof by
+    /// forces.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
@@ -162,7 +163,7 @@ pub struct GripForces {
 }
 
 impl Forces {
-    /// Returns zero forces at all contacts and grips of an assembly.
+    /// Creates forces that are zero at all contacts and grips of an assembly.
     pub fn none(assembly: &Assembly) -> Forces {
         let held = GripForces {
             force: Vector::zeros(),
@@ -193,25 +194,25 @@ impl Motion {
         self.about(scene.blocks[self.block.0].centroid, point)
     }
 
-    /// Returns the speed of the block's fastest corner.
+    /// Returns the speed of the corner of the block that moves fastest.
     pub fn fastest(&self, scene: &Scene) -> f64 {
         let block = &scene.blocks[self.block.0];
         self.fastest_of(block.centroid, block.body.polygon.outline())
     }
 
-    /// Returns the velocity of a point of a body with the given centroid.
+    /// Returns the velocity of a point that moves with a body; `centroid` is the centroid of the body.
     pub fn about(&self, centroid: Point, point: Point) -> Vector {
         self.velocity + quarter_turn(point - centroid) * self.spin
     }
 
-    /// Returns the largest speed of the given points of a body with the given centroid.
+    /// Returns the largest speed of some points that move with a body; `centroid` is the centroid of the body.
     pub fn fastest_of(&self, centroid: Point, points: &[Point]) -> f64 {
         let speeds = points.iter().map(|p| self.about(centroid, *p).norm());
         speeds.fold(0.0, f64::max)
     }
 
-    /// Returns, for each component of a point's velocity, the sum of the absolute values of its terms. The rounding
-    /// error is at most a small fraction of this sum.
+    /// Returns, for each component of a point's velocity, the sum of the magnitudes of its terms. The rounding error of
+    /// the component is at most a small fraction of this sum.
     ///
     /// The components are summed separately, so that the rounding of a horizontal motion does not count as a vertical
     /// motion.
@@ -220,7 +221,7 @@ impl Motion {
     }
 }
 
-/// Returns the speed of the fastest corner of a body.
+/// Returns the speed of the corner of a body that moves fastest.
 pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
@@ -232,16 +233,18 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
 /// ten times this value, the rounding of a speed (10⁻¹⁵) times the limit would be a noticeable power.
 const NON_BINDING: f64 = 1e4;
 
-/// Checks forces on an assembly: the balance of each body, tension, slip, and the limits of robots.
+/// Checks forces on an assembly, and returns the largest errors: imbalance of a body, tension, slip, and excess over
+/// the limits of a robot.
 pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
-    // Returns the relative excess. It is 0 if the law is satisfied, which avoids 0/0.
+    // The relative violation `beyond` / `of`; 0 if nothing is violated, which avoids 0/0.
     let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
-    // The contact law: no tension, and friction within the cone. Errors are relative to the forces at the same contact.
+    // Check the contact law: no tension, and friction within the cone. Errors are relative to the forces at the same
+    // contact.
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
         let own = first.abs() + second.abs() + pressed.friction.abs();
-        // A corner has only one application point, so its second normal force must be 0.
+        // A corner contact has only one application point, so its second normal force must be 0.
         let pull = match contact.kind {
             ContactKind::Edge => (-first).max(-second),
             ContactKind::Corner => (-first).max(second.abs()),
@@ -250,7 +253,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
         worst_pull = worst_pull.max(share(pull, own));
         worst_slip = worst_slip.max(share(slip, own));
     }
-    // Check the limits of robots for each component of the force and for the torque.
+    // Check the limits of robots: for each component of the force, and for the torque.
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let limits = grip.limits;
         for (given, limit) in [
@@ -271,7 +274,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     }
 }
 
-/// Returns the loads of the moving bodies, N: the sum of [`gross_load`] of each body, weighted by its speed.
+/// Returns the total load on the moving bodies, N. The [`gross_load`] of each body is weighted by its speed.
 ///
 /// The speed of a body is that of its fastest point, relative to the fastest point of all bodies.
 pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
@@ -288,7 +291,8 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
     }
 }
 
-/// Returns the sum of the magnitudes of a body's weight, listed force and listed moment over its radius, N.
+/// Returns the size of all loads on a body, N: the magnitudes of its weight and its listed force, plus the magnitude of
+/// its listed moment divided by its radius.
 ///
 /// Loads in opposite directions do not cancel in this sum.
 pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
@@ -300,10 +304,10 @@ pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
 /// A bound of the relative rounding error of a sum of a few products.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Returns the largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if
-/// every contact opens.
+/// Returns the largest violation of a contact by a motion: the speed against which a contact force with N + |T| = 1
+/// would act, including rounding. It is 0 if every contact opens.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // Returns the velocity of a point, and the sum of its absolute terms, which bounds the rounding error.
+    // The velocity of a point, and the sum of the magnitudes of its terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
         None => (Vector::zeros(), Vector::zeros()),
         Some(number) => {
@@ -320,12 +324,12 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             if summed == Vector::zeros() {
                 continue;
             }
-            // The relative velocity at the point, along the normal and along the tangent.
+            // Split the relative velocity at the point into its normal and tangential components.
             let apart = one - other;
             let (normal, tangent) = (contact.normal, contact.tangent());
             let (opens, slides) = (normal.dot(&apart), tangent.dot(&apart));
-            // The worst force is either the normal force alone, or the normal force with full friction against the
-            // sliding: the two kinds of edges of the friction cone.
+            // The worst force is an extreme force of the friction cone: either the normal force alone, or the normal
+            // force with full friction against the sliding.
             let friction = contact.friction;
             let used = (friction * slides.abs() - opens) / (1.0 + friction);
             let unsure = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
@@ -335,7 +339,8 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     violation
 }
 
-/// Returns the power of the loads along a motion, and the sum of the absolute values of its terms.
+/// Returns the power of the loads along a motion, and the sum of the magnitudes of its terms, which bounds the rounding
+/// error.
 fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     let (mut power, mut summed) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
@@ -346,8 +351,8 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     (power, summed)
 }
 
-/// Returns the power of the loads along a motion, less the power that limited robots can absorb, in watts. Bodies
-/// without an entry in `motions` do not move.
+/// Returns the power of the loads along a motion, minus the largest power that limited robots can absorb, in watts.
+/// Bodies without an entry in `motions` are at rest.
 pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let motion_of: HashMap<BlockId, &Motion> = motions.iter().map(|m| (m.block, m)).collect();
     let mut power = 0.0;
@@ -375,8 +380,8 @@ pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
     power
 }
 
-/// Checks a motion of an assembly, one entry per body: the power of the loads, and the velocity against which contacts
-/// or grips could act.
+/// Checks a motion, which has one entry for each body. Returns the power of the loads along it, and the largest
+/// velocity against which contacts or grips could act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly
@@ -385,17 +390,17 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         .zip(motions)
         .map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
-    // Without motion or loads, the motion proves no fall: a power of 0 meets no threshold.
+    // Without motion or loads, nothing is proved: a power of 0 meets no threshold.
     if fastest == 0.0 || load == 0.0 {
         return Proof::Mechanism {
             power: 0.0,
             worst_violation: 0.0,
         };
     }
-    // The worst violation at contacts, and the power of the loads.
+    // Compute the worst violation of a contact, and the power of the loads.
     let mut violation = worst_violation(assembly, motions);
     let (mut power, mut summed) = power_of_loads(assembly, motions);
-    // A robot with a limit resists with the power limit · speed. A grip without a limit must not move.
+    // A robot with a limit absorbs the power limit · speed. A robot without a limit does not let its grip point move.
     for grip in &assembly.grips {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         let limits = grip.limits;
@@ -407,8 +412,8 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (at_grip.y, limits.fy, unsure.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
-            // If the limit is far above the loads, the rounding of a speed would become a noticeable power. Such a grip
-            // must not move.
+            // If the limit is far above the loads, even the rounding error of a speed would give a noticeable power.
+            // Such a grip counts as unlimited.
             if limit > NON_BINDING * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {
@@ -417,7 +422,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             }
         }
     }
-    // The rounding error of the sum grows with its number of terms.
+    // Subtract the rounding error of the sum, which grows with the number of terms.
     power -= (motions.len() + 8) as f64 * f64::EPSILON * summed;
     Proof::Mechanism {
         power: power / (load * fastest),

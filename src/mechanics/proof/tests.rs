@@ -125,8 +125,9 @@ fn assert_near(found: f64, expected: f64, within: f64) {
 
 #[test]
 fn forces_that_balance_leave_nothing() {
-    // A push of 1 N at the upper box's middle, taken by friction in both joints. About the lower centroid both frictions
-    // turn by −1.5 N·m: the ground presses 3 N more at its right point, 1 m from the middle, than at its left one.
+    // A push of 1 N at the upper box's middle, taken by friction in both joints. About the lower centroid both
+    // frictions turn by −1.5 N·m: the ground presses 3 N more at its right point, 1 m from the middle, than at its left
+    // one.
     let two = assembly(
         vec![
             body(0, 0.0, 3.0, 10.0, LoadVector::NONE),
@@ -294,7 +295,8 @@ fn only_what_moves_apart_counts_between_two_bodies() {
 
 #[test]
 fn a_grip_takes_its_limit_times_its_speed_and_without_one_objects() {
-    // The grip point goes by (3 − 0.75, −1 − 1): half a turn per second about a centroid 2 m to the right and 1.5 m below.
+    // The grip point goes by (3 − 0.75, −1 − 1): half a turn per second about a centroid 2 m to the right and 1.5 m
+    // below.
     let motion = [moving(0, 3.0, -1.0, 0.5)];
     let mut held = on_ground(listed(7.0, 0.0, 0.0)).with_friction(0.0);
     held.contacts.clear();

@@ -1,4 +1,4 @@
-//! [`SessionError`]: why a step of a session was refused.
+//! [`SessionError`]: why a session refused a step, such as placing a block.
 
 use crate::scene::SceneError;
 use crate::text::line;

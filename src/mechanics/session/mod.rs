@@ -1,4 +1,4 @@
-//! [`Session`]: places and removes blocks one by one, with a verdict after every step.
+//! [`Session`]: places and removes blocks one by one, and returns the verdict after each step.
 //!
 //! A session is for planners and training loops that need a verdict after each step. The solution of the last step is
 //! the warm start for the next. It is accepted only with a proof, so a session gives the same verdict as a scene file
@@ -73,18 +73,19 @@ struct Lookup {
 }
 
 impl Session {
-    /// Starts a session with a scene: ground, robots, shapes, materials and the blocks that are already placed.
+    /// Starts a session with a scene: its ground, robots, shapes, materials and blocks.
     ///
     /// # Errors
-    /// If the scene is not valid, or has steps.
+    /// Returns an error if the scene is not valid, or if it has steps.
     pub fn new(file: SceneFile) -> Result<Session, SessionError> {
         Session::with(file, Options::default())
     }
 
-    /// Starts a session with options. Margins and wedging are not computed. A deadline limits all steps together.
+    /// Starts a session with options. A session does not compute margins or check wedging in its steps. A deadline
+    /// limits all steps together.
     ///
     /// # Errors
-    /// As [`Session::new`].
+    /// Returns an error in the same cases as [`Session::new`].
     pub fn with(file: SceneFile, options: Options) -> Result<Session, SessionError> {
         if !file.steps.is_empty() {
             return Err(SessionError::Steps);
@@ -125,10 +126,11 @@ impl Session {
         Ok(session)
     }
 
-    /// Places a block. Without an id, it gets the smallest number from 1 that no other block has.
+    /// Places a block, and returns the verdict. A block without an id gets the smallest number from 1 that is not used
+    /// yet.
     ///
     /// # Errors
-    /// If the block is not valid, for example because it overlaps another block. It is not placed then.
+    /// Returns an error, and places nothing, if the block is not valid, for example because it overlaps another block.
     pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, SessionError> {
         let id = block.id.get_or_insert_with(|| self.free_number()).clone();
         if self.lookup.numbers.contains_key(&id) {
@@ -143,10 +145,10 @@ impl Session {
         Ok(self.update_verdict())
     }
 
-    /// Removes a block and the loads on it.
+    /// Removes a block and the loads on it, and returns the verdict.
     ///
     /// # Errors
-    /// If no such block is placed, a robot holds it, or the scene without it is not valid. Nothing is removed then.
+    /// Returns an error, and removes nothing, if the block is not placed, if a robot holds it, or if the scene without it is not valid.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
@@ -172,8 +174,7 @@ impl Session {
                 self.file = kept;
                 return Err(problems.into());
             }
-            // Reading the scene again changes block numbers and the tolerance, so the last solution is no longer a
-            // valid warm start.
+            // Reading the scene again may change block indices and the tolerance, so the warm start is no longer valid.
             self.guess = WarmStart::default();
         }
         Ok(self.update_verdict())
@@ -185,11 +186,11 @@ impl Session {
         self.file.blocks.retain(|entry| !named(entry));
     }
 
-    /// Makes a robot hold a block. The grip point `at` is in metres; without `at`, the grip point is the centroid of
-    /// the block.
+    /// Makes a robot hold a block, and returns the verdict. `at` is the grip point in metres; by default it is the
+    /// centroid of the block.
     ///
     /// # Errors
-    /// If the robot or block does not exist, the point is not valid, or the robot holds another block.
+    /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds another block.
     pub fn hold(
         &mut self,
         robot: &str,
@@ -219,10 +220,10 @@ impl Session {
         Ok(self.update_verdict())
     }
 
-    /// Makes a robot release its block.
+    /// Makes a robot release the block that it holds, and returns the verdict.
     ///
     /// # Errors
-    /// If the robot does not exist or holds nothing.
+    /// Returns an error if the robot does not exist or holds nothing.
     pub fn release(&mut self, robot: &str) -> Result<Verdict, SessionError> {
         let id = self.robot(robot)?;
         let holds = &mut self.scene.frames[0].holds;
@@ -235,30 +236,30 @@ impl Session {
         Ok(self.update_verdict())
     }
 
-    /// Returns the verdict on the placed blocks.
+    /// Returns the verdict after the last step.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
 
-    /// Returns how the current verdict was obtained.
+    /// Returns how the last verdict was found: by a warm start or by a complete analysis.
     pub fn source(&self) -> Source {
         self.source
     }
 
     /// Returns the placed blocks as a scene with one frame, for figures and further analysis. On a lattice, the scene
-    /// also contains removed blocks, but no frame contains them.
+    /// also lists removed blocks, but its frame does not contain them.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Analyses the placed blocks completely.
+    /// Analyses the placed blocks completely, with forces, failures and mechanism.
     pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// Computes the margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which
-    /// they stand. The values equal those of [`Session::analysis`] with [`Options::margins`]. `None` if there is no
-    /// frame.
+    /// Computes the margins of the placed blocks: how far friction, tilt, loads, kernel and robot limits may change
+    /// before they fall. The values equal those of [`Session::analysis`] with [`Options::margins`]. `None` if there is
+    /// no frame.
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;
@@ -276,10 +277,10 @@ impl Session {
         frames.into_iter().next()?.margins
     }
 
-    /// Computes all forces that a placed block can carry, in addition to its present loads; see [`Analysis::capacity`].
+    /// Computes all forces that a placed block can carry in addition to its present loads. See [`Analysis::capacity`].
     ///
     /// # Errors
-    /// If the request is not valid, or if no proof was found.
+    /// Returns an error if the request is not valid, or if no proof was found.
     pub fn capacity(&self, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
         let _until = DeadlineGuard::new(self.options.deadline);
         let interfaces = match self.scene.exact {
@@ -289,7 +290,7 @@ impl Session {
         capacity_of(&self.scene, &interfaces, 0, request)
     }
 
-    /// Computes the verdict after a step.
+    /// Computes and stores the verdict on the placed blocks.
     fn update_verdict(&mut self) -> Verdict {
         (self.verdict, self.source) = if hinges_on_gaps(&self.scene, &self.found) {
             let frames = Analysis::with(&self.scene, &self.options).frames;
@@ -307,13 +308,14 @@ impl Session {
         self.verdict
     }
 
-    /// True if a new block cannot change the other contacts. This is the case on a lattice without corner contacts.
+    /// True if a step can be computed without reading the whole scene again: on a lattice without corner contacts.
     fn is_incremental(&self) -> bool {
         self.scene.exact && !self.scene.corner_contacts
     }
 
-    /// Adds a block of cells without reading the whole scene again. Returns false, and adds nothing, if the block has
-    /// no cells or overlaps another block. Reading the whole scene then adds the block or gives the error message.
+    /// Adds a block that consists of lattice cells, without reading the whole scene again. Returns false, and adds
+    /// nothing, if the block has no cells or overlaps another block. The caller then reads the whole scene again, which
+    /// adds the block or gives an error.
     fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],
@@ -339,10 +341,10 @@ impl Session {
         Ok(true)
     }
 
-    /// Reads all placed blocks again as one scene. If this fails, the current scene is kept.
+    /// Reads all placed blocks again as one scene. Keeps the current scene if this fails.
     fn read_again(&mut self) -> Result<(), SceneError> {
         let mut file = self.file.clone();
-        // Leave out the contacts of blocks that were removed.
+        // Leave out listed contacts of blocks that were removed.
         let names: BTreeSet<&str> = (self.file.blocks.iter())
             .filter_map(|b| b.id.as_deref())
             .chain(["ground"])

@@ -9,7 +9,7 @@ use crate::text::{line, nearest};
 /// (ranges).
 ///
 /// # Errors
-/// A message for the user, if a text is not valid or the scene has no such block.
+/// Returns a message for the user if a text is not valid, or if the scene has no such block.
 pub(crate) fn typed_capacity(
     scene: &Scene,
     typed: &str,

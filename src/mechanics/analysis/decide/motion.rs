@@ -20,9 +20,6 @@ impl Component<'_> {
     ///
     /// Small violations are not accepted as rounding either: the motion of a wedge into its notch consists only of such
     /// violations.
-    ///
-    /// Even small violations are not accepted as rounding: the motion of a wedge into its notch consists only of such
-    /// violations.
     pub(super) fn prove_motion(
         &self,
         program: &Program,

@@ -12,12 +12,13 @@ use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Effort, repair_motion};
 
-/// Bodies whose velocities differ by at most this much move as one; the fastest point has speed 1. The same difference is solver
-/// error in one structure and motion in another, so the coarser value, which gives fewer pieces, is tried first.
+/// Bodies whose velocities differ by at most this much move as one; the fastest point has speed 1. The same difference
+/// is solver error in one structure and motion in another, so the coarser value, which gives fewer pieces, is tried
+/// first.
 const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 
-/// With fewer bodies per piece than this, correcting the pieces costs about as much as correcting all bodies. A wall near its limit
-/// falls in pieces of two to four bricks, a stack in one piece.
+/// With fewer bodies per piece than this, correcting the pieces costs about as much as correcting all bodies. A wall
+/// near its limit falls in pieces of two to four bricks, a stack in one piece.
 const MIN_BODIES_PER_PIECE: usize = 8;
 
 impl Component<'_> {

@@ -1,7 +1,8 @@
 //! [`ProofCache`]: forces and motions of similar components. They may prove a verdict without solving a program.
 //!
-//! A margin needs the verdicts of many components that differ in one number. Forces that balance one often balance the next,
-//! and the motion by which one falls often proves the fall of another. Each is proved again for the new component.
+//! A margin needs the verdicts of many components that differ in one number. Forces that balance one often balance the
+//! next, and the motion by which one falls often proves the fall of another. Each is proved again for the new
+//! component.
 
 use super::Component;
 use crate::assembly::Assembly;

@@ -9,8 +9,8 @@
 //!    robot.
 //! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Make the
 //!    least change of the forces on the set, in its own scale ([`rebalance_absolute`]).
-//! 4. If there is no such change, decide the set like a component. If it falls, the whole falls: the motion of the set with all
-//!    other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
+//! 4. If there is no such change, decide the set like a component. If it falls, the whole falls: the motion of the set
+//!    with all other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
 //!
 //! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
@@ -30,7 +30,8 @@ const MAX_ROUNDS: usize = 8;
 /// Sets of at most this many bodies are decided on their own, even if they are nearly the whole component.
 const MAX_SMALL_SET: usize = 12;
 
-/// Forces that leave more than this part of the heaviest load unbalanced do not balance the whole, and are not corrected.
+/// Forces that leave more than this part of the heaviest load unbalanced do not balance the whole, and are not
+/// corrected.
 const MAX_WHOLE_IMBALANCE: f64 = 1e-6;
 
 /// The result of correcting forces that balance the whole.

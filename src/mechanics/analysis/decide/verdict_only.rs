@@ -13,9 +13,6 @@ use crate::solve::{Amounts, Effort, is_late};
 ///
 /// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
 /// [`decide_component`](super::decide_component). Forces or a motion that a program then finds are added to the cache.
-///
-/// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
-/// [`decide_component`](super::decide_component), and its forces or motion enter the cache.
 pub(in crate::mechanics::analysis) fn decide_verdict(
     assembly: &Assembly,
     place: Place,

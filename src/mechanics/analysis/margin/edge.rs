@@ -1,9 +1,9 @@
 //! [`Threshold`]: searches for the value of a parameter (friction or kernel) at which a component begins or ceases to
 //! stand.
 //!
-//! Newton's method ([`super::newton`]) finds the value; verdicts just inside and just beyond confirm it. If these verdicts are too far
-//! apart, or Newton's method fails, bisection narrows the range between them. A value that is not confirmed by
-//! verdicts on both sides is not reported.
+//! Newton's method ([`super::newton`]) finds the value; verdicts just inside and just beyond confirm it. If these
+//! verdicts are too far apart, or Newton's method fails, bisection narrows the range between them. A value that is not
+//! confirmed by verdicts on both sides is not reported.
 
 use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
@@ -77,8 +77,8 @@ impl Threshold {
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const FAR: f64 = 256e-6;
 
-    /// Below this fraction of its typical value, distances on the falling side are relative to this fraction: a verdict may be stable
-    /// beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
+    /// Below this fraction of its typical value, distances on the falling side are relative to this fraction: a verdict
+    /// may be stable beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
     const SMALL: f64 = 0.1;
 
     /// Searches for the threshold between 0 and `most`, by Newton's method and bisection. Returns the interval of
@@ -86,8 +86,6 @@ impl Threshold {
     ///
     /// If the verdict at a value is undecided, the search ends there, because it cannot find the threshold more
     /// exactly.
-    ///
-    /// The search ends at an undecided value, because the threshold cannot be found more exactly.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
         let (at_zero, motion) = trial.judge(&setting(0.0));
         let at_none = match (at_zero, self.way) {

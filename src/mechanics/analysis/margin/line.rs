@@ -52,8 +52,8 @@ const WIDER: f64 = 16.0;
 const MAX_STEPS: usize = 60;
 /// The largest value that is tried, as a multiple of [`Line::reach`].
 const MAX_VALUE: f64 = 1e6;
-/// If the power of a mechanism vanishes only beyond this multiple of [`Line::reach`], the component counts as falling at
-/// every value.
+/// If the power of a mechanism vanishes only beyond this multiple of [`Line::reach`], the component counts as falling
+/// at every value.
 const MAX_REACH: f64 = 1e6;
 
 impl Line<'_> {
@@ -62,9 +62,6 @@ impl Line<'_> {
     ///
     /// `hint` is the end that a linear program found. The forces and the motion of this program are already in the
     /// cache of `trial`.
-    ///
-    /// `hint` is the end according to a linear program. The trial's cache already contains the forces and the motion
-    /// of that program.
     pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
         let hint = hint
             .map(|hint| self.rounded(hint))

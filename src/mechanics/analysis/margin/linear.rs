@@ -1,7 +1,8 @@
 //! Computes the values of a parameter between which a component stands, if its loads are linear in the parameter.
 //!
 //! 1. If the component falls at the present value, find the nearest value at which it stands ([`nearest_start`]).
-//! 2. From a value at which it stands, find the end in each direction ([`end`]): one linear program, confirmed by verdicts.
+//! 2. From a value at which it stands, find the end in each direction ([`end`]): one linear program, confirmed by
+//!    verdicts.
 
 use super::interval::{End, Interval};
 use super::line::Line;
@@ -22,9 +23,6 @@ struct Start {
 ///
 /// `stands` is true if the component stands at the value `present`. `alone(±1)` returns the component with only those
 /// loads that grow in this direction. If it stands, the interval may be unbounded in this direction.
-///
-/// `stands` is true if the component stands at `present`. `alone` returns the component with only the loads that grow
-/// in one direction. If contacts and unlimited robots carry these loads, the interval has no end in that direction.
 pub(super) fn linear(
     trial: &mut Trial,
     line: &Line,

@@ -1,7 +1,7 @@
 //! Finds the tilt of gravity nearest to 0 at which a frame stands, for a frame that falls without tilt.
 //!
-//! The mechanism of a tilt excludes an arc of tilts. Arc by arc the excluded range around 0 grows, until the frame stands at
-//! one of its ends or until the range is a full turn.
+//! The mechanism of a tilt excludes an arc of tilts. Arc by arc the excluded range around 0 grows, until the frame
+//! stands at one of its ends or until the range is a full turn.
 
 use super::exclusion::{Exclusion, fewest_arcs};
 use super::interval::Interval;

@@ -12,15 +12,15 @@ const STEPS: usize = 24;
 /// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
 const CLOSE: f64 = 1e-6;
 
-/// It has also converged if the roots of two tangents, one of them much closer to the threshold, differ by this at most, relative to
-/// their size.
+/// It has also converged if the roots of two tangents, one of them much closer to the threshold, differ by this at
+/// most, relative to their size.
 const AGREES: f64 = 1e-7;
 
 /// The error of a least residual, relative to the largest load: a few times the solver's tolerance.
 const NOISE: f64 = 2e-9;
 
-/// Where the root of a tangent lies beyond the threshold, the next tangent is this much closer to the threshold. The error of its
-/// root falls with the square of that.
+/// Where the root of a tangent lies beyond the threshold, the next tangent is this much closer to the threshold. The
+/// error of its root falls with the square of that.
 const CLOSER: f64 = 1.0 / 16.0;
 
 /// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
@@ -69,9 +69,6 @@ impl Threshold {
     ///
     /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds
     /// the forces and the motion that confirm the threshold to the cache of `trial`.
-    ///
-    /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds the forces
-    /// and the motion that confirm the threshold to the trial's cache.
     pub(super) fn stepped(
         &self,
         trial: &mut Trial,

@@ -134,8 +134,8 @@ impl Sensitivity {
             .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
     }
 
-    /// Returns why there are no derivatives, if neither end of the interval has any: the reason for the upper end. Otherwise
-    /// `None`.
+    /// Returns why there are no derivatives, if neither end of the interval has any: the reason for the upper end.
+    /// Otherwise `None`.
     pub fn reason(&self) -> Option<NoSensitivity> {
         match (&self.low, &self.high) {
             (Err(_), Err(reason)) => Some(*reason),

@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// A stone of this weight between the ground below and the ground above, pressed with 1 000 N at each of the points given.
+/// A stone of this weight between the ground below and the ground above, pressed with 1 000 N at each of the points
+/// given.
 fn squeezed(weight: f64, friction: f64, listed: LoadVector) -> Assembly {
     let mut above = joint(0, None, 3.0);
     above.normal = Vector::new(0.0, -1.0);
@@ -26,8 +27,8 @@ fn granted(total: f64) -> f64 {
 
 #[test]
 fn a_torque_counts_by_its_own_amount() {
-    // 7 N·m of load against −8 N·m of a robot leave 1 N·m, over 2.5 m: 0.4 N. Moving 20 N gives 20 N, the load 2.8 N, the
-    // robot 3.2 N and the joint's two points 4 N.
+    // 7 N·m of load against −8 N·m of a robot leave 1 N·m, over 2.5 m: 0.4 N. Moving 20 N gives 20 N, the load 2.8 N,
+    // the robot 3.2 N and the joint's two points 4 N.
     let mut held = on_ground(listed(0.0, 0.0, 7.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
     let gives = GripForces {
@@ -112,7 +113,8 @@ fn imbalance_knows_no_unit() {
     }
 }
 
-/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points: each and the weight must change alike.
+/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points: each and the weight must change
+/// alike.
 #[test]
 fn many_small_forces_are_weighed_as_few_large_ones_are() {
     let joints = (0..5_u8).map(|k| {

@@ -10,8 +10,8 @@ use std::fmt;
 use crate::program::Program;
 use crate::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverSettings};
 
-/// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions cost too
-/// much.
+/// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions
+/// cost too much.
 pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
 
 /// How a component was decided. A later variant means that a harder method was needed.
@@ -20,7 +20,8 @@ pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
 pub enum Method {
     /// Without a solver: balance alone determines the forces, or no force is needed.
     ClosedForm,
-    /// By the program of least force, solved through its dual, the kinematic program. Its name in results is `kinematic`.
+    /// By the program of least force, solved through its dual, the kinematic program. Its name in results is
+    /// `kinematic`.
     LeastForce,
     /// By the same program with the solver's own scaling and refinement.
     LeastForceRefined,
