@@ -82,7 +82,7 @@ pub(super) fn recheck(
         return;
     }
     let places = ambiguous_places(scene, found);
-    // Close all gaps and overlaps of all frames by one length, which follows from the widest.
+    // Close all gaps and overlaps of all frames by the same length, which depends on the widest of them.
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };

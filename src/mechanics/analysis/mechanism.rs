@@ -1,5 +1,5 @@
 //! [`Analysis::elementary`]: simplifies collapse mechanisms for drawing. Each falling part gets one elementary
-//! mechanism, with as few hinges and sliding joints as possible.
+//! mechanism, with only the hinges and sliding joints that it needs.
 //!
 //! The motion that proves a fall opens every contact that can open. This gives the strongest proof, but the motion is
 //! a sum of many mechanisms. A thin arch then shows eight hinges on seven bodies, although four are enough. An
@@ -67,9 +67,9 @@ impl Analysis {
         analysis
     }
 
-    /// Returns how far a parameter may change before a frame (numbered from 0) falls, and the elementary mechanism at
-    /// this limit. Of two limits, returns the limit nearer to 0. A load factor without an upper limit has a lower limit
-    /// instead. `None` if the margin was not computed, or if no change makes the frame fall.
+    /// Returns the value of a parameter at which a frame (numbered from 0) begins to fall, and the elementary mechanism
+    /// there. Of two such values, returns the value nearer to 0. A load factor without an upper limit has a lower limit
+    /// instead. `None` if the margin was not computed, or if the frame falls at no value.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {

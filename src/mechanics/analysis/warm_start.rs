@@ -116,7 +116,7 @@ impl WarmStart {
 
     /// Decides an assembly by the warm start alone. `None` if neither forces nor a motion are proved.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
-        // Without the active set of an earlier frame, the warm start is only fast for fewer bodies.
+        // Without an active set from an earlier frame, the warm start is fast only for few bodies.
         let most = match self.columns.is_empty() {
             true => MAX_NEW_BODIES,
             false => MAX_BODIES,

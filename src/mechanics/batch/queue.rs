@@ -63,8 +63,8 @@ struct Shared<T> {
 
 impl<T> Shared<T> {
     fn lock(&self) -> MutexGuard<'_, State<T>> {
-        // A lock is also used if a thread panicked while it held the lock: no thread can leave the counts or the list
-        // half changed.
+        // Ignore that a thread panicked while it held the lock: it cannot have left the counts or the list half
+        // changed.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

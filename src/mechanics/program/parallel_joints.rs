@@ -18,7 +18,7 @@ impl Program {
     /// `None` if this changes no joint.
     ///
     /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only if the
-    /// block moves with a velocity of 10⁶, and the solver ends without a status. It solves the program if the faces are
+    /// block moves with a velocity of 10⁶, and the solver ends without a result. It solves the program if the faces are
     /// exactly parallel.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();

@@ -88,7 +88,7 @@ pub fn kinematic_dual(
         dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
-    // At last add an unknown w for each limit, with the constraint w ≥ 0.
+    // Finally add an unknown w for each limit, with the constraint w ≥ 0.
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
             let w = dual.unknowns;
@@ -233,7 +233,7 @@ pub struct Correction<'a> {
 ///
 /// With a `correction`, the unknowns are changes of given amounts, and the sum is over the squared change of each
 /// column. Squares of forces would not bound opposite columns, such as the two directions of a robot's force, and the
-/// solver would end without a status.
+/// solver would end without a result.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],

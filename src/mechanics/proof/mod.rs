@@ -194,7 +194,7 @@ impl Motion {
         self.about(scene.blocks[self.block.0].centroid, point)
     }
 
-    /// Returns the speed of the corner of the block that moves fastest.
+    /// Returns the speed of the block's fastest corner.
     pub fn fastest(&self, scene: &Scene) -> f64 {
         let block = &scene.blocks[self.block.0];
         self.fastest_of(block.centroid, block.body.polygon.outline())
@@ -221,7 +221,7 @@ impl Motion {
     }
 }
 
-/// Returns the speed of the corner of a body that moves fastest.
+/// Returns the speed of the fastest corner of a body.
 pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }

@@ -81,8 +81,8 @@ impl Session {
         Session::with(file, Options::default())
     }
 
-    /// Starts a session with options. A session does not compute margins or check wedging in its steps. A deadline
-    /// limits all steps together.
+    /// Starts a session with options for the analysis. The steps of a session compute no margins and do not check
+    /// wedging. A deadline limits all steps together.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Session::new`].

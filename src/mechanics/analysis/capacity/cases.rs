@@ -29,8 +29,8 @@ const LONGEST_PIECE: f64 = 1.0;
 /// Rays are cut off at this multiple of the size of the sets.
 const FAR: f64 = 1e5;
 
-/// Computes the capacity in each extreme case with the function `one`, and returns the intersection of these
-/// capacities.
+/// Computes the load capacity in each extreme case with the function `one`, and returns the intersection of these sets
+/// of forces.
 pub(super) fn intersected(
     assembly: &Assembly,
     cases: &Cases,
@@ -110,7 +110,7 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     all
 }
 
-/// Returns the intersection of several capacities: the forces that belong to each of them.
+/// Returns the intersection of several load capacities: the forces that belong to each of these sets.
 fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
     let centre = forces().next().unwrap_or_else(Vector::zeros);

@@ -25,7 +25,8 @@ const SAME_ANGLE: f64 = 1e-7;
 /// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
 const REACH: f64 = 10.0;
 
-/// Computes the set of forces that a probe can carry. `None` if the set is empty, or if a force has no proof.
+/// Computes the set of forces that the block of a probe can carry. `None` if the set is empty, or if a force has no
+/// proof.
 pub(super) fn found(probe: &Probe) -> Option<Found> {
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();

@@ -139,7 +139,8 @@ impl Search<'_> {
             .as_ref()
             .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE * self.tolerance) {
-            // The new force is not farther than the chord, so the chord is an edge. This sample has its half-plane.
+            // The chord is an edge, because the new force is not farther out. The new sample contains the half-plane of
+            // this edge.
             if next.line.is_some() {
                 self.found.push(next);
             }

@@ -217,7 +217,7 @@ fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
     }
 }
 
-/// Returns the distance of a point from a segment.
+/// Returns the distance between a point and a line segment.
 pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     let along = b - a;
     let square = along.norm_squared();
@@ -265,7 +265,7 @@ fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -
         .fold(0.0, f64::max)
 }
 
-/// Returns the distance of a force from a convex polygon; 0 if it lies inside.
+/// Returns the distance between a force and a convex polygon; 0 if the force lies inside.
 pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
     let count = ring.len();
     let edges = || (0..count).map(|k| (ring[k], ring[(k + 1) % count]));

@@ -16,7 +16,8 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 }
 
 impl<'a> Candidate<'a> {
-    /// Creates a checker for forces and velocities of an assembly, which will be given in the units of `scale`.
+    /// Creates a checker that tries to prove a verdict on an assembly. The forces and velocities to check will be in
+    /// the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             component: Component {

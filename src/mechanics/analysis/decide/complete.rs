@@ -32,7 +32,7 @@ impl Component<'_> {
     /// Replaces the forces of a decision by balancing forces of least sum, if a solution is accurate enough to prove
     /// that they are least.
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
-        // Do not solve the program of least force if it ended without a status before, or if any balancing forces are
+        // Do not solve the program of least force if it ended without a result before, or if any balancing forces are
         // enough.
         if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;

@@ -1,4 +1,5 @@
-//! Converts solved forces to newtons, removes rounding so that no limit is violated, and checks that they balance.
+//! Converts the forces of a solver to newtons, corrects rounding errors so that no limit is violated, and checks how
+//! well the forces balance.
 
 use super::Component;
 use crate::geometry::Vector;
@@ -33,7 +34,8 @@ impl Component<'_> {
     /// the proof measures. A force that is noise among heavy blocks may hold a light block. If the proof fails, fewer
     /// forces are therefore set to 0.
     pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
-        // Set less and less noise to 0. If no attempt gives a proof, return the forces that balance the most bodies.
+        // Try again with fewer forces set to 0. If no attempt gives a proof, return the forces that balance the most
+        // bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);

@@ -32,7 +32,7 @@ pub(super) struct Decision {
     pub proof: Proof,
     /// The strategy that decided.
     pub method: Method,
-    /// Whether a program of least force ended without a status.
+    /// Whether a program of least force ended without a result.
     pub no_status: bool,
     /// The answer of the program of least adhesion, if it was solved.
     pub least_adhesion: Option<LeastAdhesion>,
@@ -45,7 +45,7 @@ pub(super) struct Decision {
 #[derive(Default)]
 struct Progress {
     effort: Effort,
-    /// Whether a program of least force ended without a status.
+    /// Whether a program of least force ended without a result.
     no_status: bool,
     /// A proved motion that does little work.
     weak: Option<(Vec<Motion>, Proof)>,
@@ -120,7 +120,7 @@ impl Component<'_> {
                     force_bound,
                     least_force,
                 };
-                // If joints are nearly parallel, the program of least force may end without a status.
+                // If joints are nearly parallel, the program of least force may end without a result.
                 if !least_force && progress.no_status {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }

@@ -95,7 +95,7 @@ impl Threshold {
             (verdict, _) => verdict == Verdict::Stable,
         };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
-        // Take large steps from 0 until the verdict changes from stable to another verdict, or to stable.
+        // Take larger and larger steps away from 0, until the component no longer stands, or begins to stand.
         let (mut verdict, mut motion) = trial.judge(&setting(far));
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {

@@ -222,8 +222,8 @@ impl Line<'_> {
         let reached = match self.reach(trial, value, &motion) {
             Cut::Above(bound) if outward > 0.0 => bound,
             Cut::Below(bound) if outward < 0.0 => bound,
-            // The mechanism even excludes values with a stable verdict, which is then true only within its tolerance.
-            // Use `value` itself as the outer end.
+            // The mechanism excludes even values at which the verdict was stable: that verdict holds only within its
+            // tolerance. Use `value` itself as the outer end.
             _ => value,
         };
         let bound = if (reached - bracket.inside) * outward < 0.0 {
@@ -240,8 +240,8 @@ impl Line<'_> {
         }
     }
 
-    /// Moves a bracket outward that has no outer end yet: decides the component at a larger distance. Returns the end
-    /// of the interval if the search must stop, otherwise `None`.
+    /// Searches farther outward while no value is known at which the component falls: decides it at a larger distance.
+    /// Returns the end of the interval if the search must stop, otherwise `None`.
     fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.reach;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);

@@ -1,4 +1,5 @@
-//! [`Margins`]: how far each parameter may change before a frame falls. They are read from [`Intervals`].
+//! [`Margins`]: for each parameter, the largest or the smallest value at which a frame stands. They are read from
+//! [`Intervals`].
 
 use super::interval::{End, Interval, Intervals};
 use super::kind::{MarginKind, MarginKinds};
@@ -154,7 +155,7 @@ impl Margins {
 
 impl Sides {
     /// Returns how far the interval extends from 0 to the left and to the right. Both margins are [`Margin::None`] if
-    /// the interval does not contain 0.
+    /// the interval does not contain 0 or is undecided.
     fn around_zero(interval: Option<&Interval>) -> Sides {
         let both = |margin: Margin| Sides {
             left: margin.clone(),
@@ -171,12 +172,14 @@ impl Sides {
     }
 }
 
-/// Returns the lower end of an interval as a margin: the smallest value at which the frame stands.
+/// Returns the lower end of an interval as a margin: the smallest value at which the frame stands. [`Margin::None`] if
+/// the interval is empty or undecided.
 fn least(interval: &Interval) -> Margin {
     interval.low().map_or(Margin::None, |end| margin(end, 1.0))
 }
 
-/// Returns the upper end of an interval as a margin: the largest value at which the frame stands.
+/// Returns the upper end of an interval as a margin: the largest value at which the frame stands. [`Margin::None`] if
+/// the interval is empty or undecided.
 fn most(interval: &Interval) -> Margin {
     interval.high().map_or(Margin::None, |end| margin(end, 1.0))
 }

@@ -82,8 +82,8 @@ impl Threshold {
             standing: None,
         };
         let mut falling = Vec::new();
-        // `reached`: the last root at which the component stands, and the value of its tangent. `share`: the length of
-        // the next step from the inner end, as a fraction of the bracket.
+        // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
+        // computed. `share`: the length of the next step from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
         for _ in 0..STEPS {
             if at.tangent.left <= LEFT {

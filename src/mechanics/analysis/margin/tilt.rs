@@ -73,8 +73,7 @@ enum Exit {
 impl Arc<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // A search that starts at another tilt than 0 means that the frame falls at tilt 0. The first step towards 0
-        // then goes to 0.
+        // If the search does not start at tilt 0, the frame falls at tilt 0. The first step towards 0 then ends at 0.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
         loop {

@@ -156,7 +156,7 @@ impl Reduced {
         rows
     }
 
-    /// Returns the power of a unit of one unknown force along a motion of the groups.
+    /// Returns the power that one unit of an unknown force has along a motion of the groups.
     pub fn power(&self, changed: &Assembly, unknown: &Unknown, motion: &[f64]) -> f64 {
         let entries = self.entries(changed, unknown.source).into_iter();
         entries.map(|(row, value)| value * motion[row]).sum()

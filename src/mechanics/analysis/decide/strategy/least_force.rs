@@ -10,7 +10,7 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
 }
 
 /// Solves the program of least force with few iterations. Near the limit of stability it converges slowly or ends
-/// without a status, and other programs decide sooner.
+/// without a result, and other programs decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_at_first_look(program, settings))
 }

@@ -108,18 +108,18 @@ impl Strategy {
     /// 1. Closed form, if the equilibrium equations alone determine all forces.
     /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
-    ///    without a status.
+    ///    without a result.
     /// 4. Least force with full precision.
     /// 5. Least adhesion. Its optimum is the physical residual and distinguishes 0 from almost 0 best.
     ///
     /// Three cases differ:
     ///
     /// - At the limit (`Place::AtEdge`) step 3 comes before step 2.
-    /// - Large programs begin with a short attempt at least force. If failures are requested, least adhesion comes
+    /// - Large programs begin with a short attempt with least force. If failures are requested, least adhesion comes
     ///   before least residual: a large component that falls needs least adhesion in any case, and least residual takes
     ///   nearly as long.
     /// - If only the verdict is requested, large programs begin with any balance. For falling walls of 410 and 915
-    ///   bricks, any balance takes 9 to 20 iterations and least force takes 9 to 60. The short attempt at least force
+    ///   bricks, any balance takes 9 to 20 iterations and least force takes 9 to 60. The short attempt with least force
     ///   comes next, because any balance gives no strong proof for a stack of 10 000 blocks.
     pub fn in_order(
         program: &Program,
@@ -134,8 +134,8 @@ impl Strategy {
         let quick = settings.iter().find(plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
         match place {
-            // Large components. Order: short attempt at least force, any balance, least adhesion if failures are
-            // requested, least residual, full attempts at least force.
+            // Large components. Order: short attempt with least force, any balance, least adhesion if failures are
+            // requested, least residual, full attempts with least force.
             Place::Anywhere if many && !any => {
                 strategies.splice(0..0, residual);
                 if complete_result {
@@ -143,8 +143,8 @@ impl Strategy {
                 }
                 strategies.splice(0..0, quick.map(Strategy::FirstLook));
             }
-            // Large components, if only the verdict is requested. Order: any balance, short attempt at least force,
-            // least residual, full attempts at least force.
+            // Large components, if only the verdict is requested. Order: any balance, short attempt with least force,
+            // least residual, full attempts with least force.
             Place::Anywhere if many => {
                 strategies.splice(0..0, residual);
                 let unique = |settings| SolverSettings {
