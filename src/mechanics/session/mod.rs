@@ -148,7 +148,8 @@ impl Session {
     /// Removes a block and the loads on it, and returns the verdict.
     ///
     /// # Errors
-    /// Returns an error, and removes nothing, if the block is not placed, if a robot holds it, or if the scene without it is not valid.
+    /// Returns an error, and removes nothing, if the block is not placed, if a robot holds it, or if the
+    /// scene without it is not valid.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
@@ -190,7 +191,8 @@ impl Session {
     /// centroid of the block.
     ///
     /// # Errors
-    /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds another block.
+    /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds
+    /// another block.
     pub fn hold(
         &mut self,
         robot: &str,
