@@ -1,7 +1,7 @@
-//! The clock: measures how long something took, and tells whether a deadline has passed.
+//! Re-exports `Instant`, the clock with which this crate measures durations and checks deadlines.
 //!
-//! Everything that needs the time takes it from here. The clock of the standard library panics in a browser, so that there
-//! it is the one of the crate `web-time`, which asks the browser.
+//! All modules take `Instant` from here. The clock of the standard library panics in a browser. There, the clock of the
+//! crate `web-time` is used, which asks the browser.
 
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use std::time::Instant;

@@ -1,7 +1,7 @@
-//! Modules that are not part of the public interface. They may change with any version.
+//! Re-exports modules that are not part of the public interface. They may change with any version.
 //!
-//! They are public here, and hidden in the documentation, for this crate's own tests, benchmarks and program. Please do
-//! not use them from other crates.
+//! These modules are public, but hidden in the documentation, because this crate's own tests, benchmarks and program
+//! use them. Please do not use them from other crates.
 
 #[cfg(feature = "cli")]
 pub use crate::entry::cli;

@@ -1,8 +1,9 @@
-//! Works out whether a structure of dry-laid rigid blocks stands and how forces run through it, and draws both.
+//! Computes whether a structure of dry-laid rigid blocks stands and which forces act in it, and draws both.
 //!
-//! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots that hold
-//! blocks. For every step of a construction, the analysis gives a verdict with its proof and the force at every interface.
-//! If the structure falls, it also gives the forces that are missing and the motion. Figures show all of this.
+//! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots that
+//! hold blocks. For every step of a construction, the analysis gives a verdict with its proof and the force at every
+//! interface. If the structure falls, it also gives the forces that are missing and the motion. Figures show all of
+//! this.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, analysis::Verdict, figure, output};
@@ -42,12 +43,12 @@
 //!
 //! # What a verdict means
 //!
-//! *Stable* means that equilibrium is **possible**: there are forces that the contacts and robots can exert and that balance
-//! every block. It does not mean that
+//! *Stable* means that equilibrium is **possible**: there are forces that the contacts and robots can exert and that
+//! balance every block. It does not mean that
 //!
 //! - these forces occur. With friction, a structure for which equilibrium is possible may still slide apart while it is
-//!   built ([Gilbert06](doc::references)). The forces may also be due to wedging: blocks that press against each other although
-//!   no load requires it;
+//!   built ([Gilbert06](doc::references)). The forces may also be due to wedging: blocks that press against each other
+//!   although no load requires it;
 //! - the blocks are strong enough. They are rigid and never break, and their edges bear any pressure;
 //! - the structure survives a shock. The model has no dynamics: no impact, no earthquake, no settling ground.
 //!
@@ -78,19 +79,19 @@
 //! | [`snapshot`] | a comparison with stored references | scenes and their figures |
 //! | [`text`] | escaped text for each output format | untrusted text |
 //!
-//! [`doc::design`] gives the reasons for this structure, [`doc::conventions`] axes, units and signs, and [`doc::numerics`]
-//! tolerances and numerical difficulties.
+//! [`doc::design`] gives the reasons for this structure, [`doc::conventions`] axes, units and signs, and
+//! [`doc::numerics`] tolerances and numerical difficulties.
 
-// Code that only the program or another feature uses would be reported as unused if that feature is off. With all
-// features nothing is unused.
+// Some code is used only by the program or by an optional feature. The compiler would report it as unused if that
+// feature is off. With all features, no code is unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
-// Blank lines keep the modules in reading order: the formatter would sort them.
+// Blank lines between the modules keep them in this order. Without blank lines the formatter would sort them.
 
-// Types with public fields that may get more fields are `#[non_exhaustive]`. Other crates start from the default value
-// and call one method for each field. These macros write these methods for all modules below.
+// Structs with public fields that may get more fields are `#[non_exhaustive]`. Users start from the default value and
+// call one setter method for each field. These macros write the setter methods for all modules below.
 
-/// Methods that set a field.
+/// Writes methods that set a field.
 macro_rules! setters {
     ($($field:ident: $type:ty, $doc:literal;)*) => {
         $(
@@ -103,7 +104,7 @@ macro_rules! setters {
     };
 }
 
-/// Methods that set a field that may be left out.
+/// Writes methods that set an optional field.
 macro_rules! optional_setters {
     ($($field:ident: $type:ty, $doc:literal;)*) => {
         $(
@@ -137,7 +138,8 @@ mod entry;
 #[doc(hidden)]
 pub mod internals;
 
-// Every module of a group also has a short path, such as `crate::scene` for `crate::mechanics::scene`.
+// Re-export the modules of each group, so that they also have a short path, such as `crate::scene` for
+// `crate::mechanics::scene`.
 pub use mechanics::{analysis, scene, session};
 pub use pictures::{drawing, output};
 #[cfg(feature = "snapshot")]
@@ -163,14 +165,14 @@ use pictures::chart;
 use products::study;
 use products::wording;
 
-/// The nalgebra of [`scene::Point`] and [`scene::Vector`], whose version is part of this crate's interface: another one
-/// comes with another version of this crate.
+/// The crate nalgebra, which defines the types of [`scene::Point`] and [`scene::Vector`]. Its version is part of this
+/// crate's interface: a different version of nalgebra comes only with a new version of this crate.
 pub use nalgebra;
 
 pub use analysis::Analysis;
 pub use scene::Scene;
 
-/// What stands between the lines of code: why, by which conventions, how precisely, from which drawings, and after whom.
+/// Background: the design, the conventions, the file formats, the numerical methods, their accuracy and the references.
 pub mod doc {
     #[doc = include_str!("doc/architecture.md")]
     pub mod architecture {}
@@ -200,7 +202,8 @@ pub mod doc {
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
 
-    // The first definition of a picture counts: here the pictures themselves, in the repository links to their files.
+    // `inline.md` and `validation.md` define the same picture links, and the first definition counts. In this
+    // documentation the links contain the pictures themselves; in the repository they lead to the picture files.
     #[doc = include_str!("../assets/validation/inline.md")]
     #[doc = include_str!("doc/validation.md")]
     pub mod validation {}

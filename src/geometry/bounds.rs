@@ -12,7 +12,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Returns the smallest rectangle around some points; `None` if there are no points.
+    /// Returns the smallest axis-parallel rectangle that contains all points; `None` if there are no points.
     pub fn from_points(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         points.into_iter().fold(None, |bounds: Option<Bounds>, p| {
             let b = bounds.unwrap_or(Bounds { min: p, max: p });

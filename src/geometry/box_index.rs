@@ -1,15 +1,16 @@
 //! [`BoxIndex`]: finds all items whose bounding box intersects a query box.
 //!
 //! Up to [`MAX_SCANNED_ITEMS`] items are kept in a list sorted by the left end of their boxes and scanned (sweep and
-//! prune). More items are put into a bounding-volume hierarchy: a binary tree that splits the items at the median of one
-//! coordinate, and whose nodes store the box around their items. Building the tree costs more than many scans of a short
-//! list.
+//! prune). More items are put into a bounding-volume hierarchy: a binary tree that splits the items at the median of
+//! one coordinate, and whose nodes store the box around their items. Building the tree costs more than many scans of a
+//! short list.
 //!
 //! A box may have more than the two coordinates of the plane. The axis-parallel box of a thin, inclined stone can
 //! overlap hundreds of others. A box that also bounds x + y and y − x ([`Aabb::with_diagonals`]), or another direction,
 //! overlaps only a few.
 //!
-//! Reference: Ericson, Real-Time Collision Detection, 2005, chapters 6 (bounding-volume hierarchies) and 7 (sorted lists).
+//! Reference: Ericson, Real-Time Collision Detection, 2005, chapters 6 (bounding-volume hierarchies) and 7 (sorted
+//! lists).
 
 use super::Point;
 
@@ -37,8 +38,8 @@ impl Aabb {
 }
 
 impl Aabb<4> {
-    /// Returns the bounds of some points in the coordinates x, y, x + y and y − x: an upright box and a box rotated by
-    /// 45°.
+    /// Returns the ranges of x, y, x + y and y − x over the points. They describe two boxes around the points: an
+    /// upright box and a box rotated by 45°.
     pub(crate) fn with_diagonals(points: &[Point]) -> Aabb<4> {
         points.iter().fold(Aabb::EMPTY, |bounds, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
@@ -67,8 +68,7 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Returns twice the coordinate `d` of the box's centre. The value is only used to order boxes, so the factor 2 has
-    /// no effect.
+    /// Returns coordinate `d` of the box's centre, multiplied by 2. The factor saves a division; callers allow for it.
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
@@ -112,8 +112,8 @@ impl<T, const D: usize> SortedBoxes<T, D> {
     }
 
     fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
-        // All boxes before `begin` end to the left of the query. The scan stops at the first box that begins to its
-        // right.
+        // All boxes before `begin` lie to the left of the query. The scan stops at the first box that begins to the
+        // right of the query.
         let left = query.min[0];
         let begin = self.entries.partition_point(|entry| entry.max_right < left);
         let rest = self.entries[begin..].iter();
@@ -182,8 +182,9 @@ impl<T, const D: usize> BoxTree<T, D> {
 /// Returns the typical size of a box in each coordinate. Distances in different coordinates are divided by these sizes
 /// before they are compared.
 ///
-/// It is the median size plus a thousandth of the interquartile range of the centres. The second term keeps the size of
-/// point-like boxes above 0. Medians and quartiles are used because the ground may be far larger than all other items.
+/// Each typical size is the median size plus 1/500 of the interquartile range of the centres. The second term keeps the
+/// result above 0 for point-like boxes. The result is a median because the ground may be far larger than all other
+/// items.
 fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     const SPREAD_SHARE: f64 = 1e-3;
     let mut values = Vec::with_capacity(order.len());
@@ -201,7 +202,7 @@ fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     })
 }
 
-/// Returns twice the range of the boxes' centres in each coordinate.
+/// Returns, for each coordinate, the largest minus the smallest centre of the boxes, multiplied by 2.
 fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     let (mut min, mut max) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for (bounds, _) in order {
@@ -213,9 +214,10 @@ fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] 
     std::array::from_fn(|d| max[d] - min[d])
 }
 
-/// Sorts the boxes in `order` into the order of the leaves, and appends the nodes of their subtree to `nodes`.
+/// Builds the subtree of the boxes in `order`: sorts these boxes into the order of the leaves, and appends the nodes of
+/// the subtree to `nodes`.
 ///
-/// `begin` is the position of the first box of `order` in the list of all boxes.
+/// `begin` is the position of the first of these boxes in the list of all boxes.
 fn build<const D: usize>(
     order: &mut [(Aabb<D>, usize)],
     begin: usize,
@@ -232,7 +234,7 @@ fn build<const D: usize>(
         nodes[number].bounds = order.iter().fold(Aabb::EMPTY, |all, b| all.union(&b.0));
         nodes[number].items.end += order.len();
     } else {
-        // Split the coordinate in which the range of the centres, divided by the typical size, is largest.
+        // Split along the coordinate in which the range of the centres, divided by the typical size, is largest.
         let range = doubled_centre_range(order);
         let relative = |d: &usize| range[*d] / typical[*d];
         let split = (0..D).max_by(|a, b| relative(a).total_cmp(&relative(b)));
@@ -251,7 +253,7 @@ fn build<const D: usize>(
 }
 
 impl<T, const D: usize> BoxIndex<T, D> {
-    /// Makes an index of `items`. `bounds` returns the box of an item.
+    /// Creates an index of `items`. The function `bounds` returns the box of an item.
     pub(crate) fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
         if items.len() > MAX_SCANNED_ITEMS {
             return BoxIndex::Tree(BoxTree::new(items, bounds));
@@ -277,8 +279,8 @@ impl<T, const D: usize> BoxIndex<T, D> {
         sorted.chain(tree.flat_map(move |tree| tree.intersecting(query)))
     }
 
-    /// Returns two options: the variant that this index has is `Some`, and the other variant is `None`. Callers chain
-    /// both, so that one iterator type serves both variants.
+    /// Returns the sorted list and the tree of this index; one of them is `Some`, the other is `None`. Callers chain
+    /// iterators over both options, so that one iterator type serves both variants.
     fn variants(&self) -> (Option<&SortedBoxes<T, D>>, Option<&BoxTree<T, D>>) {
         match self {
             BoxIndex::Sorted(list) => (Some(list), None),

@@ -1,4 +1,4 @@
-//! [`CompensatedSum`]: a sum with about 32 digits, for large terms that nearly cancel.
+//! [`CompensatedSum`]: a sum with about 32 significant digits, for large terms that nearly cancel.
 //!
 //! The rounding error of a floating-point addition or product is itself a floating-point number. It is computed exactly
 //! and added up separately. References: Knuth, The Art of Computer Programming 2, §4.2.2 (two-sum); Ogita, Rump and
@@ -12,20 +12,20 @@ pub struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    /// Adds a number.
+    /// Adds `value` to the sum, and its rounding error to the sum of the errors.
     pub fn add(&mut self, value: f64) {
-        // Two-sum: the error is exact whichever of the two numbers is larger.
+        // Two-sum: this formula gives the exact rounding error, whichever of the two numbers is larger.
         let sum = self.rounded + value;
         let added = sum - self.rounded;
         self.error += (self.rounded - (sum - added)) + (value - added);
         self.rounded = sum;
     }
 
-    /// Adds the product of two numbers.
+    /// Adds the product `a * b` to the sum. The rounding error of the product is not lost.
     pub fn add_product(&mut self, a: f64, b: f64) {
         let product = a * b;
         self.add(product);
-        // A fused multiply-add rounds once, so it returns the rounding error of the product.
+        // A fused multiply-add rounds only once, so this call returns the exact rounding error of the product.
         self.error += a.mul_add(b, -product);
     }
 

@@ -1,4 +1,5 @@
-//! [`crossings`]: finds the pairs of sides that cross or touch, which the sides of a simple polygon must not do.
+//! [`crossings`]: finds the pairs of a polygon's sides that cross or touch. In a simple polygon, only neighbouring
+//! sides touch, at their common corner.
 //!
 //! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`]. The answer therefore
 //! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
@@ -7,7 +8,7 @@
 use super::edge::{Edge, orientation, ring_edges};
 use super::{Aabb, BoxIndex, Point};
 
-/// At most this many crossings are returned: more would only lengthen the message to the author of the scene.
+/// The largest number of crossings that are returned. More would only lengthen the message to the author of the scene.
 const MAX_CROSSINGS: usize = 20;
 
 /// Polygons of up to this many sides are tested pair by pair; for more a [`BoxIndex`] finds the candidates.
@@ -39,11 +40,12 @@ impl Side {
         self.edge.bounds()
     }
 
-    /// Returns a common point of this side and a later side, or `None`. The common corner of two neighbours does not
-    /// count.
+    /// Returns a point that this side and a later side of the polygon share; `None` if they share none. The common
+    /// corner of two neighbouring sides is allowed and not returned.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
-        // Neighbours share a corner. They cross only if the second one folds back onto the first.
+        // Neighbouring sides share a corner. They share more than this corner only if one side folds back onto the
+        // other.
         if (a.ring, a.corner + 1) == (b.ring, b.corner) {
             folds_back(a.edge.from, a.edge.to, b.edge.to)
         } else if a.ring == b.ring && a.corner == 0 && b.corner + 1 == b.ring_len {
@@ -54,7 +56,8 @@ impl Side {
     }
 }
 
-/// Returns the crossings of a polygon's sides, in the order of the sides, but at most [`MAX_CROSSINGS`].
+/// Returns the pairs of sides that cross or touch, sorted by the position of their sides in the polygon. At most
+/// [`MAX_CROSSINGS`] pairs are returned.
 pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
     // List every side with its ring and its corner number.
     let mut sides: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
@@ -80,7 +83,7 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
                 });
             }
         };
-        // Test each pair only once: skip the sides that are earlier in the list.
+        // Test each pair only once: skip the sides that come before `a` in the list.
         let bounds = a.bounds();
         match &index {
             None => (sides[number + 1..].iter())
@@ -90,7 +93,8 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
                 .filter(|b| (a.ring, a.corner) < (b.ring, b.corner))
                 .for_each(&mut test),
         }
-        // The index returns candidates in no particular order; the answer must not depend on it.
+        // The index returns candidates in no particular order. Sort the crossings, so that the result does not depend
+        // on it.
         found[before..].sort_by_key(|crossing| (crossing.rings[1], crossing.corners[1]));
         if found.len() >= MAX_CROSSINGS {
             found.truncate(MAX_CROSSINGS);
@@ -100,7 +104,7 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
     found
 }
 
-/// Returns the corner `b` if the path a → b → c reverses its direction there; otherwise `None`.
+/// Returns the corner `b` if the path a → b → c runs back along itself at b; otherwise `None`.
 fn folds_back(a: Point, b: Point, c: Point) -> Option<Point> {
     (orientation(a, b, c) == 0.0 && (a - b).dot(&(c - b)) > 0.0).then_some(b)
 }
@@ -111,7 +115,7 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
     let a_to = orientation(b.from, b.to, a.to);
     let b_from = orientation(a.from, a.to, b.from);
     let b_to = orientation(a.from, a.to, b.to);
-    // An end of one segment lies on the other segment if it is on its line and between its two ends.
+    // The end of a segment lies on the other segment if it is collinear with that segment and between its two ends.
     let is_between = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
     for (turn, edge, point) in [
         (a_from, b, a.from),
@@ -123,8 +127,9 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    // A proper crossing: each segment has its ends on different sides of the other's line. A turn of 0 needs no special
-    // case: that end is on the line but not on the segment, so both ends of the other lie on one side of this line.
+    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. An end
+    // that lies on this line (turn 0) needs no special treatment. It is not on the other segment itself, so both ends
+    // of the other segment lie on the same side of the first one.
     if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);

@@ -12,7 +12,7 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// Returns the vector from the start to the end, in metres.
+    /// Returns the vector from the start to the end of the edge, in metres.
     pub fn vector(&self) -> Vector {
         self.to - self.from
     }
@@ -22,7 +22,7 @@ impl Edge {
         self.vector().norm()
     }
 
-    /// Returns the unit normal that points out of the material.
+    /// Returns the unit normal of the edge that points out of the material.
     pub fn outward(&self) -> Vector {
         let d = self.vector().normalize();
         Vector::new(d.y, -d.x)
@@ -40,7 +40,8 @@ impl Edge {
 
 /// Returns the sides of a closed ring of corners, in their order. The last side leads back to the first corner.
 pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
-    // A comparison is faster than a remainder, and reading a scene spends much of its time in this loop.
+    // A comparison is faster than the remainder `(i + 1) % ring.len()`, and this loop takes much of the time for
+    // reading a scene.
     let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };
     (0..ring.len()).map(move |i| Edge {
         from: ring[i],

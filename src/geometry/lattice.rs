@@ -1,8 +1,8 @@
 //! [`Lattice`]: a regular lattice of cells with integer coordinates, on which collisions and contacts are decided
 //! exactly.
 //!
-//! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and what uses it.
-//! Node (x, y) of the triangular lattice lies at side·(x + y/2, y·√3/2), of the square lattice at side·(x, y).
+//! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and in the methods that call
+//! it. Node (x, y) of the triangular lattice lies at side·(x + y/2, y·√3/2), of the square lattice at side·(x, y).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -46,7 +46,7 @@ pub(crate) type Node = (i64, i64);
 pub(crate) type LatticeEdge = (Node, Node);
 
 impl Cell {
-    /// Returns the nodes at the cell's corners, anticlockwise.
+    /// Returns the lattice coordinates of the cell's corners, anticlockwise.
     pub fn corners(self) -> Vec<(i64, i64)> {
         let (x, y) = (self.x, self.y);
         match self.shape {
@@ -56,7 +56,7 @@ impl Cell {
         }
     }
 
-    /// Returns the cell moved by whole lattice steps.
+    /// Returns the cell moved by `by`, in lattice steps.
     pub fn moved(self, by: (i64, i64)) -> Cell {
         Cell {
             x: self.x + by.0,
@@ -90,7 +90,8 @@ impl Cell {
                 shape: CellShape::Square,
             };
         }
-        // Two corners of a triangle share a row: they are its horizontal edge, and the third lies above or below it.
+        // Two corners of a triangle have the same y: they are the ends of its horizontal edge. The third corner lies
+        // above or below this edge.
         for i in 0..3 {
             let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
             if a.1 == b.1 {
@@ -156,7 +157,7 @@ impl Lattice {
     /// ```
     pub fn point(&self, x: f64, y: f64) -> Point {
         match self.kind {
-            // 2x + y is an exact integer for every node, so nodes at the same position get bit-identical coordinates.
+            // 2x + y is exact for every node, so nodes at the same position get bit-identical coordinates.
             LatticeKind::Triangular => Point::new(
                 (2.0 * x + y) * (self.side / 2.0),
                 y * (self.side * HALF_SQRT_3),
@@ -188,7 +189,7 @@ impl Lattice {
         Point::from(sum / corners.len() as f64)
     }
 
-    /// Returns the union of some cells as one polygon with its holes. Collinear edges are merged into one side.
+    /// Returns the union of the cells as one polygon, which may have holes. Collinear edges are merged into one side.
     ///
     /// `None` if the cells are not all connected by common edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
@@ -210,7 +211,7 @@ pub(crate) fn boundary(cells: &[Cell]) -> Vec<LatticeEdge> {
     let mut all: Vec<LatticeEdge> = cells.iter().flat_map(|c| c.edges()).collect();
     all.sort_unstable();
     all.dedup();
-    // An inner edge belongs to two cells, once in each direction.
+    // An inner edge belongs to two cells and occurs once in each direction.
     let is_outer = |(a, b): &&LatticeEdge| all.binary_search(&(*b, *a)).is_err();
     all.iter().filter(is_outer).copied().collect()
 }
@@ -230,8 +231,8 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
         while std::mem::replace(&mut unused[at], false) {
             let (a, b) = edges[at];
             ring.push(a);
-            // At a node where two rings touch, take the leftmost turn, so that each ring stays with its own cells. At
-            // most one of the edges turns left. If none does, one goes straight on.
+            // Several edges begin at a node where two rings touch. Take the edge that turns leftmost, so that each ring
+            // follows its own cells. At most one of these edges turns left. If none turns left, one goes straight on.
             let begin = edges.partition_point(|edge| edge.0 < b);
             let candidates = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
             let next = (candidates.filter(|k| unused[*k])).max_by_key(|k| turn(a, b, edges[*k].1));
@@ -242,7 +243,7 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
             rings.push(without_collinear_nodes(&ring));
         }
     }
-    // Only the outline runs anticlockwise and has a positive area.
+    // Put the outline first: it runs anticlockwise, so its area is positive. The areas of the holes are negative.
     rings.sort_by_key(|ring| std::cmp::Reverse(doubled_area(ring)));
     Some(rings)
 }
@@ -272,7 +273,7 @@ fn doubled_area(ring: &[Node]) -> i64 {
         .sum()
 }
 
-/// True if every cell can be reached from every other cell across common edges. False if there are no cells.
+/// True if there is a path between any two cells that passes only through common edges. False if there are no cells.
 fn is_connected(cells: &[Cell]) -> bool {
     let mut owner: BTreeMap<LatticeEdge, Cell> = BTreeMap::new();
     for cell in cells {
@@ -283,7 +284,7 @@ fn is_connected(cells: &[Cell]) -> bool {
     let Some(first) = cells.first() else {
         return false;
     };
-    // Depth-first search: the neighbour across an edge owns the same edge in the other direction.
+    // Depth-first search. The neighbour across an edge has the same edge in the opposite direction.
     let mut seen = BTreeSet::from([*first]);
     let mut stack = vec![*first];
     while let Some(cell) = stack.pop() {

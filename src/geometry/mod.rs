@@ -35,7 +35,8 @@ pub type Point = nalgebra::Point2<f64>;
 /// A displacement in metres, a direction, or a force in newtons.
 pub type Vector = nalgebra::Vector2<f64>;
 
-/// Returns the plane's cross product `a_x b_y − a_y b_x`: the moment of force `b` with arm `a`, anticlockwise positive.
+/// Returns the cross product of two plane vectors, `a_x b_y − a_y b_x`. It is the moment of the force `b` with the
+/// lever arm `a`, anticlockwise positive.
 ///
 /// ```
 /// use drystone::internals::geometry::{Vector, cross};

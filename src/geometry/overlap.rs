@@ -1,9 +1,10 @@
-//! Computes by how much two polygons overlap: [`overlap`] returns area, centroid and depth of their intersection.
+//! [`overlap`]: computes the area, the centroid and the depth of the intersection of two polygons.
 //!
 //! Each polygon is cut into convex pieces by ear clipping. Two convex pieces are disjoint if a side of one of them
-//! separates them; otherwise their depth is the smallest distance by which one must move across a side of the other to
-//! leave it (separating-axis test). The area comes from clipping one piece by the other (Sutherland and Hodgman 1974).
-//! References: Ericson, Real-Time Collision Detection, 2005, §4.4 and §5.2; Held, FIST, 2001, for ear clipping.
+//! separates them. Otherwise their depth is the smallest distance by which one piece must move, perpendicular to a
+//! side, until it leaves the other (separating-axis test). The area comes from clipping one piece by the other
+//! (Sutherland and Hodgman 1974). References: Ericson, Real-Time Collision Detection, 2005, §4.4 and §5.2; Held, FIST,
+//! 2001, for ear clipping.
 //!
 //! Invariant: polygons that only touch do not overlap. An overlap of up to `gap` metres in depth counts as touching.
 //! Depth is a distance along a side's normal, so it does not depend on where the scene lies.
@@ -54,7 +55,8 @@ impl<'p> Piece<'p> {
         })
     }
 
-    /// True if a line perpendicular to `across` separates the two pieces, so that they have no common point.
+    /// True if a line parallel to the longest side of this piece separates the two pieces. They then have no common
+    /// point. If the result is false, the pieces may still be disjoint.
     fn is_separated_from(&self, other: &Piece<'_>) -> bool {
         let [min, max] = extent(&other.corners, self.across);
         min > self.extent[1] || max < self.extent[0]
@@ -83,7 +85,7 @@ pub struct Overlap {
 }
 
 impl<'p> ConvexPieces<'p> {
-    /// Cuts a polygon into triangles unless it is convex.
+    /// Divides a polygon into convex pieces: one piece if the polygon is convex, otherwise triangles.
     pub fn new(polygon: &'p Polygon) -> ConvexPieces<'p> {
         if polygon.is_convex() {
             return ConvexPieces {
@@ -92,7 +94,8 @@ impl<'p> ConvexPieces<'p> {
             };
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
-        // Ear clipping works on coordinates relative to a corner: far from the origin, products of coordinates cancel.
+        // Pass coordinates relative to a corner to the ear clipping. Far from the origin, differences between products
+        // of absolute coordinates would lose digits.
         let base = points[0];
         let relative = points.iter().map(|p| [p.x - base.x, p.y - base.y]);
         let mut hole_starts = Vec::new();
@@ -112,8 +115,8 @@ impl<'p> ConvexPieces<'p> {
                 }
                 triangle
             })
-            // Triangles without area overlap nothing, and their sides may have no direction for the separating-axis
-            // test.
+            // Drop triangles without area. They overlap nothing, and a side of length 0 has no normal for the
+            // separating-axis test.
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
             .filter_map(|t| Piece::new(Cow::Owned(t)))
             .collect();
@@ -128,7 +131,8 @@ impl<'p> ConvexPieces<'p> {
     }
 }
 
-/// Returns the overlap of two polygons, given as convex pieces. `None` if the overlap is at most `gap` metres deep.
+/// Returns the overlap of two polygons that are given as convex pieces. `None` if the overlap is at most `gap` metres
+/// deep.
 pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut overlapping = Vec::new();
@@ -137,7 +141,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
             if one.is_separated_from(two) || two.is_separated_from(one) {
                 continue;
             }
-            // Separating-axis test across the sides of both pieces.
+            // Separating-axis test with the normals of the sides of both pieces.
             let mut pair_depth = penetration(&one.corners, &two.corners);
             if pair_depth > 0.0 {
                 pair_depth = pair_depth.min(penetration(&two.corners, &one.corners));
@@ -151,7 +155,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     if depth <= gap {
         return None;
     }
-    // Area and centroid of the common part, relative to a corner near it.
+    // Compute the area and the centroid of the intersection relative to a corner near it, so that few digits are lost.
     let base = a.all().next()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
     (area > 0.0).then(|| Overlap {
@@ -164,13 +168,14 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
 /// Two convex pieces that overlap.
 type PiecePair<'p> = (&'p Cow<'p, [Point]>, &'p Cow<'p, [Point]>);
 
-/// Returns the total common area of pairs of convex pieces, and its first moment about `base`.
+/// Returns the sum of the intersection areas of all pairs, in square metres, and the first moment of this area about
+/// `base`, in cubic metres.
 fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     let mut area = 0.0;
     let mut moment = Vector::zeros();
     for (one, two) in pairs {
         let common = clipped(one, two);
-        // The intersection is convex: a fan of triangles from its first corner covers it once.
+        // The intersection is convex: the triangles between its first corner and each side cover it exactly once.
         for i in 1..common.len().saturating_sub(1) {
             let (p, q, r) = (common[0] - base, common[i] - base, common[i + 1] - base);
             let part = cross(q - p, r - p) / 2.0;
@@ -181,10 +186,11 @@ fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     (area, moment)
 }
 
-/// For each side of the convex polygon `a`, takes the largest distance of a point of `b` behind this side. Returns the
-/// smallest of these distances, in metres.
+/// Returns the depth to which the convex polygon `b` reaches into the convex polygon `a`, in metres. For each side of
+/// `a`, this is the largest distance of a point of `b` from the side, measured inwards; the result is the smallest of
+/// these distances.
 ///
-/// It is at most 0 if a side of `a` separates the two polygons.
+/// The result is at most 0 if a side of `a` separates the two polygons.
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
     let mut depth = f64::INFINITY;
     for i in 0..a.len() {
@@ -204,7 +210,7 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
     depth
 }
 
-/// Returns the part of the convex polygon `a` that lies in the convex polygon `b`. It cuts `a` along each side of `b`.
+/// Returns the intersection of two convex polygons. It cuts `a` along the line through each side of `b`.
 fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut kept = a.to_vec();
     for i in 0..b.len() {
@@ -214,11 +220,11 @@ fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// Returns the part of a convex polygon in which `height` is at most 0. `height` is linear: the distance from a line,
-/// multiplied by any positive number.
+/// Returns the part of a convex polygon in which `height` is at most 0. `height` is the signed distance from a line, or
+/// a positive multiple of this distance.
 ///
-/// One step of Sutherland and Hodgman: keep the corners on the inner side, and add the points where the outline crosses
-/// the line. A corner on the line is kept.
+/// One step of the clipping method of Sutherland and Hodgman: keep the corners on the inner side, and add the points
+/// where the outline crosses the line. A corner on the line is kept.
 pub(crate) fn in_half_plane<P>(ring: &[P], height: impl Fn(&P) -> f64) -> Vec<P>
 where
     P: Copy + Sub<Output = Vector> + Add<Vector, Output = P>,

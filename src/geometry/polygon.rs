@@ -56,7 +56,8 @@ impl Polygon {
     /// Builds a polygon from the corners of its outline and of its holes. Each ring may run in either direction.
     ///
     /// # Errors
-    /// Every [`PolygonError`] that was found. A ring with a non-finite coordinate is reported as one of zero area.
+    /// All [`PolygonError`]s that were found. A ring with a coordinate that is not finite is reported as a ring of zero
+    /// area.
     ///
     /// # Example
     /// ```
@@ -82,7 +83,7 @@ impl Polygon {
         Ok(Polygon { rings })
     }
 
-    /// Makes a polygon from rings that are known to be valid: outline anticlockwise, holes clockwise, without
+    /// Creates a polygon without checks. The rings must be valid: the outline anticlockwise, the holes clockwise, no
     /// crossings.
     pub(crate) fn from_valid_rings(rings: Vec<Vec<Point>>) -> Polygon {
         Polygon { rings }
@@ -108,14 +109,15 @@ impl Polygon {
         self.rings.iter().flat_map(|ring| ring_edges(ring))
     }
 
-    /// Returns the area in square metres, without the holes.
+    /// Returns the area in square metres. The area of the holes is not included.
     pub fn area(&self) -> f64 {
         self.rings.iter().map(|ring| signed_area(ring)).sum()
     }
 
-    /// Returns the centroid of the area.
+    /// Returns the centroid of the polygon's area, which does not include the holes.
     pub fn centroid(&self) -> Point {
-        // Coordinates relative to a corner: for a block far from the origin, products of absolute coordinates cancel.
+        // Use coordinates relative to a corner. For a block far from the origin, differences between products of
+        // absolute coordinates would lose digits.
         let base = self.rings[0][0];
         let mut doubled_area = 0.0;
         let mut moment = Vector::zeros();
@@ -140,7 +142,7 @@ impl Polygon {
         )
     }
 
-    /// True if a point lies inside the material. A point exactly on a side may give either result.
+    /// True if a point lies inside the outline and outside all holes. A point exactly on a side may give either result.
     pub fn contains(&self, point: Point) -> bool {
         self.rings
             .iter()
@@ -197,8 +199,8 @@ struct CheckedRings {
     without_area: Vec<PolygonError>,
 }
 
-/// Drops repeated corners. Then checks each ring alone: at least three corners, finite coordinates, and not all corners
-/// on one line.
+/// Drops repeated corners, then checks each ring separately. A ring must have at least three corners, finite
+/// coordinates, and corners that do not all lie on one line.
 fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonError>> {
     let mut errors = Vec::new();
     let mut checked = CheckedRings::default();
@@ -213,7 +215,7 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
         }
         let area = signed_area(points);
         let perimeter: f64 = ring_edges(points).map(|e| e.length()).sum();
-        // False if the area is NaN.
+        // The comparison is false if the area is NaN, so such a ring is rejected below.
         let encloses_area = area.abs() > MIN_AREA_PER_SQUARED_PERIMETER * perimeter * perimeter;
         if !encloses_area {
             let is_collinear = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
@@ -231,11 +233,10 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
     }
 }
 
-/// Returns an error for each pair of sides that cross or touch. If there is none, returns an error for each ring
-/// without area.
+/// Returns an error for each pair of sides that cross or touch. If there is no such pair, returns an error for each
+/// ring without area.
 ///
-/// If sides cross, the areas on both sides of the crossing can cancel. Only the crossing is then reported, not the zero
-/// area.
+/// If two sides cross, the areas of the two loops can cancel. Then only the crossing is reported, not the zero area.
 fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Vec<PolygonError>> {
     let error = |crossing: Crossing| {
         let listed =
@@ -280,7 +281,9 @@ fn check_holes(rings: &[Vec<Point>]) -> Result<(), Vec<PolygonError>> {
 struct DroppedCorners(Vec<(usize, usize)>);
 
 impl DroppedCorners {
-    /// Removes each corner of a ring that equals the corner before it. Records the number of each removed corner.
+    /// Removes each corner of a ring that equals the corner before it, and records its index. Then removes corners at
+    /// the end of the ring that equal the first corner; their indices are not recorded, because no later corner
+    /// follows.
     fn drop_repeated(&mut self, points: &mut Vec<Point>, ring: usize) {
         let (mut before, mut number) = (None, 0);
         points.retain(|p| {
@@ -291,13 +294,14 @@ impl DroppedCorners {
             number += 1;
             !repeats
         });
-        // Many formats repeat the first corner at the end of a ring.
+        // Remove the repeated first corner that many formats write at the end of a ring.
         while points.len() > 1 && points[0] == points[points.len() - 1] {
             points.pop();
         }
     }
 
-    /// Returns the index that a kept corner had in the caller's list, before repeated corners were dropped.
+    /// Returns the index of a corner in the list that the caller passed. `kept` is its index after repeated corners
+    /// were dropped.
     fn listed(&self, ring: usize, kept: usize) -> usize {
         let dropped = self.0.iter().filter(|dropped| dropped.0 == ring);
         dropped.fold(kept, |number, (_, d)| number + usize::from(*d <= number))

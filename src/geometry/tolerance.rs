@@ -1,4 +1,4 @@
-//! [`Tolerance`]: all tolerances of the crate that are lengths.
+//! [`Tolerance`]: the distances and the angle up to which two edges count as touching.
 //!
 //! Scenes on a lattice need no tolerance. In other scenes, coordinates are rounded: a file written from 32-bit floats
 //! is off by 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this error from the
@@ -23,9 +23,9 @@ pub struct Tolerance {
 impl Tolerance {
     /// The gap as a fraction of the scene's extent.
     ///
-    /// It is 20 µm for a building of 20 m. Ten times this value would close joints of 0.2 mm, which may be open on
-    /// purpose. A tenth is below the rounding of 32-bit floats at two edges (6·10⁻⁸ of each coordinate): contacts would
-    /// be missed.
+    /// The gap is 20 µm for a building of 20 m. If it were ten times larger, joints of 0.2 mm would count as closed,
+    /// although they may be open on purpose. If it were ten times smaller, it would be below the rounding of 32-bit
+    /// floats at two edges (6·10⁻⁸ of each coordinate), and contacts would be missed.
     pub const GAP_PER_EXTENT: f64 = 1e-6;
     /// The shortest interface of long edges, as a fraction of the gap.
     pub const LENGTH_PER_GAP: f64 = 0.25;
@@ -33,14 +33,13 @@ impl Tolerance {
     pub const LENGTH_PER_EDGE: f64 = 1e-3;
     /// The largest angle between two edges that face each other, radians.
     ///
-    /// A tenth would miss short joints whose ends are rounded. Ten times this angle would turn open wedges into
-    /// interfaces.
+    /// If it were ten times smaller, short joints with rounded ends would be missed. If it were ten times larger, open
+    /// wedges would become interfaces.
     pub const MAX_ANGLE: f64 = 0.01;
     /// The extent is limited to this many typical block sizes, so that scattered blocks keep their small contacts.
     pub const MAX_EXTENT_IN_BLOCKS: f64 = 1000.0;
 
-    /// Returns the tolerance of a scene. Its extent is `extent` metres, and the typical size of its blocks is `typical`
-    /// metres.
+    /// Returns the tolerance of a scene with an extent of `extent` metres and a typical block size of `typical` metres.
     ///
     /// A scene without blocks has extent 0 and gets the tolerance 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
@@ -48,7 +47,7 @@ impl Tolerance {
         Tolerance::from_gap(Self::GAP_PER_EXTENT * extent)
     }
 
-    /// Returns the tolerance with which edges touch if their distance is at most `gap` metres.
+    /// Returns the tolerance for which two edges touch if their distance is at most `gap` metres.
     pub fn from_gap(gap: f64) -> Tolerance {
         Tolerance {
             gap,
@@ -58,7 +57,8 @@ impl Tolerance {
         }
     }
 
-    /// Returns the same tolerance for coordinates with errors of up to `rounding` metres.
+    /// Returns this tolerance, adapted to coordinates with errors of up to `rounding` metres. Only the shortest contact
+    /// length changes.
     pub fn with_rounding(self, rounding: f64) -> Tolerance {
         Tolerance {
             rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length),
@@ -66,8 +66,8 @@ impl Tolerance {
         }
     }
 
-    /// Returns the least common length, in metres, of two edges that form an interface. `edge` is the length of the
-    /// shorter edge in metres.
+    /// Returns the length, in metres, by which two edges must overlap to form an interface. `edge` is the length of the
+    /// shorter edge, in metres.
     pub fn min_contact_length(&self, edge: f64) -> f64 {
         self.min_length
             .min(Self::LENGTH_PER_EDGE * edge)

@@ -1,7 +1,8 @@
-//! Computes the gauge of a zonotope: the least factor by which the zonotope must be scaled to contain a point.
+//! Computes the gauge of a zonotope at a point: the least factor by which the zonotope must be scaled to contain the
+//! point.
 //!
-//! The zonotope of the generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. Its gauge (Minkowski functional) at a point r
-//! is the smallest τ ≥ 0 for which r lies in the zonotope scaled by τ. A convex body is the intersection of the
+//! The zonotope of the generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. Its gauge (Minkowski functional) at a
+//! point r is the smallest τ ≥ 0 for which r lies in the zonotope scaled by τ. A convex body is the intersection of the
 //! half-spaces of its facets. Each facet of a zonotope in space is spanned by two of its generators, and the zonotope's
 //! half-width along a normal n is Σ |n·gᵢ|. Therefore
 //!
@@ -24,7 +25,7 @@ pub type Vec3 = [f64; 3];
 /// Up to this number of generators, all pairs are tested. Larger sets are first reduced by adding up similar
 /// generators.
 ///
-/// The test takes m³ steps for m generators. Adding up generators makes the answer larger than the smallest τ.
+/// The test takes m³ steps for m generators. If generators are added up, the result is larger than the smallest τ.
 const MAX_GENERATORS: usize = 40;
 
 /// Above this number, generators are first added up by direction cells, because merging by pairs also takes m³ steps.
@@ -35,14 +36,15 @@ const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 
 /// The relative rounding of a sum of three products, with some reserve.
 ///
-/// With a tenth of this value, rounding would give a flat zonotope a width, and a point outside its plane a finite τ.
-/// With ten times this value, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
+/// If it were ten times smaller, rounding would give a flat zonotope a width, and a point outside its plane a finite τ.
+/// If it were ten times larger, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Returns the smallest τ for which `point` lies in the zonotope scaled by τ; infinity if there is no such τ.
+/// Returns the gauge of a zonotope: the smallest factor τ for which `point` lies in the zonotope scaled by τ. Infinity
+/// if there is no such factor. The zonotope is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 } of the generators gᵢ.
 ///
-/// The answer is exact up to rounding for at most 40 generators that are not parallel, and never too small. If there are
-/// more, generators of similar direction are added up, and the answer may be too large.
+/// The result is never too small. It is exact up to rounding if the generators have at most 40 different directions.
+/// Otherwise generators of similar direction are added up, and the result may be too large.
 ///
 /// ```
 /// use drystone::internals::geometry::zonotope_gauge;
@@ -58,7 +60,7 @@ pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
     if longest == 0.0 || !longest.is_finite() || !norm(point).is_finite() {
         return f64::INFINITY;
     }
-    // Scale the generators to lengths of at most 1, so that products neither overflow nor vanish.
+    // Scale the generators to lengths of at most 1, so that products neither overflow nor underflow.
     let scaled = |v: &Vec3| v.map(|x| x / longest);
     let reduced = reduce(generators.iter().map(scaled));
     gauge_over_normals(&reduced, scaled(&point))
@@ -67,7 +69,7 @@ pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
 /// Returns an upper bound of [`zonotope_gauge`]. For up to 12 generators it is the gauge itself.
 ///
 /// The bound is the largest coefficient |aᵢ| of the combination Σ aᵢ gᵢ = `point` with the least Σ aᵢ², found from the
-/// normal equations. `None` if the generators are too close to a plane for these to be solved accurately.
+/// normal equations. `None` if the generators are so close to a plane that these equations cannot be solved accurately.
 pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     if generators.len() <= MAX_GENERATORS_TESTED_AT_ONCE {
         return Some(zonotope_gauge(generators, point));
@@ -87,7 +89,8 @@ pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
     let determinant = dot(a, cofactors[0]);
     let trace = a[0] + b[1] + c[2];
-    // With a determinant below 10⁻⁹ of the cubed trace, fewer than seven digits of the coefficients are right.
+    // If the determinant is less than 10⁻⁹ times the cube of the trace, fewer than seven digits of the coefficients are
+    // correct.
     if !(determinant > 1e-9 * trace * trace * trace) {
         return None;
     }
@@ -102,17 +105,16 @@ pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         .iter()
         .map(|g| dot(g.map(|v| v / longest), y).abs())
         .fold(0.0, f64::max);
-    // The factor covers the digits that the division by a small determinant loses.
+    // The factor covers the loss of digits in the division by a small determinant.
     Some(max * (1.0 + 1e-5))
 }
 
-/// Returns an upper bound of the result of [`zonotope_gauge`]. It is cheaper to compute than [`zonotope_gauge_bound`],
-/// and larger.
+/// Returns an upper bound of the result of [`zonotope_gauge`]. It is larger than the bound of [`zonotope_gauge_bound`],
+/// but faster to compute.
 ///
-/// The least-squares combination does not depend on the units of the axes. Each axis is therefore scaled by the
-/// generators' root sum of squares along it. Otherwise the forces on a body that is pushed sideways without friction
-/// form a nearly flat zonotope. `None` if the bound would not be reliable because of rounding, or if there are more
-/// than 40 generators.
+/// Each axis is scaled by the generators' root sum of squares along this axis; the least-squares combination does not
+/// depend on this scaling. Without it, the forces on a body that is pushed sideways without friction would form a
+/// nearly flat zonotope. `None` if rounding makes the bound unreliable, or if there are more than 40 generators.
 pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     if generators.len() > MAX_GENERATORS {
         return None;
@@ -136,7 +138,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         products[2] / (a * b),
     ];
     let determinant = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
-    // The determinant lies between 0 and 1. Below 10⁻³ the generators are so close to a plane that rounding matters.
+    // The determinant lies between 0 and 1. If it is below 10⁻³, the generators are so close to a plane that rounding
+    // matters.
     if !(determinant > 1e-3) {
         return None;
     }
@@ -151,8 +154,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         .iter()
         .map(|g| dot(*g, solution).abs())
         .fold(0.0, f64::max);
-    // `zonotope_gauge` subtracts rounding from each width. No width is less than the root of the smallest eigenvalue,
-    // and with ones on the diagonal that eigenvalue is at least 4/9 of the determinant.
+    // `zonotope_gauge` subtracts rounding from each width of the zonotope. No width is less than the square root of the
+    // Gram matrix's smallest eigenvalue. With ones on the diagonal, this eigenvalue is at least 4/9 of the determinant.
     let min_width = (determinant * 4.0 / 9.0).sqrt() * a.min(b).min(c);
     let rounding = 2.0 * ROUNDING * lengths / min_width;
     let bound = max * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING * norm(point) / min_width;
@@ -161,8 +164,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     is_reliable.then_some(bound)
 }
 
-/// Returns the largest |n·point| / Σ |n·gᵢ| over all normals n that can bound the zonotope. The lengths of all
-/// generators gᵢ must be at most 1.
+/// Returns the gauge of a zonotope at `point`: the largest |n·point| / Σ |n·gᵢ| over all normals n that can bound the
+/// zonotope. No generator gᵢ may be longer than 1.
 fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
     let by_length = |a: &Vec3, b: &Vec3| norm(*a).total_cmp(&norm(*b));
     let Some(longest) = generators.iter().copied().max_by(by_length) else {
@@ -180,14 +183,14 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
             gauge = gauge.max(ratio(generators, point, normal, rounding));
         }
     };
-    // Facets: every pair of generators spans one.
+    // Try the normals of the facets. Each facet is spanned by a pair of generators.
     for (k, a) in generators.iter().enumerate() {
         for b in &generators[..k] {
             try_normal(cross(*a, *b));
         }
     }
-    // The normal of the plane of a flat zonotope. For a line segment, it is the normal of any plane that contains the
-    // segment.
+    // The normal of the plane in which a flat zonotope lies. If the zonotope is a line segment, any plane through the
+    // segment will do.
     let plane = generators
         .iter()
         .map(|g| cross(longest, *g))
@@ -198,7 +201,9 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
         let across = axes.map(|axis| cross(longest, axis));
         across.into_iter().max_by(by_length).unwrap_or_default()
     });
-    // Try this normal. Then try, within the plane, the normals of the zonotope's sides and the directions of the sides.
+    // Try the normal of the plane, and the longest generator, which bounds a line segment. Then try two directions for
+    // each generator: the normal of its side within the plane, and the direction perpendicular to both, which is the
+    // plane's normal up to rounding.
     try_normal(plane);
     try_normal(longest);
     for g in generators {
@@ -218,9 +223,9 @@ struct Rounding {
     width: f64,
 }
 
-/// Returns |n·point| / Σ |n·gᵢ|, a lower bound of the gauge; 0 if |n·point| is not larger than its rounding. Rounding
-/// is subtracted from the width Σ |n·gᵢ|, so that the gauge is never too small. The result is infinite if no width is
-/// left.
+/// Returns |n·point| / Σ |n·gᵢ| for the normal n, a lower bound of the gauge. The rounding error is subtracted from the
+/// width Σ |n·gᵢ|, so that the gauge is never too small. The result is 0 if |n·point| is only rounding, and infinity if
+/// no width remains.
 fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> f64 {
     let distance = dot(normal, point).abs();
     if distance <= rounding.distance {
@@ -235,12 +240,13 @@ fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> 
     }
 }
 
-/// Returns at most [`MAX_GENERATORS`] generators, whose zonotope lies within the zonotope of the given generators.
+/// Returns at most [`MAX_GENERATORS`] generators. Their zonotope lies within the zonotope of the generators passed in.
 ///
-/// If two generators are replaced by their sum, the zonotope can only become smaller and the gauge larger. Parallel
-/// generators are added up without any such loss.
+/// If the sum of two generators replaces them, the zonotope can only become smaller, and the gauge larger. Adding up
+/// parallel generators does not change the zonotope.
 fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
-    // Sum generators by direction cell if there are very many; otherwise sum only parallel ones.
+    // If there are very many generators, add up those in the same cell of directions. Otherwise add up only parallel
+    // ones.
     let use_cells = generators.len() > MAX_PAIRED_GENERATORS;
     let mut reduced: Vec<Vec3> = Vec::with_capacity(generators.len().min(MAX_PAIRED_GENERATORS));
     let cells = if use_cells {
@@ -262,12 +268,13 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
         }
     }
     reduced.extend(cell_sums.into_iter().filter(|g| norm(*g) > 0.0));
-    // Merge the pair with the smallest loss until the number of generators is small enough.
+    // Until few enough generators are left, merge the pair for which the zonotope shrinks least.
     while reduced.len() > MAX_GENERATORS {
         let mut best = (f64::INFINITY, 0, 1);
         for i in 0..reduced.len() {
             for j in i + 1..reduced.len() {
-                // The loss is the length of the shorter generator's part that is perpendicular to the longer generator.
+                // The loss is the length of the component of the shorter generator that is perpendicular to the longer
+                // one.
                 let (a, b) = (reduced[i], reduced[j]);
                 let loss = norm(cross(a, b)) / norm(a).max(norm(b));
                 if loss < best.0 {
@@ -285,7 +292,8 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
 /// Directions are sorted into this many cells along each edge of a face of a cube.
 const CELLS_PER_SIDE: usize = 6;
 
-/// Returns the number of the cell in which a direction lies. Opposite directions have the same cell.
+/// Returns the index of the cell of directions to which the vector `g` belongs. Opposite vectors belong to the same
+/// cell.
 fn direction_cell(g: Vec3) -> usize {
     let axis = (0..3)
         .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))

@@ -1,4 +1,4 @@
-//! [`Lines`]: moves the nodes along straight sides onto common straight lines.
+//! [`Lines`]: fits straight lines to the nodes along straight sides, and moves the nodes onto these lines.
 //!
 //! A joint of a wall runs through many corners, none of which lies exactly between its neighbours. Moving each corner
 //! onto the previous side would only pass the error on. Therefore one line is fitted to all corners of a joint, and a
@@ -20,8 +20,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 const MAX_ITERATIONS: usize = 200;
 /// Two lines whose angle has a squared sine up to this are treated as parallel: their intersection is ill-conditioned.
 ///
-/// The limit is an angle of 0.57°. At a tenth of it (0.18°), a node could move 300 times as far as its lines are off.
-/// At ten times (1.8°), the corners of slender wedges would no longer move to the intersection.
+/// The limit is an angle of 0.57°. If the angle were 0.18°, a node could move 300 times as far as its lines are off. If
+/// it were 1.8°, the corners of slender wedges would no longer move to the intersection.
 const MIN_SQUARED_SINE: f64 = 1e-4;
 /// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test and of level lines.
 ///
@@ -65,11 +65,11 @@ impl Fit {
 }
 
 impl Lines {
-    /// Determines the lines. `on` maps each straight side, given by its two end nodes, to the other nodes that lie on
-    /// it.
+    /// Creates the lines. `on` maps each straight side, given by its two end nodes, to the other nodes that lie on this
+    /// side.
     ///
-    /// Sides that share two nodes get one common line if it passes all their nodes within the nodes' gaps; otherwise
-    /// each side gets its own line.
+    /// Sides that share at least two nodes get one common line if it passes every node within the node's gap. Otherwise
+    /// each of these sides gets its own line.
     pub(super) fn new(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
         let sets: Vec<BTreeSet<usize>> = on
@@ -82,7 +82,8 @@ impl Lines {
                 by_node.entry(*node).or_default().push(i);
             }
         }
-        // Count the nodes that each pair of sides shares, and group sides with at least two by union-find.
+        // Count the nodes that each pair of sides shares. Join two sides into one group (union-find) if they share at
+        // least two nodes.
         let mut shared: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for list in by_node.values() {
             for (k, i) in list.iter().enumerate() {
@@ -119,8 +120,8 @@ impl Lines {
         Lines(lines)
     }
 
-    /// Moves the nodes onto their lines. Fixed nodes do not move. A node that would move farther than two gaps does not
-    /// move either.
+    /// Moves the nodes onto their lines. Fixed nodes do not move. A node that would move farther than twice its gap
+    /// does not move either.
     pub(super) fn settle(&self, nodes: &mut Nodes) {
         let mut lines_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, line) in self.0.iter().enumerate() {
@@ -141,13 +142,14 @@ impl Lines {
                 nodes.all[*node].at = at + step;
                 farthest = farthest.max(step.norm() / nodes.all[*node].gap);
             }
-            // Convergence test: the largest step, as a fraction of the node's gap.
+            // Convergence test: stop if the largest step, as a fraction of the node's gap, is only rounding.
             if farthest <= ROUNDING {
                 break;
             }
         }
         for (node, at) in begun {
-            // The negated comparison also restores a node whose position is NaN.
+            // Move a node back if it moved too far. The negated comparison also moves a node back whose position is
+            // NaN.
             if !((nodes.all[node].at - at).norm() <= MAX_MOVE_IN_GAPS * nodes.all[node].gap) {
                 nodes.all[node].at = at;
             }
@@ -156,11 +158,11 @@ impl Lines {
 }
 
 impl Line {
-    /// Returns the line for the nodes `members`, which lie on `sides`. `None` if no line passes all nodes within their
-    /// gaps.
+    /// Returns a line for the nodes `members`, which lie on `sides`. `None` if no line passes every node within the
+    /// node's gap.
     ///
-    /// The line along the longest side is preferred. Otherwise the line is fitted, and made level or upright if the
-    /// nodes allow it.
+    /// The line along the longest side is preferred. Otherwise the line is fitted to the nodes, and made exactly level
+    /// or upright if the scatter of the nodes allows this.
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
@@ -171,7 +173,8 @@ impl Line {
             nodes: members.clone(),
             kind,
         };
-        // NaN fails the comparison, so a line without a direction does not fit.
+        // A line through two equal points has NaN as its distances. The comparison then fails, so such a line does not
+        // fit.
         let fits = |line: &Line| {
             let fit = line.fit(nodes);
             (line.nodes.iter()).all(|n| fit.distance(place(*n)) <= nodes.all[*n].gap)
@@ -190,7 +193,7 @@ impl Line {
         if !fits(&closest) {
             return None;
         }
-        // `off` is the scatter of the nodes: their largest distance from the fitted line, metres.
+        // `off` is the scatter of the nodes: their largest distance from the fitted line, in metres.
         let fit = closest.fit(nodes);
         let normal = fit.normal;
         let distances = members.iter().map(|n| fit.distance(place(*n)));
@@ -202,9 +205,10 @@ impl Line {
             });
             high - low
         };
-        // The line is made level if it rises over the nodes' width by no more than twice their scatter, and upright if
-        // it drifts sideways over their height by no more. A steep line is compared with the vertical only: its width
-        // is near 0, so that slope times width would be small for any steep line.
+        // A flat line becomes level if its rise over the width of the nodes is at most twice their scatter. A steep
+        // line becomes upright if its horizontal shift over the height of the nodes is at most twice their scatter. A
+        // steep line is not tested against the horizontal: the width of its nodes is near 0, so it would always pass
+        // that test.
         let (axis, kind) = if normal.y.abs() >= normal.x.abs() {
             (0, LineKind::Level)
         } else {
@@ -217,7 +221,7 @@ impl Line {
         Some(closest)
     }
 
-    /// Fits the line to the current positions of its nodes.
+    /// Returns the line for the current positions of its nodes, computed as its kind requires.
     fn fit(&self, nodes: &Nodes) -> Fit {
         let place = |n: usize| nodes.all[n].at;
         if let LineKind::Side([a, b]) = self.kind {
@@ -254,7 +258,7 @@ impl Line {
 /// Returns the step, in metres, that minimises the sum of squared distances from a point to some lines. If several
 /// steps give the minimum, returns the shortest.
 fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Vector {
-    // The normal equations [p q; q r] · step = pull.
+    // Set up the normal equations [p q; q r] · step = pull.
     let (mut p, mut q, mut r) = (0.0, 0.0, 0.0);
     let mut pull = Vector::zeros();
     for line in lines {
@@ -275,7 +279,7 @@ fn least_squares_step<'f>(at: Point, lines: impl Iterator<Item = &'f Fit>) -> Ve
     normal * (normal.dot(&pull) / trace)
 }
 
-/// Returns the representative of the group that contains `i` (union-find).
+/// Returns the representative of the group that contains `i`, in a union-find structure.
 fn root(group: &[usize], mut i: usize) -> usize {
     while group[i] != i {
         i = group[i];

@@ -1,5 +1,5 @@
-//! Snapping: moves corners of bodies that nearly touch so that they touch exactly. It serves imported drawings and
-//! scenes with rounded coordinates.
+//! Snapping: moves corners of bodies that nearly touch, so that the bodies touch exactly. Imported drawings and scenes
+//! with rounded coordinates need this.
 //!
 //! Every body has a gap, the distance by which its corners may move; between two bodies the smaller gap applies.
 //!
@@ -37,7 +37,7 @@ pub(crate) struct Corner {
 /// An outline and its holes, each clockwise or anticlockwise.
 pub(crate) type Rings = Vec<Vec<Corner>>;
 
-/// Converts an outline and its holes to a polygon.
+/// Converts rings of corners to a polygon. The first ring is the outline, the others are holes.
 pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
     let points = |ring: &Vec<Corner>| ring.iter().map(|c| c.at).collect::<Vec<Point>>();
     let mut rings = rings.iter().map(points);
@@ -81,7 +81,8 @@ pub(crate) struct Gaps<'g> {
 }
 
 impl<'g> Gaps<'g> {
-    /// Creates limits for moves: the gap of each body in metres. The lengths of sides give no further limit.
+    /// Creates limits for the moves of corners: each corner may move by the gap of its body, in metres. The lengths of
+    /// sides do not limit the moves.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -113,11 +114,11 @@ pub(crate) struct Moved {
     pub(crate) to: BTreeSet<usize>,
 }
 
-/// Snaps corners and sides that lie within the gaps onto each other. If two corners merge, the one of the earlier body
-/// stays.
+/// Moves corners onto corners and sides of other bodies that lie within the gaps. If two corners merge, both take the
+/// position of the corner of the earlier body.
 ///
 /// A body marked in `fixed` does not change. Corners of other bodies move onto it, but its corners do not move onto
-/// their sides. Overlaps of up to `noise` times the gap between two bodies are ignored.
+/// their sides. Overlaps with a depth of up to `noise` times the smaller gap of two bodies are ignored.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
     gaps: Gaps<'_>,
@@ -128,10 +129,10 @@ pub(crate) fn snapped<'b>(
     for _ in 0..MAX_ATTEMPTS {
         let mut outcome = attempt(bodies, gaps, &kept);
         if outcome.moved.is_empty() {
-            // No corner moved by more than rounding: return the input bit for bit, which needs no check.
+            // No corner moved by more than rounding. Return the input bit for bit; it needs no check.
             outcome.bodies = Cow::Borrowed(bodies);
         }
-        // Check the result. Damaged bodies are fixed as drawn, and the next attempt snaps the others.
+        // Check the result. Damaged bodies are marked to stay as drawn, and the next attempt snaps the others.
         let fresh: Vec<usize> = match &outcome.bodies {
             Cow::Borrowed(_) => Vec::new(),
             Cow::Owned(new) => {
@@ -154,7 +155,7 @@ pub(crate) fn snapped<'b>(
     }
 }
 
-/// Returns the numbers of the bodies that snapping kept as drawn, without those that the caller fixed.
+/// Returns the numbers of the bodies that snapping left as drawn, except those that the caller fixed.
 fn kept_but_not_fixed(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
     let pairs = kept.iter().zip(fixed).enumerate();
     pairs
@@ -209,8 +210,8 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
             touching[*a].extend(there.iter().filter(|b| *b != a));
         }
     }
-    // `on`: for each straight side, given by its two end nodes, the nodes that lie on it.
-    // `taken`: for each curved side, the nodes that become corners of it, each with its distance from the side's start.
+    // `on` maps each straight side, given by its two end nodes, to the nodes that lie on it. `taken` maps each curved
+    // side to the nodes that become additional corners of it, each with its distance from the start of the side.
     let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
     let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
     for NodeNearSide {
@@ -235,10 +236,10 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     rebuild_bodies(bodies, &nodes, taken, touching, gaps)
 }
 
-/// Finds all nodes that lie within the gap of a side of another body.
+/// Returns all pairs of a node and a side of another body whose distance is at most the smaller of their gaps.
 ///
-/// The index contains the nodes, and each side is a query. The other way round would be slower: the boxes of the sides
-/// of thin stones overlap each other by the hundreds, whereas nodes are points.
+/// The index contains the nodes, and each side is a query. An index of the sides would be slower: the boxes of hundreds
+/// of sides of thin stones can overlap, whereas nodes are points.
 fn nodes_near_sides<'s>(
     nodes: &Nodes,
     sides: &'s [Side],
@@ -254,7 +255,7 @@ fn nodes_near_sides<'s>(
         if side.curved && kept[side.body] {
             continue;
         }
-        // Query the side's box, extended by the gap of its body.
+        // Search the box of the side, extended by the gap of its body.
         let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
         let along = to - from;
         let length = along.norm();
@@ -264,12 +265,12 @@ fn nodes_near_sides<'s>(
             if nodes.bodies(node).contains(&side.body) {
                 continue;
             }
-            // The foot of the perpendicular must lie between the ends, and the distance must not exceed the smaller of
-            // the two gaps.
+            // The foot of the perpendicular must lie between the ends of the side, and the distance must not exceed the
+            // smaller of the two gaps.
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
             let off = (node.at - foot).norm();
-            // A side without length has NaN here and fails every comparison, so no node lies near it.
+            // A side of length 0 gives NaN here. Every comparison with NaN fails, so no node is near such a side.
             let gap = node.gap.min(gaps[side.body]);
             if reach > 0.0 && reach < length && off <= gap {
                 found.push(NodeNearSide {
@@ -327,7 +328,8 @@ fn rebuild_bodies(
                     corners += 1;
                     distance = distance.max(by);
                 }
-                // The corner itself, then the nodes on its curved side in their order along the side.
+                // Add the corner, then the additional nodes on the curved side that begins at this corner, in order
+                // along the side.
                 new.push(Corner { at, ..*corner });
                 if let Some(mut more) = taken.remove(&(body, ring, i)) {
                     more.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -358,8 +360,8 @@ fn rebuild_bodies(
     }
 }
 
-/// Returns the numbers of the bodies that snapping damaged: invalid polygons, bodies that shrank too much, and pairs
-/// that overlap more than before.
+/// Returns the numbers of the bodies that snapping damaged: bodies whose outline is no longer valid or lost too much
+/// area, and both bodies of a pair that overlaps more than before.
 fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();
@@ -367,7 +369,7 @@ fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -
         // A body is damaged if a ring lost its shape or the new outline is not a valid polygon.
         let sound = old.iter().zip(new).all(|(old, new)| {
             let (old, new) = (area(old), area(new));
-            // The ring keeps its direction of rotation and more than half of its area.
+            // The ring must keep its direction of rotation and more than half of its area.
             new * old.signum() > MIN_AREA_SHARE * old.abs()
         });
         let made = polygon(new).ok().filter(|_| sound);
@@ -396,7 +398,7 @@ fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -
                 continue;
             };
             let noise = noise * gaps[*a].min(gaps[*b]);
-            // The depth before snapping is computed only for pairs that overlap after it.
+            // Compute the depth before snapping only for pairs that overlap afterwards.
             let Some(now) = overlap(one, two, noise) else {
                 continue;
             };

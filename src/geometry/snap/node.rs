@@ -1,4 +1,4 @@
-//! [`Nodes`]: the points that replace the corners. Corners that are close together share one node.
+//! [`Nodes`]: the points to which the corners of bodies move. Corners that are close together share one node.
 //!
 //! Corners are clustered bottom up with complete linkage: pairs are merged in the order of their distance, and two
 //! clusters are merged only if every corner of one lies within the gap of every corner of the other. Chains of close
@@ -50,7 +50,7 @@ const MAX_COINCIDENT: usize = 64;
 
 /// Returns the largest distance, in metres, by which each corner of a ring may move.
 ///
-/// It is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
+/// This distance is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
 fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item = f64> + '_ {
     let length = |a: &Corner, b: &Corner| (b.at - a.at).norm();
     ring.iter().enumerate().map(move |(i, corner)| {
@@ -62,9 +62,11 @@ fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item 
 }
 
 impl Nodes {
-    /// Merges corners of different bodies whose distance is at most their gaps into nodes, the closest pairs first.
+    /// Merges close corners of different bodies into nodes, the closest pairs first. Two corners are close if their
+    /// distance is at most the smaller of their gaps.
     ///
-    /// A node lies at the corner of a body marked in `kept`, or else at the corner of its earliest body.
+    /// A node lies at a corner of a body that is marked in `kept`. Without such a body, it lies at the corner of the
+    /// earliest body.
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
         // List all corners, with the distance by which each may move.
         let rings = bodies.iter().flatten();
@@ -106,7 +108,8 @@ impl Nodes {
         &self.bodies[node.bodies.clone()]
     }
 
-    /// Returns the index in `all` of the node of a corner.
+    /// Returns the index, in `all`, of the node that replaces a corner. The corner is given by its body, its ring in
+    /// this body, and its number in this ring.
     pub(super) fn number(&self, body: usize, ring: usize, corner: usize) -> usize {
         self.of_corner[self.first_corner[self.first_ring[body] + ring] + corner]
     }
@@ -127,10 +130,10 @@ impl Clusters {
         std::iter::successors(Some(of), following)
     }
 
-    /// Merges the clusters whose first corners are `a` and `b`; `a` must be the lower number.
+    /// Merges the clusters whose first corners are `a` and `b`. The number `a` must be less than `b`.
     fn join(&mut self, a: usize, b: usize) {
-        // Assign every corner in the list of `b` to `a`. Then link the two circular lists by exchanging their
-        // successors.
+        // Assign every corner of cluster `b` to `a`. Then join the two circular lists by exchanging the successors of
+        // `a` and `b`.
         let mut k = b;
         while self.first[k] != a {
             self.first[k] = a;
@@ -140,14 +143,14 @@ impl Clusters {
     }
 }
 
-/// Makes one node for each cluster. Returns the nodes, the list of their bodies, and the index of the node for the
-/// first corner of each cluster.
+/// Makes one node for each cluster. Returns the nodes, the bodies of all nodes in one list, and, at the number of each
+/// cluster's first corner, the index of its node.
 fn merge(
     corners: &[UnplacedCorner],
     joined: &Clusters,
     kept: &[bool],
 ) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
-    // Each cluster becomes a node. It is created at the first of its corners.
+    // Create the node of each cluster when the loop reaches the first corner of the cluster.
     let mut members = Vec::new();
     let mut number = vec![0; corners.len()];
     let mut all: Vec<Node> = Vec::with_capacity(corners.len());
@@ -160,7 +163,8 @@ fn merge(
         members.extend(joined.members(first));
         members.sort_unstable();
         let begin = bodies.len();
-        // The position is that of the first kept body, or else of the first corner; the gap is the smallest of all.
+        // The node lies at the corner of the first kept body, or else at the first corner of the cluster. Its gap is
+        // the smallest gap of its corners.
         let mut at = corner.at;
         let mut gap = f64::INFINITY;
         let mut fixed = false;
@@ -187,7 +191,8 @@ fn merge(
     (all, bodies, number)
 }
 
-/// Clusters corners of different bodies whose distance is at most their gaps, the closest pairs first.
+/// Clusters close corners of different bodies by complete linkage, the closest pairs first. Two corners are close if
+/// their distance is at most the smaller of their gaps.
 fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
     let mut clusters = Clusters {
         first: (0..corners.len()).collect(),
@@ -199,8 +204,8 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
         if a == b {
             continue;
         }
-        // Complete linkage: every pair of corners must lie within the gap, belong to different bodies, and not be two
-        // kept corners at different points.
+        // Complete linkage: in every pair of corners from the two clusters, the corners must be close, belong to
+        // different bodies, and not be two kept corners at different points.
         let fits = clusters.members(a).all(|k| {
             clusters.members(b).all(|l| {
                 let (k, l) = (&corners[k], &corners[l]);
@@ -219,7 +224,8 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
 /// Returns the pairs of corners of different bodies whose distance is at most the smaller of their gaps, as (distance
 /// in metres, corner, corner).
 ///
-/// They are sorted by distance, then by number, so that the result does not depend on the order of the index.
+/// The pairs are sorted by distance, then by number, so that the result does not depend on the order of the index. A
+/// corner gets at most [`MAX_COINCIDENT`] pairs with corners at its own position.
 fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
@@ -229,7 +235,8 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let mut coincident = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         coincident.clear();
-        // Search a square around each corner. Each pair within the smaller of the two gaps is listed once.
+        // Search a square around each corner. List each pair once, if its distance is at most the smaller of the two
+        // gaps.
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = corner.gap;
         let around = Aabb {

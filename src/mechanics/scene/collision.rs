@@ -1,7 +1,7 @@
-//! Finds bodies that overlap. On a lattice this is exact: two bodies overlap if they share a cell. Otherwise they
-//! overlap if they penetrate each other by more than their gaps.
+//! Finds bodies that overlap. On a lattice the test is exact: two bodies overlap if they share a cell. Otherwise two
+//! bodies overlap if one penetrates the other by more than the smaller of their gaps.
 //!
-//! Only bodies that stand together in some frame are compared, and never two parts of the ground.
+//! Two bodies are compared only if both are present in some frame. Two parts of the ground are never compared.
 
 use std::collections::BTreeMap;
 
@@ -62,8 +62,8 @@ pub struct Penetration {
     pub at: Point,
 }
 
-/// Reports each pair of bodies that overlap in some frame. A pair with a small overlap, which may be a drawing error,
-/// is returned and not reported. All pairs are reported if the scene gives a contact tolerance, or if more than
+/// Reports each pair of bodies that overlap in some frame. Pairs with a small overlap, which may be a drawing error,
+/// are returned instead of reported. All pairs are reported if the scene gives a contact tolerance, or if more than
 /// [`MOST`] pairs overlap.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);

@@ -1,4 +1,4 @@
-//! [`isolate`]: runs the work on one scene so that an internal error of the program does not affect other scenes.
+//! [`isolate`]: runs a function for one scene, so that an internal error of the program does not affect other scenes.
 //!
 //! Commands that process several scenes use it for each of them. If the program panics, only that scene gets a problem,
 //! and the others are processed.
@@ -12,7 +12,7 @@ use super::{Code, Problem, SceneError};
 #[cfg(debug_assertions)]
 const INJECTED: &str = "DRYSTONE_TEST_FAULT";
 
-/// Runs `work` for one scene. If it panics, the panic becomes a problem with the code [`Code::InternalFault`].
+/// Calls `work` for one scene. If `work` panics, the panic becomes a problem with the code [`Code::InternalFault`].
 ///
 /// `name` is the scene's path. A panic can leave the data of `work` half changed, so the caller must not use these data
 /// afterwards.

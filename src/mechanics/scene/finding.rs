@@ -43,28 +43,30 @@ impl Findings {
         }
     }
 
-    /// True if some part of the entry that contains this place could not be read.
+    /// True if some part of the entry at `at` could not be read. An entry is an element of `blocks`, `materials` and so
+    /// on.
     pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
-        // Test the common case first: a file that could be read completely.
+        // Test the common case first: the whole file could be read.
         !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
     }
 
-    /// True if the list is full. No more problems are kept then.
+    /// True if the list is full. Further problems are then not added.
     pub(super) fn is_full(&self) -> bool {
         self.list.len() > MAX_FINDINGS
     }
 
-    /// True if the list is short enough for hints. Messages then suggest corrections.
+    /// True if there are so few problems that their messages suggest similar names. Each suggestion takes a search
+    /// through all names.
     pub(super) fn hints(&self) -> bool {
         self.list.len() < MAX_SUGGESTIONS
     }
 
-    /// Reports a problem of a value, unless it lies in a part that could not be read.
+    /// Reports a problem of the value at `at`, unless it lies in a part of the file that could not be read.
     pub(super) fn add(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Value, wording);
     }
 
-    /// Reports a problem of a key, unless it lies in a part that could not be read.
+    /// Reports a problem of the key at `at`, unless it lies in a part of the file that could not be read.
     pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Key, wording);
     }
@@ -83,8 +85,8 @@ impl Findings {
         }
     }
 
-    /// Adds a problem. When the list is full, adds one last entry, which states that there are more problems. Later
-    /// problems are dropped.
+    /// Adds a problem. If the list is full, adds one last entry instead, which says that there are more problems. All
+    /// later problems are dropped.
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
             n if n < MAX_FINDINGS => self.list.push(finding),
@@ -98,7 +100,8 @@ impl Findings {
     }
 }
 
-/// Converts findings to problems, sorted by their places in the text `source`. Without a text they have no places.
+/// Converts findings to problems with line and column, sorted by their position in the text `source`. Without a text,
+/// the problems have no line and column.
 pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
     let mut list: Vec<Problem> = findings
         .into_iter()
@@ -131,7 +134,7 @@ impl UnreadParts {
             .any(|p| p.starts_with(entry) || path.starts_with(&p.0))
     }
 
-    /// True if the value of a top-level key, or something in it, could not be read.
+    /// True if the value of the top-level key `key`, or some part of this value, could not be read.
     pub(super) fn touches_key(&self, key: &str) -> bool {
         let key = [Segment::Key(key.to_string())];
         self.paths
@@ -139,8 +142,8 @@ impl UnreadParts {
             .any(|p| p.starts_with(&key) || p.0.is_empty())
     }
 
-    /// Returns the index of the first entry of a list that could not be read completely; 0 if the list itself could not
-    /// be read. `None` if all entries were read.
+    /// Returns the index of the first entry of the list `list` that could not be read completely; 0 if the list itself
+    /// could not be read. `None` if all entries were read.
     pub(super) fn first_entry(&self, list: &str) -> Option<usize> {
         let mut first = None;
         for path in &self.paths {
@@ -155,10 +158,10 @@ impl UnreadParts {
         first
     }
 
-    /// True if some names of a list or object may be missing because parts of it could not be read. Unknown names are
-    /// then not reported.
+    /// True if some names under the top-level key `list` may be missing because part of the file could not be read.
+    /// Unknown names are then not reported.
     ///
-    /// `known` is the number of names that were read. If it is 0, a misspelt top-level key may contain the whole list.
+    /// `known` is the number of names that were read. If it is 0, the whole list may stand under a misspelt key.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,

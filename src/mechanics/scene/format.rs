@@ -1,4 +1,4 @@
-//! The scene file as Rust types: one type for each object of the JSON. The JSON Schema is made from these types.
+//! The scene file as Rust types, one type for each kind of JSON object. The JSON Schema is generated from these types.
 //!
 //! A [`SceneFile`] is read from text, or built in code by methods with the names of the keys. Only the types of values
 //! are checked here; [`SceneFile::build`] checks the rest. A key may be absent or `null` if its field is an `Option`.
@@ -126,8 +126,8 @@ pub struct SceneFile {
     pub silence: Vec<String>,
 }
 
-/// Parses one entry of a scene file from its JSON text. Only the types of values are checked. The error is a message
-/// for the user.
+/// Parses one entry of a scene file, such as a block, from its JSON text. Only the types of the values are checked. The
+/// error is a message for the user.
 #[cfg(any(feature = "python", feature = "wasm"))]
 pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string())
@@ -136,13 +136,13 @@ pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String
 /// A method for each plain key of the whole file.
 impl SceneFile {
     optional_setters! {
-        gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
-        friction: f64, "Friction coefficient μ of bodies and materials that give none, at least 0.";
-        kernel: f64, "Safety kernel, 0 to 1.";
-        density: f64, "Density in kg/m³ of blocks and materials that give none, at least 0.";
-        thickness: f64, "Thickness of all blocks across the plane in metres, at least 0.";
-        contact_tolerance: f64, "Edges within this many metres of each other touch; at least 0.";
-        corner_contacts: bool, "Whether a corner that touches an edge or another corner carries force.";
+        gravity: Pair, "Gravity [x, y] in m/s². Weights act in its direction.";
+        friction: f64, "Friction coefficient μ of bodies without a coefficient of their own or of their material, at least 0.";
+        kernel: f64, "Safety kernel, 0 to 1: the fraction of each contact's length that must stay free of force.";
+        density: f64, "Density in kg/m³ of blocks without a density of their own or of their material, at least 0.";
+        thickness: f64, "Thickness of all blocks in metres, perpendicular to the plane of the scene, at least 0.";
+        contact_tolerance: f64, "Contact tolerance: the largest distance in metres between two edges that touch, at least 0.";
+        corner_contacts: bool, "Whether a corner that touches an edge or another corner transmits force.";
     }
 }
 
@@ -168,8 +168,8 @@ impl SceneFile {
 }
 
 impl SceneFile {
-    /// Replaces the contact tolerance of the file if `tolerance`, in metres, is given. The file keeps it in its own
-    /// unit of length.
+    /// Replaces the contact tolerance of the file by `tolerance`, in metres, unless it is `None`. The value is stored
+    /// in the file's unit of length.
     pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
         let unit = self.units.unwrap_or_default().length();
         let given = tolerance.map(|metres| unit.value_from_si(metres));
@@ -319,7 +319,7 @@ pub(super) fn agrees(text: &str) -> bool {
                 .collect(),
         }
     }
-    /// Converts every number to a float, because all numbers of the syntax tree are floats.
+    /// Converts every number to a float, because the syntax tree stores all numbers as floats.
     fn floats(value: serde_json::Value) -> serde_json::Value {
         match value {
             serde_json::Value::Number(x) => x.as_f64().into(),
@@ -333,7 +333,8 @@ pub(super) fn agrees(text: &str) -> bool {
     match (tree::parse(text), serde_json::from_str(text)) {
         (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
         (Err(_), Err(_)) => true,
-        // A number that is too large for a float is not a syntax error: the reader of values reports it.
+        // A number that is too large for a float is an error for serde_json, but not for the syntax tree. It is
+        // reported later, when values are read.
         (Ok(_), Err(error)) => error.to_string().contains("number out of range"),
         (Err(_), Ok(_)) => false,
     }

@@ -1,8 +1,8 @@
-//! Methods that build a scene file in code: one for each key, with the same name. Each method returns the object on
-//! which it was called.
+//! Builder methods for a scene file: one method for each key of the file, with the same name. Each method returns the
+//! object on which it was called.
 //!
-//! Nothing is checked before [`SceneFile::build`]. It applies the same rules as for a file and reports all problems at
-//! once.
+//! Nothing is checked before [`SceneFile::build`]. That method applies the same rules as for a file and reports all
+//! problems at once.
 
 use super::{
     BlockEntry, CellEntry, ContactEntry, ForceUnit, FrictionPairEntry, GridEntry, GridKind,
@@ -27,13 +27,13 @@ macro_rules! words {
 /// Methods that set an outline.
 macro_rules! outline {
     () => {
-        /// Sets the outline to a polygon: its corners [x, y] in metres, clockwise or anticlockwise.
+        /// Sets the outline to a polygon. Its corners are [x, y] in metres, clockwise or anticlockwise.
         pub fn polygon(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.polygon = Some(corners.into());
             self
         }
 
-        /// Adds a hole to the polygon: its corners [x, y] in metres.
+        /// Adds a hole to the polygon. The corners of the hole are [x, y] in metres.
         pub fn hole(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.holes.push(corners.into());
             self
@@ -52,14 +52,14 @@ macro_rules! body {
     () => {
         outline!();
         optional_setters! {
-            at: Pair, "Position of its origin, in metres; a lattice point if the scene has a grid.";
-            angle: f64, "Rotation about its own origin before it is moved, degrees anticlockwise.";
-            friction: f64, "Its own friction coefficient, at least 0.";
+            at: Pair, "Position of the body's origin [x, y], in metres; in lattice coordinates if the scene has a grid.";
+            angle: f64, "Rotation of the body about its own origin, in degrees anticlockwise. The body is rotated before it is moved to `at`.";
+            friction: f64, "Friction coefficient of this body, at least 0.";
         }
         words! {
-            shape, "Name of a shape of the scene, used instead of an outline of its own.";
-            material, "Name of its material.";
-            fill, "Fill colour, `#rrggbb` or `#rgb`.";
+            shape, "Name of a shape of the scene, which gives the outline of this body.";
+            material, "Name of the body's material.";
+            fill, "Fill colour in figures, `#rrggbb` or `#rgb`.";
         }
     };
 }
@@ -87,32 +87,32 @@ from_corners! { GroundEntry BlockEntry ShapeEntry }
 
 impl SceneFile {
     words! {
-        title, "Title of the scene, for reports and captions.";
-        author, "Author of the calculation, for reports.";
-        project, "Project that the structure belongs to, for reports.";
-        date, "Date of the calculation, for reports: any text.";
+        title, "Title of the scene, shown in reports and captions.";
+        author, "Author of the calculation, shown in reports.";
+        project, "Project that the structure belongs to, shown in reports.";
+        date, "Date of the calculation, shown in reports. Any text is allowed.";
     }
 
-    /// Sets the units of the lengths and forces of the scene.
+    /// Sets the units in which all lengths and forces of the scene are given.
     pub fn units(mut self, length: LengthUnit, force: ForceUnit) -> Self {
         self.units = Some(UnitsEntry::default().of_length(length).of_force(force));
         self
     }
 
-    /// Sets the lattice and the edge length of its cells in metres.
+    /// Sets the kind of the lattice, and the edge length of its cells in metres.
     pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
         let side = Some(side);
         self.grid = Some(GridEntry { kind, side });
         self
     }
 
-    /// Adds a material.
+    /// Adds a material. Blocks and ground refer to it by `name`.
     pub fn material(mut self, name: impl Into<String>, material: MaterialEntry) -> Self {
         self.materials.0.push((name.into(), material));
         self
     }
 
-    /// Adds the friction coefficient between two materials, at least 0.
+    /// Adds the friction coefficient, at least 0, between the materials with the names `a` and `b`.
     pub fn friction_pair(mut self, a: &str, b: &str, friction: f64) -> Self {
         let between = [a.into(), b.into()];
         self.friction_pairs
@@ -120,19 +120,20 @@ impl SceneFile {
         self
     }
 
-    /// Adds a shape: corners in metres, or a [`ShapeEntry`].
+    /// Adds a shape, given by its corners in metres or as a [`ShapeEntry`]. Blocks and ground refer to it by `name`.
     pub fn shape(mut self, name: impl Into<String>, shape: impl Into<ShapeEntry>) -> Self {
         self.shapes.0.push((name.into(), shape.into()));
         self
     }
 
-    /// Adds a part of the ground: corners in metres, or a [`GroundEntry`].
+    /// Adds a part of the ground, given by its corners in metres or as a [`GroundEntry`].
     pub fn ground(mut self, part: impl Into<GroundEntry>) -> Self {
         self.ground.push(part.into());
         self
     }
 
-    /// Adds a block: a [`BlockEntry`], or corners in metres. A block from corners gets its number as id, from 1.
+    /// Adds a block, given by its corners in metres or as a [`BlockEntry`]. If a block has no id, its number in the
+    /// list is its id, counted from 1.
     pub fn block(mut self, block: impl Into<BlockEntry>) -> Self {
         self.blocks.push(block.into());
         self
@@ -144,31 +145,31 @@ impl SceneFile {
         self
     }
 
-    /// Adds a contact. If a scene lists contacts, no others are searched.
+    /// Adds a contact between two bodies. If a scene lists contacts, the program does not search for other contacts.
     pub fn contact(mut self, contact: ContactEntry) -> Self {
         self.contacts.push(contact);
         self
     }
 
-    /// Adds a load.
+    /// Adds a load on a block.
     pub fn load(mut self, load: LoadEntry) -> Self {
         self.loads.push(load);
         self
     }
 
-    /// Adds a step of the assembly, which makes a frame.
+    /// Adds a step of the assembly. The state after each step is one frame.
     pub fn step(mut self, step: StepEntry) -> Self {
         self.steps.push(step);
         self
     }
 
-    /// Switches off the notes that have this code.
+    /// Switches off all notes with this code.
     pub fn silence(mut self, code: NoteCode) -> Self {
         self.silence.push(code.to_string());
         self
     }
 
-    /// Checks the scene, like [`Scene::new`].
+    /// Checks the scene file and converts it to a [`Scene`], like [`Scene::new`].
     ///
     /// # Errors
     /// All problems of the scene, each with its path.
@@ -183,7 +184,7 @@ impl MaterialEntry {
         friction: f64, "Friction coefficient, at least 0.";
     }
     words! {
-        fill, "Fill colour, `#rrggbb` or `#rgb`.";
+        fill, "Fill colour in figures, `#rrggbb` or `#rgb`.";
     }
 }
 
@@ -203,29 +204,29 @@ impl BlockEntry {
 
     body!();
     optional_setters! {
-        centre: Pair, "Point [x, y] in metres at which the weight acts, for a block without an outline.";
-        weight: f64, "Weight in newtons along gravity, at least 0. Takes precedence over mass and density.";
-        mass: f64, "Mass in kg, at least 0. Takes precedence over density.";
-        density: f64, "Its own density in kg/m³, at least 0.";
+        centre: Pair, "Point [x, y] in metres at which the weight acts. Only for a block without an outline.";
+        weight: f64, "Weight of the block in newtons, at least 0. It takes precedence over mass and density.";
+        mass: f64, "Mass of the block in kg, at least 0. It takes precedence over the density.";
+        density: f64, "Density of this block in kg/m³, at least 0.";
     }
     words! {
-        id, "Its name, used once.";
+        id, "Id of this object. Each id may be used only once.";
     }
 }
 
 impl RobotEntry {
-    /// Creates a robot with this id. Its force has no limits, and it gives no torque.
+    /// Creates a robot with this id. It can exert any force, but no torque, until `limits` are set.
     pub fn new(id: impl Into<String>) -> RobotEntry {
         RobotEntry::default().id(id)
     }
 
     optional_setters! {
-        at: Pair, "Grip point [x, y] in metres on the block that it `holds`.";
-        limits: LimitsEntry, "What it can give.";
+        at: Pair, "Grip point [x, y] in metres on the block that the robot `holds`.";
+        limits: LimitsEntry, "The largest force and torque of the robot.";
     }
     words! {
-        id, "Its name, used once.";
-        holds, "The block it holds in a scene without steps.";
+        id, "Id of this object. Each id may be used only once.";
+        holds, "Id of the block that the robot holds in a scene without steps.";
     }
 }
 
@@ -234,13 +235,14 @@ impl LimitsEntry {
         fx: f64, "Largest horizontal force in newtons, at least 0.";
         fy: f64, "Largest vertical force in newtons, at least 0.";
         torque: f64, "Largest torque in N·m, at least 0.";
-        force: f64, "Limit for `fx` and `fy` if they are not given; newtons, at least 0.";
+        force: f64, "Limit in newtons for `fx` and `fy` where these are not given, at least 0.";
     }
 }
 
 impl ContactEntry {
-    /// Creates a contact of two bodies at a point [x, y] in metres. The normal points into the first body; it is given
-    /// in degrees anticlockwise from the x axis. The name `ground` stands for the ground.
+    /// Creates a contact of two bodies at the point `at`, [x, y] in metres. `normal` is the direction of the contact
+    /// normal, which points into the first body, in degrees anticlockwise from the x axis. The name `ground` stands for
+    /// the ground.
     pub fn between(
         first: impl Into<String>,
         second: impl Into<String>,
@@ -256,12 +258,12 @@ impl ContactEntry {
     }
 
     optional_setters! {
-        friction: f64, "Friction coefficient, at least 0; that of the scene otherwise.";
+        friction: f64, "Friction coefficient of this contact, at least 0. Without it, the coefficient of the scene applies.";
     }
 }
 
 impl LoadEntry {
-    /// Creates a load on the block with this id. Force and torque are zero until they are set.
+    /// Creates a load on the block with this id. Its force and torque are zero until they are set.
     pub fn on(block: impl Into<String>) -> LoadEntry {
         LoadEntry {
             block: block.into(),
@@ -271,48 +273,48 @@ impl LoadEntry {
 
     optional_setters! {
         force: Pair, "Force [x, y] in newtons.";
-        at: Pair, "Where the force acts, [x, y] in metres; the block's centroid otherwise.";
+        at: Pair, "Point [x, y] in metres at which the force acts. Without it, the force acts at the centroid of the block.";
         torque: f64, "Torque in N·m, anticlockwise positive.";
     }
 }
 
 impl StepEntry {
-    /// Creates a step. `title` is the title of its frame.
+    /// Creates a step. `title` is the title of the frame that shows the state after this step.
     pub fn new(title: impl Into<String>) -> StepEntry {
         StepEntry::default().title(title)
     }
 
     words! {
-        title, "Title of the frame after this step.";
+        title, "Title of the frame that shows the state after this step.";
     }
 
-    /// Adds robots that release their blocks.
+    /// Adds ids of robots that release their blocks in this step.
     pub fn release<S: Into<String>>(mut self, robots: impl IntoIterator<Item = S>) -> Self {
         self.release.extend(robots.into_iter().map(Into::into));
         self
     }
 
-    /// Adds blocks that are removed.
+    /// Adds ids of blocks that are removed in this step.
     pub fn remove<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
         self.remove.extend(blocks.into_iter().map(Into::into));
         self
     }
 
-    /// Adds blocks that are placed, in this order.
+    /// Adds ids of blocks that are placed in this step, in this order.
     pub fn place<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
         self.place.extend(blocks.into_iter().map(Into::into));
         self
     }
 
-    /// Adds a robot that takes hold of a block. The grip point is the robot's own `at` for the block that it `holds`,
-    /// otherwise the centroid.
+    /// Lets a robot take hold of a block in this step. The grip point is the robot's `at` if the block is the one that
+    /// the robot `holds`; otherwise it is the centroid of the block.
     pub fn hold(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
         let hold = HoldEntry::Block(block.into());
         self.hold.0.push((robot.into(), hold));
         self
     }
 
-    /// Adds a robot that takes hold of a block at a point [x, y] in metres.
+    /// Lets a robot take hold of a block in this step, at the point `at`, [x, y] in metres.
     pub fn hold_at(mut self, robot: impl Into<String>, block: impl Into<String>, at: Pair) -> Self {
         let (block, at) = (block.into(), Some(at));
         let hold = HoldEntry::Grip(GripEntry { block, at });
@@ -320,7 +322,7 @@ impl StepEntry {
         self
     }
 
-    /// Adds a block that a robot is about to place. It is drawn as an outline and carries no force.
+    /// Adds a block that a robot is about to place. The block is drawn as an outline and transmits no force.
     pub fn plan(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
         self.plan.0.push((robot.into(), block.into()));
         self

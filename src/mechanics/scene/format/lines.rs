@@ -1,5 +1,5 @@
-//! [`Lines`]: a JSON formatter that writes each entry of the outer objects on its own line, so that a person can read
-//! the file.
+//! [`Lines`]: a JSON formatter that starts a new line for each entry of the outer objects and for each object in a
+//! list, so that people can read the file.
 
 use std::io;
 
@@ -14,8 +14,8 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Makes a formatter that writes one line for each entry of the outermost object, and of the objects inside it down
-    /// to `depth` levels.
+    /// Creates a formatter. Objects at the `depth` outermost levels get one line for each entry. Each object further
+    /// inside is written on one line.
     pub(crate) fn new(depth: usize) -> Lines {
         Lines {
             depth,

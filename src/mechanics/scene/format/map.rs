@@ -1,7 +1,7 @@
 //! [`Map`]: an object of the scene file whose keys are names chosen by the author.
 //!
-//! Entries keep the file's order. No key stands twice in one that was read; of one that was made in code it is checked
-//! with all else.
+//! Entries keep the order of the file. In a map that was read from a file, each key occurs only once. A map that was
+//! built in code is checked together with the rest of the scene.
 
 #[cfg(feature = "schema")]
 use std::borrow::Cow;

@@ -1,9 +1,9 @@
-//! The JSON Schema of a scene file.
+//! Generates the JSON Schema of a scene file.
 
 use super::SceneFile;
 use schemars::generate::SchemaSettings;
 
-/// Returns the JSON Schema (draft 2020-12) of a scene file. Editors use it to complete and check a scene.
+/// Returns the JSON Schema (draft 2020-12) of a scene file. Editors use the schema to complete and check a scene.
 ///
 /// ```
 /// assert!(drystone::scene::format::schema().contains("\"title\": \"drystone scene\""));

@@ -1,4 +1,4 @@
-//! The types with which a scene file gives its units.
+//! The types of the scene file for units of length and force.
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
