@@ -1,4 +1,4 @@
-//! [`Frame`]: the placed blocks, and the blocks that robots hold, after one step.
+//! [`Frame`]: the state of the structure after one step: the placed blocks, and the blocks that robots hold.
 
 use super::format::Expectation;
 use super::{BlockId, RobotId};

@@ -1,4 +1,4 @@
-//! Healing: moves corners of bodies that were meant to touch so that they touch exactly, before the analysis.
+//! Healing: before the analysis, moves corners of bodies that were meant to touch, so that the bodies touch exactly.
 //!
 //! Rounded coordinates leave wedges of 10⁻⁴ rad and narrow gaps between stones that were drawn to touch. Corners and
 //! edges of two bodies whose distance is within tolerance are moved onto each other, by the code that also heals
@@ -22,9 +22,9 @@ const MOST: f64 = 1.0 / 20.0;
 /// If a tolerance is given, a corner moves by at most this fraction of its shorter side.
 ///
 /// A tolerance is meant for gaps between bodies, not for sides shorter than itself: the outline of a round stone stays
-/// round. When both ends of a side move, its length changes by at most half and its direction by at most 30°. With a
-/// tenth of this value, joints next to short sides would stay open. With twice this value, a side could lose its whole
-/// length.
+/// round. When both ends of a side move, its length changes by at most half and its direction by at most 30°. If this
+/// value were ten times smaller, joints next to short sides would stay open. If it were twice as large, a side could
+/// lose its whole length.
 const OF_EDGE: f64 = 0.25;
 /// Healing may make an overlap deeper by less than this fraction of the gap; such an overlap is ignored.
 const NOISE: f64 = 0.25;
@@ -94,12 +94,13 @@ impl HealingReach {
         healing: 0.0,
     };
 
-    /// Returns the largest distance at which two edges touch.
+    /// Returns the largest distance between two edges that count as touching, in the unit of the corners.
     pub(super) fn gap(self) -> f64 {
         self.usual.max(self.healing)
     }
 
-    /// Returns the largest distance by which corners of a body of this size may move.
+    /// Returns the largest distance by which corners of a body may move. `size` is the size of the body in the same
+    /// unit.
     fn healing_of(self, size: f64) -> f64 {
         let part = match self.source {
             ToleranceSource::Given => MOST,
@@ -109,31 +110,35 @@ impl HealingReach {
         self.healing.min(part * size)
     }
 
-    /// Returns the largest move of a corner, as a fraction of the shorter of its two sides.
+    /// Returns the largest distance by which a corner may move, as a fraction of the shorter of its two sides. Infinite
+    /// if the sides do not limit the move.
     fn share_of_edge(self) -> f64 {
         match self.source {
             ToleranceSource::Given => OF_EDGE,
-            // Rounding errors are smaller than the sides of outlines, so no further limit is needed.
+            // Other tolerances come from rounding errors, which are smaller than the sides of outlines. The sides need
+            // not limit the move.
             _ => f64::INFINITY,
         }
     }
 
-    /// Returns the largest error of the coordinates of a body. `farthest` is its largest coordinate.
+    /// Returns the largest error of the coordinates of a body. `size` is the size of the body, and `farthest` its
+    /// largest coordinate.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
         self.healing_of(size).max(LAST * f64::EPSILON * farthest)
     }
 
-    /// Returns the largest distance at which a body touches another body. `farthest` is its largest coordinate.
+    /// Returns the largest distance at which a body touches other bodies. `size` is the size of the body, and
+    /// `farthest` its largest coordinate.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
         let usual = self.usual.min(SLIGHT * size);
         usual.max(self.rounding_of(size, farthest))
     }
 }
 
-/// Returns the size of a body, in the unit of its corners: four times its area divided by the length of its boundary.
-/// For a square, this is the side.
+/// Returns the size of a body, in the unit of its corners: four times its area divided by its perimeter. For a square,
+/// this is the length of a side.
 ///
-/// For a long thin stone it is twice the thickness.
+/// For a long thin stone, the size is about twice the thickness.
 pub(crate) fn size(polygon: &Polygon) -> f64 {
     let around: f64 = polygon.edges().map(|e| e.length()).sum();
     4.0 * polygon.area() / around
@@ -143,12 +148,12 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
 struct Drawn {
     /// The number of parts of the ground.
     parts: usize,
-    /// Their numbers among all bodies, readable or not; the parts of the ground come first.
+    /// Numbers of the bodies among all bodies, readable or not; the parts of the ground come first.
     numbers: Vec<usize>,
-    /// Their sizes, in the unit of the corners.
+    /// Sizes of the bodies, in the unit of the corners.
     sizes: Vec<f64>,
     outlines: Vec<Rings>,
-    /// Whether they may not move, because they are cells of a lattice.
+    /// Whether a body may not move, because it consists of lattice cells.
     fixed: Vec<bool>,
 }
 
@@ -161,7 +166,8 @@ struct Closed<'d> {
     reach: HealingReach,
 }
 
-/// Moves corners and edges that are within tolerance of each other together, and sets the gap of every body.
+/// Moves corners and edges of different bodies onto each other if they are within tolerance, and sets the gap of every
+/// body.
 ///
 /// 1. Measure the bodies.
 /// 2. Snap corners and edges within the tolerance that was given, or that follows from the digits of the coordinates.
@@ -193,8 +199,8 @@ pub(super) fn heal(
 }
 
 impl Drawn {
-    /// Step 1: measures the bodies. Every part of the ground gets the size of the largest block, even if the part is
-    /// thin.
+    /// Step 1 of healing: measures the bodies. A part of the ground gets the size of the largest block, even if the
+    /// part is thin.
     fn new(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>]) -> Drawn {
         let parts = ground.len();
         let mut drawn = Drawn {
@@ -219,7 +225,8 @@ impl Drawn {
         drawn
     }
 
-    /// Returns the id of the body with this index among all bodies, the parts of the ground first.
+    /// Returns the id of a body from its index `drawn` in the lists of this struct, which contain only the bodies that
+    /// could be read.
     fn body(&self, drawn: usize) -> BodyId {
         let number = self.numbers[drawn];
         match number.checked_sub(self.parts) {
@@ -228,12 +235,12 @@ impl Drawn {
         }
     }
 
-    /// Returns the largest distance by which the corners of each body may move, in the unit of the corners.
+    /// Returns, for each body, the largest distance by which its corners may move, in the unit of the corners.
     fn gaps(&self, reach: HealingReach) -> Vec<f64> {
         self.sizes.iter().map(|s| reach.healing_of(*s)).collect()
     }
 
-    /// Step 2: snaps corners and edges that are within the tolerance `reach`.
+    /// Step 2 of healing: snaps corners and edges whose distance is within the tolerance `reach`.
     fn within_reach(&self, reach: HealingReach) -> Closed<'_> {
         let mut closed = Closed {
             outlines: Cow::Borrowed(&self.outlines[..]),
@@ -251,7 +258,8 @@ impl Drawn {
         closed
     }
 
-    /// Step 3: snaps corners and edges that noise has separated, if the limits in [`NOISY`] are exceeded.
+    /// Step 3 of healing: if as many corners as [`NOISY`] requires still lie slightly off the edges that they should
+    /// touch, snaps these corners too.
     fn without_noise<'d>(&self, closed: Closed<'d>) -> Closed<'d> {
         let usual = closed.reach.usual;
         if usual <= closed.reach.healing {
@@ -277,8 +285,8 @@ impl Drawn {
         }
     }
 
-    /// Step 4: counts the bodies and corners that moved. Returns the counts, and the new outline of each changed body
-    /// by the number of the body.
+    /// Step 4 of healing: counts the bodies and corners that moved. Returns these counts, and a map from the number of
+    /// each changed body to its new outline.
     fn changes<'c>(&self, closed: &'c Closed<'_>) -> (Healed, BTreeMap<usize, &'c Rings>) {
         let reach = closed.reach;
         let mut healed = Healed {
@@ -296,7 +304,7 @@ impl Drawn {
         let bodies = self.numbers.iter().zip(&self.outlines).zip(&self.sizes);
         for (((number, old), size), new) in bodies.zip(new) {
             let corners = old.iter().flatten().zip(new.iter().flatten());
-            // A move below a millionth of the gap is the rounding of numbers.
+            // A move by less than a millionth of the gap is only the rounding of numbers.
             let rounding = 1e-6 * reach.healing_of(*size);
             let moves = corners.map(|(a, b)| (b.at - a.at).norm());
             let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
@@ -312,7 +320,7 @@ impl Drawn {
     }
 }
 
-/// Iterates over the bodies that could be read, with their numbers among all bodies. The parts of the ground come
+/// Iterates over the bodies that could be read, each with its number among all bodies. The parts of the ground come
 /// first.
 fn bodies<'b>(
     ground: &'b mut [Option<Ground>],
@@ -334,15 +342,15 @@ fn rings(polygon: &Polygon) -> Rings {
 }
 
 impl Scene {
-    /// Returns the tolerance for contact between two bodies. Its gap is the smaller of their gaps, its rounding the
-    /// larger of their roundings.
+    /// Returns the tolerance for contacts between two bodies. It has the smaller gap and the larger rounding error of
+    /// the two bodies.
     pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
         let (a, b) = (self.body(a), self.body(b));
         Tolerance::from_gap(a.gap.min(b.gap)).with_rounding(a.rounding.max(b.rounding))
     }
 
-    /// Returns the scene after healing with the tolerance `gap`, in metres. Bodies that cannot be moved still touch
-    /// within that distance.
+    /// Returns a copy of the scene, healed with the contact tolerance `gap`, in metres. Bodies that cannot be moved
+    /// still touch within this distance.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {
@@ -360,8 +368,8 @@ impl Scene {
         scene
     }
 
-    /// Describes for users the distance at which edges touch, the source of this tolerance, and the corners that
-    /// healing moved.
+    /// Describes the contact tolerance in words: the distance at which edges touch, the source of this distance, and
+    /// the corners that healing moved. `None` if the contacts are exact, on a lattice.
     pub fn tolerance_words(&self) -> Option<String> {
         let from: String = match self.healed.source {
             ToleranceSource::Lattice => return None,

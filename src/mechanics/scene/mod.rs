@@ -1,4 +1,4 @@
-//! [`Scene`]: a checked description of blocks, ground, robots and loads.
+//! [`Scene`]: a checked description of a structure: its blocks, ground, robots and loads.
 //!
 //! Invariant: a `Scene` is valid. Names are resolved, outlines are simple, numbers are finite and in range, the steps
 //! have been converted to [`Frame`]s, and no block overlaps another body in any frame, except for
@@ -113,7 +113,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns the title; empty if the file gives no title.
+    /// Returns the title of the scene; empty if the file gives no title.
     pub fn title(&self) -> &str {
         &self.title
     }
@@ -133,25 +133,25 @@ impl Scene {
         &self.date
     }
 
-    /// Returns the units of the file. Figures, tables and reports use these units. All numbers of the scene itself are
-    /// in metres and newtons.
+    /// Returns the units of the scene file. Figures, tables and reports use these units. All numbers of the scene
+    /// itself are in metres and newtons.
     pub fn units(&self) -> format::UnitsEntry {
         self.units
     }
 
-    /// Returns gravity in m/s². Weights act in its direction. For blocks with a given weight, only the direction has an
-    /// effect.
+    /// Returns the acceleration of gravity in m/s². Weights act in its direction. For blocks with a given weight, only
+    /// the direction has an effect.
     pub fn gravity(&self) -> Vector {
         self.gravity
     }
 
-    /// Thickness of the structure perpendicular to the plane, metres.
+    /// Returns the thickness of the structure perpendicular to the plane, in metres.
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// Returns the safety kernel, from 0 to 1. Each application point is moved inward by half this fraction of the
-    /// contact's length.
+    /// Returns the safety kernel, from 0 to 1. Each point at which a contact transmits force is moved inward by half
+    /// this fraction of the contact's length.
     pub fn kernel(&self) -> f64 {
         self.kernel
     }
@@ -161,23 +161,25 @@ impl Scene {
         self.lattice
     }
 
-    /// True if every body is a set of lattice cells. Contacts are then computed in whole numbers.
+    /// True if every body is a set of lattice cells. Contacts are then computed exactly, in whole numbers.
     pub fn exact(&self) -> bool {
         self.exact
     }
 
-    /// Returns the lengths below which differences count as rounding. All are 0 on a lattice.
+    /// Returns the contact tolerance: the lengths and the angle up to which two edges count as touching. All are 0 if
+    /// every body is a set of lattice cells.
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
-    /// Returns the source of the tolerance, and the corners that healing moved before the analysis.
+    /// Returns the result of healing: where the contact tolerance comes from, how many corners moved before the
+    /// analysis, and how far.
     pub fn healed(&self) -> &Healed {
         &self.healed
     }
 
-    /// Returns pairs of bodies with an overlap so small that they may have been meant to touch. The list is empty if
-    /// the scene gives a tolerance.
+    /// Returns the pairs of bodies that overlap so little that they may have been meant to touch. The list is empty if
+    /// the scene gives a contact tolerance.
     pub fn penetrations(&self) -> &[Penetration] {
         &self.penetrations
     }
@@ -197,7 +199,7 @@ impl Scene {
         &self.robots
     }
 
-    /// Returns the loads on blocks.
+    /// Returns the loads on blocks, which act in addition to the weights.
     pub fn loads(&self) -> &[Load] {
         &self.loads
     }
@@ -207,18 +209,18 @@ impl Scene {
         &self.materials
     }
 
-    /// Returns the friction coefficients between pairs of materials. The materials are given by their numbers in
-    /// [`Scene::materials`].
+    /// Returns the friction coefficients that the scene gives for pairs of materials. The materials are given by their
+    /// indices in [`Scene::materials`].
     pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
         &self.friction_pairs
     }
 
-    /// Returns the contacts that the file lists. If the list is not empty, no other contacts are searched.
+    /// Returns the contacts that the scene lists. If the list is not empty, the program searches for no other contacts.
     pub fn contacts(&self) -> &[ListedContact] {
         &self.contacts
     }
 
-    /// True if the file lists the contacts, so that no others are searched.
+    /// True if the scene lists its contacts. The program then searches for no other contacts.
     pub(crate) fn lists_contacts(&self) -> bool {
         !self.contacts.is_empty()
     }
@@ -228,12 +230,13 @@ impl Scene {
         self.corner_contacts
     }
 
-    /// Returns the frames: one for each step, or one frame for a scene without steps.
+    /// Returns the frames, which are the states of the structure to be analysed: one for each step, or one for a scene
+    /// without steps.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
 
-    /// Notes on input that is allowed but probably not intended, in the order in which they were found.
+    /// Returns the notes on input that is allowed but probably not intended, in the order in which they were found.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
@@ -246,7 +249,7 @@ impl Scene {
         }
     }
 
-    /// Returns the name of a body in results: a block's id, or `"ground"` for every part of the ground.
+    /// Returns the name of a body in results: the id of a block, or `"ground"` for every part of the ground.
     pub fn name(&self, id: BodyId) -> &str {
         match id {
             BodyId::Ground(_) => "ground",
@@ -254,8 +257,8 @@ impl Scene {
         }
     }
 
-    /// Returns the friction coefficient between two bodies: the coefficient given for the pair of their materials,
-    /// otherwise the smaller of the two bodies' own coefficients.
+    /// Returns the friction coefficient between two bodies: the coefficient of the pair of their materials if the scene
+    /// gives one, otherwise the smaller of the two bodies' own coefficients.
     pub fn friction_between(&self, a: BodyId, b: BodyId) -> f64 {
         let (a, b) = (self.body(a), self.body(b));
         if let (Some(m), Some(n)) = (a.material, b.material) {

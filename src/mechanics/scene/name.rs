@@ -1,4 +1,4 @@
-//! [`Names`]: finds the number of a name, and the most similar name for an unknown one.
+//! [`Names`]: finds the index that belongs to a name, and suggests the most similar name for an unknown one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,8 @@ use super::format::Map;
 use super::path::Trail;
 use super::problem;
 
-/// Reports keys that occur twice in an object that was built in code. For a file, the reader has already reported them.
+/// Reports each key that occurs twice in a map that was built in code. For a file, such keys were reported while
+/// reading.
 pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
     let mut seen = BTreeSet::new();
     for (name, _) in &map.0 {
@@ -28,8 +29,8 @@ pub(super) struct Names<'f> {
 }
 
 impl<'f> Names<'f> {
-    /// Makes a table of names in the order of the list. A name that occurs twice has the number of its first
-    /// occurrence.
+    /// Creates a table of names, in which each name has its index in `list`. A name that occurs twice has the index of
+    /// its first occurrence. If `incomplete` is set, unknown names are not reported.
     pub(super) fn new(sort: &'static str, list: Vec<&'f str>, incomplete: bool) -> Names<'f> {
         let mut numbers = BTreeMap::new();
         for (i, name) in list.iter().enumerate() {
@@ -43,17 +44,17 @@ impl<'f> Names<'f> {
         }
     }
 
-    /// Returns the name with this number.
+    /// Returns the name with the index `number`.
     pub(super) fn name(&self, number: usize) -> &'f str {
         self.list[number]
     }
 
-    /// Returns the number of a name; `None` if the name is unknown.
+    /// Returns the index of a name; `None` if the name is unknown.
     pub(super) fn get(&self, name: &str) -> Option<usize> {
         self.numbers.get(name).copied()
     }
 
-    /// Returns the number of a name that is a value. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that stands as a value at `at`. Reports an unknown name and returns `None`.
     pub(super) fn find(
         &self,
         findings: &mut Findings,
@@ -65,7 +66,7 @@ impl<'f> Names<'f> {
         })
     }
 
-    /// Returns the number of a name that is a key. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that stands as a key at `at`. Reports an unknown name and returns `None`.
     pub(super) fn find_key(
         &self,
         findings: &mut Findings,

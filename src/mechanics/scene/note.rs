@@ -1,4 +1,4 @@
-//! [`Note`]: something that a scene may contain but that its author probably did not intend.
+//! [`Note`]: points out something in a scene that is allowed but that its author probably did not intend.
 //!
 //! A note is not an error: the scene is analysed as written. A scene can switch off notes by their codes, in `silence`.
 
@@ -46,14 +46,14 @@ pub struct Note {
 }
 
 impl NoteCode {
-    /// Returns the note code with this word; `None` if there is no such code.
+    /// Returns the note code that is written as `word` in JSON; `None` if there is no such code.
     pub fn named(word: &str) -> Option<NoteCode> {
         NoteCode::ALL.iter().copied().find(|c| c.word() == word)
     }
 }
 
 impl Note {
-    /// Creates a note. A sentence on how to silence it is added to the hint.
+    /// Creates a note. Adds to the hint how the author can switch off such notes.
     fn new(code: NoteCode, path: String, line: usize, message: &str, hint: &str) -> Note {
         Note {
             code,
@@ -68,7 +68,7 @@ impl Note {
 }
 
 impl Scene {
-    /// Creates a note about a body, with the line of the body in the file.
+    /// Creates a note about a body. The note contains the line of the body in the file.
     pub(crate) fn note(&self, code: NoteCode, body: BodyId, message: &str, hint: &str) -> Note {
         let (list, lines, number) = match body {
             BodyId::Ground(i) => ("ground", &self.lines.ground, i),
@@ -78,7 +78,7 @@ impl Scene {
         Note::new(code, format!("{list}[{number}]"), line, message, hint)
     }
 
-    /// True if the scene silences notes with this code.
+    /// True if the author of the scene switched off notes with this code.
     pub(crate) fn silences(&self, code: NoteCode) -> bool {
         self.silenced.contains(&code)
     }
@@ -92,7 +92,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Finds the line numbers of the entries of `ground` and `blocks` in the text of a scene file.
+    /// Finds the line in which each entry of `ground` and `blocks` begins in the text of a scene file.
     pub(super) fn new(source: &Source<'_>) -> Lines {
         let list = |key| {
             let starts = source.starts(key);
@@ -105,8 +105,7 @@ impl Lines {
     }
 }
 
-/// Returns the notes on a scene that was read without problems. Notes on edges that nearly touch are added later, when
-/// contacts are found.
+/// Returns the notes on a valid scene. Notes on edges that nearly touch are added later, when contacts are found.
 pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
     let mut notes = Notes {
         list: Vec::new(),
@@ -234,8 +233,9 @@ impl Notes<'_> {
         }
     }
 
-    /// Returns the distance of the point `at` from a body; `at` and the distance are in the units of the file. `None`
-    /// if the point is on the body, or if the body has no outline in the file.
+    /// Returns the distance of the point `at` from the outline of a body, if the point is outside. The point and the
+    /// distance are in the units of the file. `None` if the point is on the body, or if the body has no outline in the
+    /// file.
     fn outside(&self, body: &Body, at: Pair) -> Option<f64> {
         let unit = self.scene.units.length();
         if body.is_schematic {
@@ -320,9 +320,9 @@ impl Notes<'_> {
     }
 }
 
-/// Returns an angle in degrees if it was probably written in radians; otherwise `None`. The result is a multiple of
-/// 15°. The angle must be at most a full turn and agree with that multiple to three decimals. Angles with at most two
-/// decimals are not suspect, because degrees are often written with two decimals.
+/// Returns the angle in degrees that the author probably meant if `angle` looks like radians; otherwise `None`. An
+/// angle looks like radians if it equals a multiple of 15°, up to a full turn, to three decimals. Angles with at most
+/// two decimals do not count, because degrees are often written with two decimals.
 fn in_degrees(angle: f64) -> Option<f64> {
     let step = std::f64::consts::PI / 12.0;
     let count = (angle / step).round();
@@ -331,7 +331,7 @@ fn in_degrees(angle: f64) -> Option<f64> {
     (fits && !in_hundredths).then_some(15.0 * count)
 }
 
-/// Returns the distance of a point from an outline, in metres. `None` if the point is inside, or outside by at most
+/// Returns the distance of a point from a polygon, in metres. `None` if the point is inside, or outside by at most
 /// `gap`.
 fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
     let point = Point::new(at[0], at[1]);
@@ -345,7 +345,7 @@ fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
             (point - (edge.from + along * share.clamp(0.0, 1.0))).norm()
         })
         .fold(f64::INFINITY, f64::min);
-    // A point on the boundary may be outside by the rounding error of a float.
+    // Rounding can move a point on the boundary outside by a small distance, which is not reported.
     let noise = 1e-9 * polygon.bounds().diagonal();
     (distance > gap.max(noise)).then_some(distance)
 }

@@ -1,4 +1,5 @@
-//! Checks the numbers of a scene: finite, within ±10¹², and either 0 or not tiny. Some numbers must also be at least 0.
+//! Checks the numbers of a scene: each must be finite and within ±10¹². Some numbers must also be either 0 or at least
+//! 10⁻³⁰ in size, and some must not be negative.
 
 use super::finding::Findings;
 use super::path::Trail;
@@ -14,7 +15,7 @@ pub(super) const SMALLEST: f64 = 1e-30;
 /// Smallest extent of a body or a cell, in the units of the file: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
-/// True if all numbers are finite and within ±10¹². Reports the first number that is not.
+/// True if all numbers are finite and within ±10¹². Otherwise reports the first number that is not.
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {
@@ -29,8 +30,8 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
     true
 }
 
-/// True if the numbers are in the allowed range and the largest amount is 0 or at least 10⁻³⁰. Reports the first
-/// problem. The numbers are one amount, or the components of one vector.
+/// True if the numbers are finite, within ±10¹², and not tiny: the largest absolute value is 0 or at least 10⁻³⁰.
+/// Otherwise reports the first problem. `numbers` is a single number, or the components of one vector.
 pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     if !is_sane(findings, at, numbers) {
         return false;
@@ -43,8 +44,8 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     true
 }
 
-/// Checks an optional number of an entry that must be at least 0. Returns `None` if it is absent or not allowed, and
-/// reports it if it is not allowed.
+/// Returns the number of the key `key` if it is present and valid: at least 0, at most 10¹², and not tiny. Reports an
+/// invalid number and returns `None`.
 pub(super) fn at_least_zero(
     findings: &mut Findings,
     entry: &Trail<'_>,

@@ -1,4 +1,4 @@
-//! [`Outline`]: the shape of a body about its own origin, and its position in the scene.
+//! [`Outline`]: the shape of a body relative to its own origin, before the body is rotated and moved to its position.
 
 use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
@@ -21,8 +21,8 @@ pub(super) enum Outline {
     Cells(Vec<Cell>),
 }
 
-/// Builds a polygon from the corners and holes of an entry. Reports all its problems, and returns `None` if it is not
-/// valid.
+/// Builds the polygon of an entry from its corners and holes. If the polygon is not valid, reports all its problems and
+/// returns `None`.
 pub(super) fn polygon(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -62,7 +62,7 @@ pub(super) fn polygon(
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));
             }
-            // The area is so small that it rounds to 0.
+            // The area is so small that it is computed as 0.
             vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,
@@ -125,7 +125,7 @@ fn note(
     }
 }
 
-/// Builds a set of lattice cells from an entry. Reports all its problems, and returns `None` if it is not valid.
+/// Builds the lattice cells of an entry. If they are not valid, reports all their problems and returns `None`.
 pub(super) fn cells(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -186,8 +186,8 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
-/// Converts a pair to a lattice point. Reports a problem and returns `None` if a coordinate is not whole or out of
-/// range.
+/// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is not a whole
+/// number or out of range.
 fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;
@@ -203,11 +203,12 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
     Some((pair[0] as i64, pair[1] as i64))
 }
 
-/// Rotates the outline by `angle` degrees about its origin and then moves it by `at`. Returns the polygon and the
-/// cells, if any.
+/// Rotates the outline by `angle` degrees anticlockwise about its origin and then moves it by `at`. Returns the polygon
+/// and, if the outline consists of lattice cells, these cells.
 ///
-/// If the scene has a lattice, `at` is a lattice point; otherwise it is in the units of the file. For cells, `at` must
-/// be whole and `angle` a multiple of 60° or 90°. Reports a problem and returns `None` if they are not.
+/// If the scene has a lattice, `at` is in lattice coordinates; otherwise it is in the units of the file. For cells,
+/// `at` must be whole numbers, and `angle` a multiple of 60° (triangles) or 90° (squares); otherwise a problem is
+/// reported and `None` is returned.
 pub(super) fn placed(
     findings: &mut Findings,
     trail: &Trail<'_>,

@@ -1,4 +1,4 @@
-//! [`Path`]: the place of a value in a scene file, such as `blocks[3].polygon[1]`.
+//! [`Path`]: the position of a value in a scene file, such as `blocks[3].polygon[1]`.
 //!
 //! A [`Trail`] is a path on the stack: each step borrows the path above it, so that a valid file needs no allocation.
 
@@ -29,29 +29,29 @@ pub(super) enum Trail<'a> {
 }
 
 impl Path {
-    /// True if this path equals `other` or lies inside it.
+    /// True if this path equals `other`, or is the path of something inside the value at `other`.
     pub(super) fn starts_with(&self, other: &[Segment]) -> bool {
         self.0.starts_with(other)
     }
 }
 
 impl<'a> Trail<'a> {
-    /// Returns the path of the value of a key in this object.
+    /// Returns the path of the value of the key `name` in the object at this path.
     pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
         Trail::Key(self, name)
     }
 
-    /// Returns the path of an entry of this list. `number` is counted from 0.
+    /// Returns the path of an entry of the list at this path. `number` is the index of the entry, counted from 0.
     pub(super) fn index(&'a self, number: usize) -> Trail<'a> {
         Trail::Index(self, number)
     }
 
-    /// True if the path ends with this key.
+    /// True if the last part of the path is the key `name`.
     pub(super) fn ends_in(&self, name: &str) -> bool {
         matches!(self, Trail::Key(_, key) if *key == name)
     }
 
-    /// Returns the path as an owned value.
+    /// Returns the trail as an owned [`Path`].
     pub(super) fn path(&self) -> Path {
         let mut segments = Vec::new();
         let mut here = self;

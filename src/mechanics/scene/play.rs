@@ -1,4 +1,4 @@
-//! Executes the steps of a scene file, one after the other, and makes a [`Frame`] of each.
+//! Executes the steps of a scene file one after the other, and creates a [`Frame`] after each step.
 //!
 //! The order within a step is: release, remove, place, hold, plan. If a step cannot be executed as written, the problem
 //! is reported, and the step is executed as it was most likely meant, so that one mistake gives only one problem.
@@ -40,7 +40,8 @@ impl StepContext<'_> {
     }
 }
 
-/// Returns the only frame of a scene without steps: all blocks are placed, and each robot holds its block.
+/// Returns the only frame of a scene without steps. All `blocks` are placed, and the robots hold the blocks given by
+/// `holds`.
 pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),
@@ -51,7 +52,8 @@ pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
     }
 }
 
-/// Executes the steps and returns one frame for each. Problems of a step are reported.
+/// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Stops early if the
+/// frames become too large in total.
 pub(super) fn frames(
     findings: &mut Findings,
     steps: &[StepEntry],

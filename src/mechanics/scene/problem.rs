@@ -1,4 +1,4 @@
-//! [`Problem`]: an error in a scene file, with its place, a message and a remedy.
+//! [`Problem`]: an error in a scene file, with its position, a message and a remedy.
 //!
 //! The files of this folder contain all messages of the scene module, one function for each. A message describes what
 //! was found and what to do about it.
@@ -65,7 +65,8 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// Creates an error with one problem, for text that could not be read as a scene. `span` is its range of bytes.
+    /// Creates an error with one problem, for a text that could not be read as a scene. `span` is the range of bytes in
+    /// which the problem lies.
     pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
         let problem = Problem::new(String::new(), Some(span), Some(source), wording);
         SceneError {
@@ -76,7 +77,8 @@ impl SceneError {
 }
 
 impl Problem {
-    /// Creates a problem with its place in the text. Without `span` and `source`, line and column are 0.
+    /// Creates a problem. Computes its line and column from the range of bytes `span` in the text `source`; without
+    /// these, both are 0.
     pub(super) fn new(
         path: String,
         span: Option<Range<usize>>,
@@ -142,7 +144,7 @@ pub(super) struct Wording {
 }
 
 impl Wording {
-    /// Adds a place in the structure, in the units of the file, to the message.
+    /// Adds the point of the structure at which the problem lies, in the units of the file.
     pub(super) fn at(self, place: Place) -> Wording {
         Wording {
             place: Some(place),
@@ -150,14 +152,15 @@ impl Wording {
         }
     }
 
-    /// Returns the message, and the remedy or hint.
+    /// Returns the message, and the text on what to do about it.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
     }
 }
 
 fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
-    // Messages quote names and other text of the file. A line break in them must not begin a new line of output.
+    // Messages quote names and other text from the file. A line break in such text must not start a new line in the
+    // output.
     Wording {
         code,
         message: crate::text::line(&message.into()),
@@ -166,7 +169,8 @@ fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wordi
     }
 }
 
-/// Formats a number for messages: six digits, with a power of ten if it is very large or small.
+/// Formats a number for messages with six significant digits. A very large or small number is written with a power of
+/// ten.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
@@ -195,7 +199,7 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
-/// Shortens a text so that it fits into a sentence.
+/// Shortens a text of more than 40 characters to 38, the last of which is "…".
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_string()
@@ -204,7 +208,7 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// Joins the items to a list with "or": "a, b or c".
+/// Joins the items to a text such as "a, b or c".
 pub(super) fn choice(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();
     match items.split_last() {

@@ -1,4 +1,5 @@
-//! Converts text, or a [`SceneFile`] built in code, to a checked [`Scene`] or to the list of all its problems.
+//! Converts text, or a [`SceneFile`] built in code, to a checked [`Scene`]. If the scene is not valid, returns all its
+//! problems.
 //!
 //! A text is read once, into a syntax tree. The scene file is made from that tree. A value that does not fit is
 //! reported and left out. All other values are still checked.
@@ -40,7 +41,8 @@ impl Scene {
         Scene::from_json_within(text, None)
     }
 
-    /// Reads and checks a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of the file.
+    /// Reads and checks a scene file, like [`Scene::from_json`]. If `tolerance` is given, in metres and at least 0, it
+    /// replaces the contact tolerance of the file.
     ///
     /// # Errors
     /// The same errors as [`Scene::from_json`].
@@ -69,8 +71,8 @@ impl Scene {
         Scene::from_slice_within(bytes, None)
     }
 
-    /// Reads and checks the bytes of a scene file. The contact tolerance (metres, at least 0) replaces the tolerance of
-    /// the file.
+    /// Reads and checks the bytes of a scene file, like [`Scene::from_slice`]. If `tolerance` is given, in metres and
+    /// at least 0, it replaces the contact tolerance of the file.
     ///
     /// # Errors
     /// The same errors as [`Scene::from_slice`].
@@ -82,8 +84,8 @@ impl Scene {
         }
     }
 
-    /// Starts a scene in code. The methods have the names of the keys of the scene file, and
-    /// [`build`](SceneFile::build) finishes the scene.
+    /// Starts a scene that is built in code. The methods of [`SceneFile`] have the names of the keys of a scene file.
+    /// The last one, [`build`](SceneFile::build), checks the scene and returns it.
     ///
     /// # Example
     /// ```
@@ -113,7 +115,7 @@ impl Scene {
         SceneFile::default()
     }
 
-    /// Checks a scene that was built in code.
+    /// Checks a scene file that was built in code, and converts it to a scene.
     ///
     /// # Errors
     /// All problems of the scene, each with its path.
@@ -133,7 +135,8 @@ impl Scene {
     }
 }
 
-/// Reads the scene file from a syntax tree. Also returns all problems, and the parts that could not be read.
+/// Reads the scene file from the syntax tree of `source`. Returns the file, all problems found, and the parts that
+/// could not be read.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
     let mut reader = Reader::new(source);
     let file = match &source.tree {

@@ -34,8 +34,8 @@ const GRAVITY: Pair = [0.0, -9.81];
 
 /// Returns the scene that a file describes, or all problems that were found.
 ///
-/// If parts of the file could not be read, the scene is incomplete, and the list of problems may be empty. The caller
-/// must then not use the scene.
+/// If parts of the file could not be read, the result may be an incomplete scene or an empty list of problems. The
+/// caller must then not use the scene.
 pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec<Finding>> {
     let mut findings = Findings::doubting(doubt);
     findings.units = file.units.unwrap_or_default();
@@ -78,7 +78,8 @@ struct MaterialValues {
 }
 
 impl<'f> Resolution<'f> {
-    /// Reads the values for the whole file. The outlines of shapes come last because they need the lattice.
+    /// Resolves the values that apply to the whole file, such as gravity, the lattice, materials and shapes. The
+    /// outlines of shapes come last because they need the lattice.
     fn new(findings: &mut Findings, file: &'f SceneFile) -> Resolution<'f> {
         let top = Trail::Top;
         let (gravity, kernel) = general_values(findings, file);
@@ -115,7 +116,8 @@ impl<'f> Resolution<'f> {
         resolution
     }
 
-    /// Returns the scene if all its bodies are valid. The calls are in the order in which problems are listed.
+    /// Returns the scene; `None` if one of its bodies is not valid. Problems are reported in the order of the calls
+    /// below.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let names = self.body_names(findings);
@@ -158,7 +160,7 @@ impl<'f> Resolution<'f> {
             loads,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
-            // A listed contact acts at one point, so it is a corner contact.
+            // A listed contact is a single point, so it transmits force in the same way as a corner contact.
             corner_contacts: self.file.corner_contacts.unwrap_or(false) || !contacts.is_empty(),
             contacts,
             frames,
@@ -168,7 +170,7 @@ impl<'f> Resolution<'f> {
         })
     }
 
-    /// Returns the names of blocks and robots, to which robots, loads and steps refer.
+    /// Returns the names of all blocks and robots. Contacts, robots, loads and steps refer to them.
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
         let hidden = |list: &str, ids: &[String]| findings.doubt.hides_names(list, ids.len());
         BodyNames {
@@ -185,7 +187,8 @@ impl<'f> Resolution<'f> {
         }
     }
 
-    /// Executes the steps and returns their frames. A file without steps gives one frame with all blocks.
+    /// Executes the steps and returns the frame after each of them. A file without steps gives one frame with all
+    /// blocks.
     fn frames(
         &self,
         findings: &mut Findings,
@@ -208,7 +211,7 @@ impl<'f> Resolution<'f> {
             let holds = grips.iter().enumerate().filter_map(holds).collect();
             return vec![play::whole(centroids.len(), holds)];
         }
-        // The frames after a step that could not be read are unknown.
+        // If a step could not be read, the frames from this step on are unknown. Execute only the steps before it.
         let known = (findings.doubt.first_entry("steps"))
             .unwrap_or(usize::MAX)
             .min(self.file.steps.len());
@@ -221,7 +224,7 @@ impl<'f> Resolution<'f> {
         play::frames(findings, &self.file.steps[..known], &context)
     }
 
-    /// Returns the overlaps that are small enough to be allowed, and reports all others.
+    /// Returns the overlaps of bodies that are small enough to be allowed. Reports all other overlaps.
     fn penetrations(
         &self,
         findings: &mut Findings,
@@ -230,7 +233,8 @@ impl<'f> Resolution<'f> {
         frames: &[Frame],
         closeness: &Closeness,
     ) -> Vec<Penetration> {
-        // If the steps could not be read, it is unknown which blocks are present at the same time.
+        // If the steps could not be read, it is unknown which blocks are present at the same time. Do not report
+        // overlaps then.
         if findings.doubt.touches_key("steps") && self.file.steps.is_empty() {
             return Vec::new();
         }
@@ -258,7 +262,8 @@ struct BodyNames<'s> {
     robots: Names<'s>,
 }
 
-/// Checks the format version. Returns gravity in m/s² and the kernel.
+/// Checks the version of the scene format, gravity and the safety kernel. Returns gravity in m/s² and the safety
+/// kernel.
 fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     let top = Trail::Top;
     if file.drystone.0 != 1 {
@@ -293,7 +298,7 @@ fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names
     (materials, shapes)
 }
 
-/// Returns the codes of the notes that the file silences. Reports unknown codes.
+/// Returns the codes of the notes that the file switches off. Reports unknown codes.
 fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
     let top = Trail::Top;
     let list = top.key("silence");

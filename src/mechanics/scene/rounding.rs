@@ -1,4 +1,4 @@
-//! Estimates the rounding error of coordinates from the digits in the file.
+//! Estimates the rounding error of coordinates from the digits with which the file writes them.
 //!
 //! Only digits are used. If most coordinates end at the same decimal, the file was rounded to this decimal. If all
 //! numbers are 32-bit floats, they were computed or stored as such floats. Otherwise no rounding is assumed.
@@ -27,7 +27,8 @@ pub(super) struct Rounding {
     pub(super) error: f64,
 }
 
-/// Estimates the rounding of the coordinates in a file. `None` if the digits do not show any rounding.
+/// Estimates how the coordinates in a file are rounded, and the largest error that this causes. `None` if the digits do
+/// not show any rounding.
 pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     let mut digits = Digits::default();
     let mut reach = 0.0_f64;
@@ -45,15 +46,15 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
     for (polygon, holes, at, angle) in entries {
         ring(polygon.as_deref().unwrap_or_default());
         holes.iter().for_each(|hole| ring(hole));
-        // Positions on a lattice are whole steps and therefore not used here.
+        // If the scene has a grid, `at` counts lattice steps, not lengths, so it is not used here.
         if file.grid.is_none() {
             ring(at.as_slice());
         }
         turns.take(angle.unwrap_or(0.0));
     }
     let mut found = digits.rounding()?;
-    // Coordinates with three decimals may come with angles in whole degrees. An angle with more decimals was rounded
-    // itself.
+    // Angles with three decimals or more were probably rounded. Add the error that this causes at the farthest
+    // coordinate. Angles with fewer decimals count as exact, such as whole degrees.
     if let Some(k) = (turns.decimals.last(SHARE, turns.count)).filter(|k| *k >= 3) {
         found.error += (0.5 * power(k)).to_radians() * reach;
     }
@@ -76,12 +77,12 @@ struct Digits {
     narrow: String,
 }
 
-/// Returns the number of significant digits in the shortest notation of a number, and the number of digits after the
-/// decimal point. The second number is negative for a multiple of ten: −2 for 300. `None` if the notation needs more
-/// than 12 decimals or 15 digits.
+/// Returns two numbers about the shortest decimal notation of `x`: how many significant digits it has, and how many
+/// digits after the decimal point. The second number is negative for a multiple of ten: −2 for 300. `None` if the
+/// notation needs more than 12 decimals or 15 digits.
 ///
-/// No two decimals of at most 15 digits round to the same double. The first decimal that is found is therefore the
-/// shortest.
+/// Two different decimal numbers with at most 15 digits never round to the same double. The first decimal number that
+/// matches is therefore the shortest.
 fn few_digits(x: f64) -> Option<(usize, i64)> {
     let mut power = 1.0;
     for behind in 0..=FULL as i64 {
@@ -102,7 +103,7 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
     None
 }
 
-/// Writes a number with the smallest number of digits that identifies it.
+/// Writes a number into `text`, with as few digits as identify this number. Replaces the previous content.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
     // Writing to a `String` cannot fail.
@@ -122,8 +123,8 @@ impl Table {
         self.0[digits.min(MOST - 1)] += 1;
     }
 
-    /// Returns the largest number of digits that occurs. `None` if fewer than the fraction `share` of `count` numbers
-    /// have that many digits, or if it is above [`FULL`].
+    /// Returns the largest number of digits that occurs in the table. `None` if fewer than the fraction `share` of
+    /// `count` numbers have that many digits, or if it exceeds [`FULL`].
     fn last(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;
@@ -136,7 +137,7 @@ impl Table {
 }
 
 impl Digits {
-    /// Counts the digits of a number. Zeros are skipped, because every notation gives them exactly.
+    /// Adds the digits of a number to the counts. Zeros are skipped, because every notation gives them exactly.
     fn take(&mut self, x: f64) {
         if x == 0.0 || !x.is_finite() {
             return;
@@ -152,7 +153,8 @@ impl Digits {
             .add(usize::try_from(behind.max(0)).unwrap_or(MOST));
         self.significant.add(digits);
         let narrow = x as f32;
-        // Every number with at most six digits is the shortest notation of some 32-bit float.
+        // Every number with at most six digits is the shortest notation of some 32-bit float, so only longer numbers
+        // are tested.
         if !self.wide && digits > 6 && f64::from(narrow) != x {
             write_shortly(&mut self.text, x);
             write_shortly(&mut self.narrow, narrow);
@@ -175,13 +177,13 @@ impl Digits {
             }
             return Some(found);
         }
-        // A number with seven digits is always the shortest notation of some 32-bit float. A number with eight digits
-        // hardly ever is by chance.
+        // A number with seven digits is always the shortest notation of some 32-bit float, so it proves nothing. For a
+        // number with eight digits this is rarely a coincidence.
         let long = self.significant.at_least(7) as f64 >= SHARE * self.count as f64;
         if !self.wide && long && self.significant.at_least(8) > 0 {
             return Some(Rounding {
                 source: ToleranceSource::Float32,
-                // Double the error, because the coordinates may have been computed from other 32-bit floats.
+                // Double the error, because the coordinates may be results of calculations with other 32-bit floats.
                 error: 2.0 * float,
             });
         }

@@ -1,4 +1,4 @@
-//! Gives the built-in shapes of the triangular lattice as sets of cells.
+//! The built-in shapes of the triangular lattice, as sets of lattice cells.
 //!
 //! Each shape is a set of whole cells. Its origin is a lattice point, so that it can be rotated by 60° and moved by
 //! lattice steps without leaving the lattice. The centroids of the links are not lattice points, so their origins are
@@ -21,9 +21,9 @@ const DOWN: CellShape = CellShape::Down;
 /// The names of the built-in shapes.
 pub const BUILT_IN: [&str; 6] = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
 
-/// Returns the cells of a built-in shape about its origin.
+/// Returns the lattice cells of the built-in shape with this name, relative to its origin.
 ///
-/// `None` for any other name.
+/// `None` if no built-in shape has this name.
 ///
 /// ```
 /// use drystone::scene::shape;

@@ -1,4 +1,5 @@
-//! [`Sketch`]: the drawable parts of a scene file, valid or not, and the places of its problems.
+//! [`Sketch`]: the bodies of a scene file that can be drawn, even if the scene is not valid, and the points at which
+//! its problems lie.
 //!
 //! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
@@ -38,7 +39,8 @@ pub struct Spot {
 }
 
 impl Sketch {
-    /// Reads the bytes of a scene file as a sketch. A contact tolerance in metres replaces the tolerance of the file.
+    /// Reads the bytes of a scene file as a sketch. If `tolerance` is given, in metres, it replaces the contact
+    /// tolerance of the file.
     ///
     /// # Example
     /// ```
@@ -101,8 +103,8 @@ impl Sketch {
     }
 }
 
-/// Returns the id of the body that contains the value at a path such as `blocks[3].polygon[1]`. `None` if the path is
-/// not in a body.
+/// Returns the id of the body to which the value at a path such as `blocks[3].polygon[1]` belongs. `None` if the value
+/// does not belong to a body.
 fn body_of(path: &str) -> Option<BodyId> {
     let (list, rest) = path.split_once('[')?;
     let number = rest.split_once(']')?.0.parse().ok()?;

@@ -1,4 +1,4 @@
-//! [`Source`]: the text of a scene file, with the position of every value.
+//! [`Source`]: the text of a scene file, with the position of every value in the text.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// Parses a text. The error contains the byte at which the text is not JSON.
+    /// Parses a JSON text. The error contains the byte at which the text is not JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {
@@ -45,7 +45,8 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// Returns the line and column of a byte, counted from 1. The column counts characters.
+    /// Returns the line and the column in which the byte with this index lies. Both are counted from 1, the column in
+    /// characters.
     pub(super) fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.line(byte);
         let start = self.lines[line - 1];
@@ -53,12 +54,12 @@ impl<'t> Source<'t> {
         (line, before.chars().count() + 1)
     }
 
-    /// Returns the line of a byte, counted from 1.
+    /// Returns the line in which the byte with this index lies, counted from 1.
     pub(super) fn line(&self, byte: usize) -> usize {
         self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
-    /// Returns the position of the first byte of each entry of a top-level list.
+    /// Returns the index of the first byte of each entry in the top-level list with the key `list`.
     pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
         let items = self.tree.as_ref().and_then(|tree| {
             let NodeKind::Object(top) = &tree.root.kind else {
@@ -73,8 +74,8 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// Returns the range of bytes of the value or key with this path, but only the part on its first line. If the text
-    /// does not contain the whole path, returns the range of the deepest value that it contains.
+    /// Returns the range of bytes of the value or key at this path. Only the part on the first line of the value is
+    /// returned. If the text does not contain the whole path, returns the range of the deepest value that it contains.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
@@ -83,7 +84,7 @@ impl<'t> Source<'t> {
                 (Segment::Index(number), NodeKind::List(list)) => tree.items(list).get(*number),
                 (Segment::Key(key), NodeKind::Object(object)) => {
                     let entries = tree.entries(object);
-                    // If a key occurs twice, mark the second one.
+                    // If a key occurs more than once, mark its last occurrence.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
                     let entry = if last {
@@ -106,8 +107,8 @@ impl<'t> Source<'t> {
         Some(self.first_line(node.range.clone()))
     }
 
-    /// Returns the part of a range on its first line. If a block of twenty lines were marked, the message would be hard
-    /// to find.
+    /// Returns the part of a range of bytes that lies on its first line. A marked value of twenty lines would hide the
+    /// message.
     fn first_line(&self, range: Range<usize>) -> Range<usize> {
         let text = self.text.get(range.clone()).unwrap_or("");
         let line = text.split('\n').next().unwrap_or("").trim_end();

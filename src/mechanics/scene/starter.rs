@@ -1,6 +1,6 @@
-//! The example scenes that `drystone new` writes.
+//! The example scenes from which users can start; `drystone new` writes them.
 
-/// Returns a small example as the text of a scene file. It stands in every step and can be extended.
+/// Returns a small example as the text of a scene file. Its structure stands after every step. Users can extend it.
 ///
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
@@ -11,7 +11,8 @@ pub fn starter() -> &'static str {
     include_str!("../../../assets/starter.json")
 }
 
-/// Returns the same example with one more step, in which a block tips over because a robot releases it too early.
+/// Returns the example of [`starter`] with one more step, in which a block tips over because a robot releases it too
+/// early.
 ///
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::falling_starter())?;

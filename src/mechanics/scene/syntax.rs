@@ -1,4 +1,4 @@
-//! Messages about text that is not JSON.
+//! Chooses the message and the place for the error in a text that is not JSON.
 
 use std::ops::Range;
 
@@ -6,20 +6,20 @@ use super::problem::{self, SceneError, Wording};
 use super::source::Source;
 use super::tree::{SyntaxError, Why};
 
-/// Makes the error for text that is not JSON.
+/// Returns the error for a text that is not JSON, with the place and the reason.
 pub(super) fn problem(text: &str, fault: SyntaxError) -> SceneError {
     let source = Source::plain(text);
     let (span, wording) = explain(&source, fault);
     SceneError::of_text(&source, span, wording)
 }
 
-/// Makes the error for bytes that are not UTF-8. `valid` is the number of valid bytes at the start.
+/// Returns the error for bytes that are not UTF-8. The first `valid` bytes are UTF-8.
 pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let text = String::from_utf8_lossy(bytes);
     let source = Source::plain(&text);
     let utf16 = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let byte = bytes.get(valid).copied().unwrap_or(0);
-    // The text ends with a replacement character at the invalid byte. Before it, text and bytes agree.
+    // The text contains a replacement character in place of the invalid byte. Up to there, text and bytes agree.
     SceneError::of_text(
         &source,
         one(&text, valid),
@@ -27,7 +27,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     )
 }
 
-/// Returns the range of bytes of the character that begins at a byte.
+/// Returns the range of bytes of the character that begins at the byte with the index `byte`.
 fn one(text: &str, byte: usize) -> Range<usize> {
     let length = text[byte..].chars().next().map_or(0, char::len_utf8);
     byte..byte + length
@@ -68,7 +68,7 @@ fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
     }
 }
 
-/// Chooses the place and the message for an unexpected character.
+/// Chooses the range of bytes to mark, and the message, for an unexpected character.
 fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usize>, Wording) {
     let token = token(text, fault.at);
     if let Some(wording) = known_token(&text[token.clone()]) {
@@ -89,8 +89,8 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usiz
     (here, wording)
 }
 
-/// Returns the range of the first line that a version control system wrote to mark a conflict. A line of seven equal
-/// signs alone is not such a mark.
+/// Returns the range of the first line that a version control system wrote to mark a merge conflict. A line of seven
+/// equal signs alone does not count.
 fn conflict(text: &str) -> Option<Range<usize>> {
     let is_mark = |line: &&str| line.starts_with(['<', '>']) && crate::text::is_conflict_mark(line);
     let line = text.lines().find(is_mark)?;
@@ -98,7 +98,8 @@ fn conflict(text: &str) -> Option<Range<usize>> {
     Some(start..start + line.len())
 }
 
-/// Returns the first line that looks like YAML, TOML or XML, and the name of that format.
+/// If the first line of a text looks like YAML, TOML or XML, returns its range of bytes and the name of the format.
+/// Blank lines and lines that begin with `#` are skipped.
 fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     let line = text
         .split('\n')
@@ -136,7 +137,8 @@ fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     found.map(|range| (range, format))
 }
 
-/// Makes the message about a word or number that another language would accept, such as `None` or `NaN`.
+/// Returns the message about a word or number that is not JSON but that another language would accept, such as `None`
+/// or `NaN`. `None` if `found` is not such a word or number.
 fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {
@@ -158,7 +160,7 @@ fn known_token(found: &str) -> Option<Wording> {
     (digits && !sound).then(|| problem::text::odd_number(found))
 }
 
-/// Returns the range of the word or number around a byte.
+/// Returns the range of bytes of the word or number around the byte with the index `byte`.
 fn token(text: &str, byte: usize) -> Range<usize> {
     let part = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
     let length = |all: &mut dyn Iterator<Item = char>| all.map(char::len_utf8).sum::<usize>();

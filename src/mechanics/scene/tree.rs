@@ -41,7 +41,7 @@ impl<'t> Tree<'t> {
 pub(super) struct List(Range<usize>);
 
 impl List {
-    /// Returns the number of entries.
+    /// Returns the number of entries in the list.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
@@ -124,7 +124,7 @@ pub(super) enum Why {
     Behind,
 }
 
-/// Parses a text that contains one JSON value.
+/// Parses a text that must contain exactly one JSON value.
 pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     let mut reader = Parser {
         text,
@@ -176,7 +176,8 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Makes the error `why` at the current byte. At the end of the text, the error says that the text ends too early.
+    /// Returns the error `why` at the current byte. If the text ends here, the error says instead that the text ends
+    /// too early.
     fn fault(&self, why: Why) -> SyntaxError {
         let why = match self.peek() {
             None => Why::End(self.open.last().copied()),
@@ -266,8 +267,8 @@ impl<'t> Parser<'t> {
         self.at += 1;
     }
 
-    /// Reads the separator after a value in a list or object. True if a comma and another entry follow, false at the
-    /// closing bracket.
+    /// Reads what follows a value in a list or object. True if it is a comma and another entry, false if it is the
+    /// closing bracket `close`.
     fn another(&mut self, close: char) -> Result<bool, SyntaxError> {
         self.blanks();
         let comma = self.at;

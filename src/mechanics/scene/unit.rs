@@ -27,7 +27,7 @@ impl Unit {
 
     /// Converts a value from the SI unit to this unit.
     pub(crate) fn value_from_si(&self, value: f64) -> f64 {
-        // In an SI unit, the value stays exactly as it is.
+        // In an SI unit, return the value bit for bit.
         if self.size == 1.0 {
             value
         } else {
@@ -48,7 +48,7 @@ impl From<&'static str> for Unit {
 }
 
 impl LengthUnit {
-    /// Returns the symbol of the unit, the symbol of its square, and its length in metres.
+    /// Returns the symbol of the unit, the symbol of its square, and the size of the unit in metres.
     fn parts(self) -> (&'static str, &'static str, f64) {
         match self {
             LengthUnit::Metre => ("m", "m²", 1.0),
@@ -73,7 +73,7 @@ impl ForceUnit {
 }
 
 impl UnitsEntry {
-    /// Returns the unit of lengths.
+    /// Returns the unit of length; metres if the file gives none.
     pub fn length(&self) -> Unit {
         let (symbol, _, size) = self.length.unwrap_or_default().parts();
         Unit {
@@ -83,7 +83,7 @@ impl UnitsEntry {
         }
     }
 
-    /// Returns the unit of forces and weights.
+    /// Returns the unit of forces and weights; newtons if the file gives none.
     pub fn force(&self) -> Unit {
         let (symbol, size) = self.force.unwrap_or_default().parts();
         Unit {
@@ -115,7 +115,7 @@ impl UnitsEntry {
     }
 }
 
-/// Converts a scene from the units of its file to metres and newtons. Weights are in newtons already.
+/// Converts a scene from the units of its file to metres and newtons. The weights are in newtons already.
 pub(super) fn to_si(scene: &mut Scene) {
     let [length, force, torque] = [
         scene.units.length().size,
@@ -144,8 +144,8 @@ pub(super) fn to_si(scene: &mut Scene) {
     let lattice = scene.lattice.filter(|_| scene.exact);
     for body in grounds.chain(blocks) {
         convert(body, length);
-        // All modules compute the corners of cells from the lattice. They are computed again here, so that they have
-        // the same rounding.
+        // All modules compute the corners of lattice cells with the converted lattice. Compute these corners in the
+        // same way, so that they are rounded in the same way.
         let cells = body.cells.as_ref().zip(lattice);
         if let Some(polygon) = cells.and_then(|(cells, lattice)| lattice.polygon(cells)) {
             body.polygon = polygon;

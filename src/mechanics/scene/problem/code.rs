@@ -1,4 +1,4 @@
-//! [`Code`]: a fixed word for each kind of problem, for programs that sort or count problems.
+//! [`Code`]: the kinds of problems. Each kind has a fixed word, so that programs can sort or count problems.
 
 /// Declares an enum of codes, each with its word and its meaning.
 macro_rules! codes {
@@ -14,14 +14,14 @@ macro_rules! codes {
             /// Every code, in the order of the documentation.
             pub const ALL: &'static [$name] = &[$($name::$variant),*];
 
-            /// Returns the fixed word of the code, as in JSON.
+            /// Returns the fixed word that stands for the code in JSON.
             pub fn word(self) -> &'static str {
                 match self {
                     $($name::$variant => $word,)*
                 }
             }
 
-            /// Returns the meaning of the code as a phrase.
+            /// Returns a short description of what the code means.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $($name::$variant => $meaning,)*

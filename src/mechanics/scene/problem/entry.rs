@@ -1,4 +1,4 @@
-//! The messages about keys and values that do not fit the format.
+//! Messages about keys and values that do not fit the format of a scene file.
 
 use super::{Code, Wording, choice, say, shortened};
 use crate::text::nearest;
@@ -19,7 +19,7 @@ pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) ->
     )
 }
 
-/// Returns the remedy for a value of a wrong type. Where possible, the remedy shows the text to write in the file.
+/// Returns the remedy for a value of the wrong type. Where possible, the remedy shows the text to write in the file.
 fn help(expected: &str, found: &str) -> String {
     let (is_number, is_text) = (
         found.starts_with("the number "),
@@ -34,7 +34,7 @@ fn help(expected: &str, found: &str) -> String {
             format!("write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block")
         }
         "a number" if is_text => "write a number without a unit: metres, newtons, kilograms, degrees, or the `units` of the file".into(),
-        // The format has only one whole number: its version.
+        // Only one value of the format must be a whole number: its version.
         "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {
             format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
@@ -76,7 +76,7 @@ pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     )
 }
 
-/// Writes a small number as a word, and a larger number in digits.
+/// Returns a count as text: a small count as a word, a larger count in digits.
 fn count(n: usize) -> String {
     match n {
         0 => "none".into(),
@@ -122,7 +122,8 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     )
 }
 
-/// Returns the key of this format that means the same as a key of other programs; `None` if no such key is known.
+/// Returns the key of the scene format with the same meaning as `key`, which other programs use; `None` if no such key
+/// is known.
 fn synonym(key: &str) -> Option<&'static str> {
     Some(match key.to_lowercase().as_str() {
         "mu" | "μ" | "friction_coefficient" => "friction",
@@ -153,7 +154,7 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
     )
 }
 
-/// Makes the message about a key that occurs twice in an object built in code.
+/// Returns the message about a key that occurs twice in an object built in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
     say(
         Code::DuplicateKey,

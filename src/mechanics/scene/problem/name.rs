@@ -1,4 +1,4 @@
-//! The messages about names and ids.
+//! Messages about names and ids that are unknown, reserved, empty or used twice.
 
 use super::{Code, Wording, say, shortened};
 use crate::text::nearest;

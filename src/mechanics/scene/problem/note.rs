@@ -1,9 +1,9 @@
-//! The messages of notes.
+//! Messages of notes, which point out input that is allowed but probably not intended.
 
 use super::{Code, Wording, digits, pair, say, shortened};
 
-/// Makes the message of a note. The message needs a problem code, but the code is never shown, because notes have their
-/// own codes.
+/// Creates the wording of a note. A wording needs a problem code, but this code is never shown, because notes have
+/// codes of their own.
 fn note(message: String, hint: impl Into<String>) -> Wording {
     say(Code::OutOfRange, message, hint)
 }

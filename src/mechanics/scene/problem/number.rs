@@ -1,4 +1,4 @@
-//! The messages about numbers and colours.
+//! Messages about invalid numbers and colours.
 
 use crate::scene::format::UnitsEntry;
 
@@ -28,7 +28,7 @@ pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntr
     )
 }
 
-/// Returns the remedy for a number that is too large or too small: to check its unit.
+/// Returns the remedy for a number that is too large or too small: it asks the author to check the units.
 fn check_units(units: UnitsEntry) -> String {
     format!(
         "check the units: {}, kilograms, {}",

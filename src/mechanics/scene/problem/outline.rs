@@ -1,4 +1,4 @@
-//! The messages about outlines, cells and overlaps.
+//! Messages about outlines and cells that are not valid, and about bodies that overlap.
 
 use std::fmt;
 
@@ -187,11 +187,11 @@ pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> W
 pub(in crate::mechanics::scene) struct Common {
     /// How far one body must move so that they no longer overlap, in the units of the file.
     pub(in crate::mechanics::scene) depth: f64,
-    /// The common area, m².
+    /// The common area, in the squared unit of length of the file.
     pub(in crate::mechanics::scene) area: f64,
-    /// Its centroid.
+    /// The centroid of the common area, in the units of the file.
     pub(in crate::mechanics::scene) at: Point,
-    /// Whether it is so small that the bodies were probably meant to touch.
+    /// Whether the overlap is so small that the bodies were probably meant to touch.
     pub(in crate::mechanics::scene) may_be_meant: bool,
 }
 
@@ -208,7 +208,7 @@ pub(in crate::mechanics::scene) fn overlap(
         depth, area, at, ..
     } = common;
     let help = "move them apart until they only touch".to_owned();
-    // Round up, so that the suggested tolerance is sufficient.
+    // Round the depth up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
     say(
         Code::Overlap,

@@ -1,4 +1,4 @@
-//! The messages about steps that are not possible.
+//! Messages about steps of the assembly that cannot be executed.
 
 use super::{Code, Wording, say, shortened};
 

@@ -1,4 +1,4 @@
-//! The messages about text that is not JSON.
+//! Messages about text that is not JSON.
 
 use super::{Code, Wording, say, shortened};
 

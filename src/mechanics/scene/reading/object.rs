@@ -83,7 +83,7 @@ const CELL: &str = "[x, y, \"up\"], [x, y, \"down\"] or [x, y]";
 
 type R<'s, 't> = Reader<'s, 't>;
 
-/// Reads the whole file. A value that does not fit the format is reported and left out.
+/// Reads the whole scene file. A value that does not fit the format is reported and left out.
 pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
     let at = &Trail::Top;
     let Some(o) = r.object(node, at, SCENE) else {
@@ -150,7 +150,7 @@ fn holes<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Vec<Vec<Pa
 
 fn cells<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec<CellEntry>> {
     let list = r.optional(o, at, "cells", |r, n, at| {
-        // A cell that cannot be read makes its whole body unreadable, so any value can stand in for it.
+        // If a cell cannot be read, its body counts as unreadable. Any value can therefore take the place of this cell.
         r.entries(n, at, |r, n, at| cell(r, n, at).map(Some))
     })?;
     let read = |cell: Option<CellEntry>| cell.unwrap_or(CellEntry::Square(0.0, 0.0));

@@ -1,7 +1,7 @@
-//! [`Reader`]: reads values of the types of a scene file from the syntax tree.
+//! [`Reader`]: reads the values of a scene file, such as numbers, points and lists, from the syntax tree.
 //!
-//! A value that does not fit is reported with what was expected and what was found, and then treated as absent. Its
-//! place is recorded as unreadable, so that problems that only follow from its absence are not reported.
+//! A value that does not fit is reported, with what was expected and what was found, and then treated as absent. Its
+//! path is recorded as unreadable, so that problems that only follow from its absence are not reported.
 
 use std::collections::BTreeMap;
 
@@ -29,8 +29,8 @@ pub(super) struct Object<'n, 't> {
 }
 
 impl<'n, 't> Object<'n, 't> {
-    /// Returns the value of a key; `None` if the object has no such key. If the key occurs twice, returns the first
-    /// value.
+    /// Returns the value of the key `key`; `None` if the object has no such key. If the key occurs twice, returns its
+    /// first value.
     fn get(self, key: &str) -> Option<&'n Node<'t>> {
         let found = self.entries.iter().find(|e| e.name == key);
         found.map(|e| &e.value)
@@ -61,7 +61,8 @@ impl<'s, 't> Reader<'s, 't> {
 
     fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
-            // A file with so many problems is not read any further.
+            // The list of problems is full. Treat the whole file as unreadable, so that no further problems are
+            // reported.
             self.doubt.paths = vec![Trail::Top.path()];
             return;
         }
@@ -91,7 +92,7 @@ impl<'s, 't> Reader<'s, 't> {
         self.misfit(at, Mark::Value, wording);
     }
 
-    /// Describes a value for messages.
+    /// Describes a value for messages, such as "the number 5" or "an object".
     fn found(&self, node: &Node<'_>) -> String {
         match &node.kind {
             NodeKind::Null => "null".into(),
@@ -136,7 +137,8 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// Reads a string that must be one of some fixed words. Returns the value that belongs to the word.
+    /// Reads a string that must be one of the words in `choices`, and returns the value of that word. Reports any other
+    /// value and returns `None`.
     pub(super) fn choice<T: Copy>(
         &mut self,
         node: &Node<'_>,
@@ -160,8 +162,8 @@ impl<'s, 't> Reader<'s, 't> {
         chosen
     }
 
-    /// Reads two numbers. If there are three, as for a point in space, the error is reported and the first two are
-    /// used.
+    /// Reads a point or vector [x, y]. If the list has more than two numbers, reports the error and returns the first
+    /// two.
     pub(super) fn pair(
         &mut self,
         node: &Node<'_>,
@@ -243,7 +245,8 @@ impl<'s, 't> Reader<'s, 't> {
         Some(Object { entries })
     }
 
-    /// Reads the value of an optional key. `null` counts as absent.
+    /// Reads the value of an optional key with the function `read`. Returns `None` if the key is absent or its value is
+    /// `null`.
     pub(super) fn optional<T>(
         &mut self,
         object: Object<'_, 't>,
@@ -258,7 +261,7 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
-    /// Reads the value of a required key.
+    /// Reads the value of a required key with the function `read`. Reports a missing key and returns `None`.
     pub(super) fn required<T>(
         &mut self,
         object: Object<'_, 't>,
@@ -274,7 +277,8 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// Reads the list of a key; empty if the key is absent.
+    /// Reads the list that is the value of `key`, each entry with the function `read`. The result is empty if the key
+    /// is absent.
     pub(super) fn list<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -287,8 +291,8 @@ impl<'s, 't> Reader<'s, 't> {
             .unwrap_or_default()
     }
 
-    /// Reads all entries of a list. An entry that does not fit is replaced by an empty one, so that the other entries
-    /// keep their numbers.
+    /// Reads all entries of a list with the function `read`. An entry that does not fit is replaced by the default
+    /// value, so that the other entries keep their indices.
     pub(super) fn entries<T: Default>(
         &mut self,
         node: &Node<'t>,
@@ -307,7 +311,8 @@ impl<'s, 't> Reader<'s, 't> {
         Some(list)
     }
 
-    /// Reads the object of a key as a map of names; empty if the key is absent.
+    /// Reads the object that is the value of `key` as a map from names to values. If a name occurs twice, only the
+    /// first entry counts. The map is empty if the key is absent.
     pub(super) fn map<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -337,7 +342,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 }
 
-/// Finds the entries whose key occurred before. Each is returned with the first entry that has the same key.
+/// Returns the entries whose key occurred before, each together with the first entry that has the same key.
 fn repeated<'n, 't>(
     entries: &'n [Entry<'t>],
 ) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {

@@ -180,7 +180,7 @@ impl Resolution<'_> {
             .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
             .unwrap_or(self.density);
         let weighs_by_area = weight.is_none() && mass.is_none();
-        // The weight is in newtons. The area and the thickness are in the units of the file.
+        // Compute the weight in newtons. The given weight, the area and the thickness are in the units of the file.
         let [length, force] = [self.units.length().size, self.units.force().size];
         let volume = || area * self.thickness * (length * length * length);
         let weight = match weight {
@@ -202,8 +202,8 @@ impl Resolution<'_> {
 }
 
 impl Resolution<'_> {
-    /// Makes a block that has a centre and no outline in the file. `weight` is in newtons. Returns `None` if the block
-    /// is not valid.
+    /// Creates a block from an entry that gives its centre instead of an outline. `weight` is in newtons. Returns
+    /// `None` if the block is not valid.
     fn schematic_block(
         &self,
         findings: &mut Findings,

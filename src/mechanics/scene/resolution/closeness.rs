@@ -37,14 +37,15 @@ impl Closeness {
         }
     }
 
-    /// True if the file or the caller gives the tolerance.
+    /// True if the file or the caller gives the contact tolerance, so that it is not estimated.
     pub(super) fn is_given(&self) -> bool {
         self.reach.source == ToleranceSource::Given
     }
 }
 
 impl Resolution<'_> {
-    /// Determines the tolerance and heals the bodies with it. Bodies on a lattice stay as they are.
+    /// Determines the contact tolerance, and heals the bodies with it. Bodies are not changed if all of them consist of
+    /// lattice cells, or if the file lists the contacts.
     pub(super) fn heal(
         &self,
         findings: &mut Findings,
@@ -56,7 +57,7 @@ impl Resolution<'_> {
         let exact = self.lattice.is_some() && bodies.all(|body| body.cells.is_some());
         let given = self.file.contact_tolerance;
         let given = at_least_zero(findings, &Trail::Top, "contact_tolerance", given);
-        // The digits of coordinates are not needed on a lattice or if a tolerance is given.
+        // Estimate the rounding of the coordinates, unless the contacts are exact or the tolerance is given.
         let rounding = match exact || given.is_some() {
             true => None,
             false => rounding::of(self.file),

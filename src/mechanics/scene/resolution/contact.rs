@@ -15,13 +15,13 @@ const SIGN: f64 = 0.03;
 const DISC: usize = 8;
 
 impl Resolution<'_> {
-    /// True if the file lists contacts, or has a block without an outline. Contacts are then not searched, and bodies
-    /// are used as written.
+    /// True if the file lists its contacts, or has a block without an outline. Contacts are then not computed from
+    /// outlines, and bodies are not healed.
     pub(super) fn has_schematic_bodies(&self) -> bool {
         !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
     }
 
-    /// Returns the listed contacts that are valid. Reports the problems of the others.
+    /// Returns the valid contacts of those that the file lists. Reports the problems of all others.
     pub(super) fn contacts(
         &self,
         findings: &mut Findings,
@@ -54,7 +54,7 @@ impl Resolution<'_> {
             };
             let (sin, cos) = sin_cos_degrees(entry.normal);
             let normal = Vector::new(cos, sin);
-            // The two bodies are in the order of every interface: the later block first, the ground last.
+            // Put the two bodies in the order that all interfaces have: the later block first, the ground last.
             let (bodies, normal) = match a > b {
                 true => ([a, b], normal),
                 false => ([b, a], -normal),
@@ -69,8 +69,8 @@ impl Resolution<'_> {
         contacts
     }
 
-    /// Gives each block without an outline the convex hull of its contacts and a small disc around its centre. If the
-    /// scene has no ground, adds a small support behind each contact with the ground.
+    /// Gives each block without an outline a schematic outline: the convex hull of its contacts and of a small disc
+    /// around its centre. If the scene has no ground, adds a small support behind each contact with the ground.
     pub(super) fn add_schematic_outlines(
         &self,
         ground: &mut Vec<Option<Ground>>,
@@ -105,8 +105,8 @@ impl Resolution<'_> {
         }
     }
 
-    /// Makes a schematic support for a contact with the ground at the point `at`. The support lies opposite to the
-    /// direction of `normal`, and its width is twice `size`.
+    /// Returns a schematic support for a contact with the ground at the point `at`. The support lies on the side away
+    /// from `normal`, and its width is twice `size`.
     fn support(&self, at: Point, normal: Vector, size: f64) -> Body {
         let along = quarter_turn(normal) * size;
         let back = normal * (-0.8 * size);
@@ -114,7 +114,7 @@ impl Resolution<'_> {
         self.schematic(corners)
     }
 
-    /// Makes a schematic body. Its outline is the convex hull of the corners.
+    /// Returns a schematic body, whose outline is the convex hull of `corners`.
     pub(super) fn schematic(&self, corners: Vec<Point>) -> Body {
         Body {
             polygon: Polygon::from_valid_rings(vec![hull(corners)]),
@@ -129,7 +129,7 @@ impl Resolution<'_> {
     }
 }
 
-/// Returns the corners of the convex hull, anticlockwise.
+/// Returns the corners of the convex hull of some points, anticlockwise.
 fn hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();

@@ -1,4 +1,4 @@
-//! Resolves the lists of a file that bodies refer to: materials, friction pairs and shapes. Also checks the ids of
+//! Resolves the lists to which the bodies of a file refer: materials, friction pairs and shapes. Also checks the ids of
 //! blocks and robots.
 
 use std::collections::BTreeMap;
@@ -14,8 +14,8 @@ use crate::scene::path::Trail;
 use crate::scene::{problem, shape};
 
 impl Resolution<'_> {
-    /// Returns the outlines of the file's shapes, then those of the built-in shapes. An outline that is not valid is
-    /// `None`.
+    /// Returns the outlines of the file's shapes, followed by those of the built-in shapes. An outline is `None` if it
+    /// is not valid, or if it is built in and the scene has no triangular lattice.
     pub(super) fn shape_outlines(&self, findings: &mut Findings) -> Vec<Option<Outline>> {
         let top = Trail::Top;
         let list = top.key("shapes");
@@ -56,7 +56,8 @@ impl Resolution<'_> {
         outlines
     }
 
-    /// Returns the friction coefficients between pairs of materials. A pair has the numbers of its two materials.
+    /// Returns the friction coefficients that the file gives for pairs of materials. Each pair contains the indices of
+    /// the two materials.
     pub(super) fn friction_pairs(&self, findings: &mut Findings) -> Vec<([usize; 2], f64)> {
         let top = Trail::Top;
         let list = top.key("friction_pairs");
@@ -100,7 +101,7 @@ impl Resolution<'_> {
     }
 }
 
-/// Returns the density, friction coefficient and colour of each material.
+/// Returns the density, friction coefficient and colour that each material gives. Reports invalid values.
 pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<MaterialValues> {
     let top = Trail::Top;
     let list = top.key("materials");
@@ -119,7 +120,8 @@ pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<
     values
 }
 
-/// Reports ids that are used twice, empty or reserved.
+/// Reports ids in a list of the file that are used twice, empty or reserved. `given` contains, for each id, whether the
+/// file gives it; the other ids are defaults.
 fn ids(
     findings: &mut Findings,
     list: &Trail<'_>,

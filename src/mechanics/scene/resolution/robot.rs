@@ -1,4 +1,4 @@
-//! Resolves robots and loads.
+//! Resolves robots and loads: checks their numbers and finds the blocks to which they refer.
 
 use super::Resolution;
 use crate::geometry::{Point, Vector};

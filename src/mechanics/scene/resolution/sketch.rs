@@ -1,4 +1,4 @@
-//! Finds the outlines of all bodies of a scene file that can be drawn, even if the outlines are not valid.
+//! Finds the outlines of all bodies in a scene file that can be drawn, even if these outlines are not valid.
 
 use super::Resolution;
 use super::body::BodyEntry;
@@ -39,8 +39,8 @@ impl Placement {
     }
 }
 
-/// Returns all bodies that can be drawn, the ground first. Also returns the scene if all its bodies are valid; they may
-/// still overlap.
+/// Returns all bodies that can be drawn, the ground first. Also returns the scene if all its bodies are valid; the
+/// bodies may still overlap.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
     doubt: UnreadParts,
@@ -94,7 +94,8 @@ impl Resolution<'_> {
         }
     }
 
-    /// Returns the rings of a body as written, moved to the body's position. Rings that cannot be drawn are left out.
+    /// Returns the outline and holes of a body as written, rotated and moved to the body's position. Rings that cannot
+    /// be drawn are left out.
     fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use super::{Parser, SyntaxError, Why};
 
 impl<'t> Parser<'t> {
-    /// Reads a string and resolves its escapes. A string without escapes is borrowed from the text.
+    /// Reads a JSON string and replaces its escape sequences. A string without escape sequences is borrowed from the
+    /// text.
     pub(super) fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
         let quote = self.at;
         self.at += 1;
@@ -35,7 +36,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// Makes the error for a text that ends within a string.
+    /// Returns the error for a text that ends within a string. `quote` is the byte at which the string begins.
     fn cut(&self, quote: usize) -> SyntaxError {
         SyntaxError {
             at: self.at,
@@ -78,7 +79,7 @@ impl<'t> Parser<'t> {
         Ok(c)
     }
 
-    /// Reads four hexadecimal digits.
+    /// Reads the four hexadecimal digits of a `\u` escape sequence and returns their value.
     fn hex(&mut self, quote: usize, start: usize) -> Result<u32, SyntaxError> {
         let mut code = 0;
         for _ in 0..4 {
