@@ -177,7 +177,7 @@ fn unknown_names_and_keys() {
         "keys.json",
         &text,
         "check keys.json",
-        "there are more problems than the 2000 listed",
+        "there are more problems than the 2000 in this list",
     );
 }
 

@@ -61,7 +61,7 @@ fn internal_fault() -> Problem {
         message:
             "an internal error of the program occurred on this scene; the scene itself may be correct"
                 .into(),
-        help: "please report it with the scene".into(),
+        help: "please report this error together with the scene".into(),
         place: None,
     }
 }

@@ -373,7 +373,7 @@ impl Scene {
     pub fn tolerance_words(&self) -> Option<String> {
         let from: String = match self.healed.source {
             ToleranceSource::Lattice => return None,
-            ToleranceSource::Given => "as given".into(),
+            ToleranceSource::Given => "the given tolerance".into(),
             ToleranceSource::Decimals(1) => "coordinates with 1 decimal".into(),
             ToleranceSource::Decimals(k) => format!("coordinates with {k} decimals"),
             ToleranceSource::Digits(n) => format!("coordinates with {n} digits"),
@@ -399,7 +399,7 @@ impl Scene {
             format!("edges touch within {gap:.2e} {unit}, a millionth of the scene's extent")
         } else if within < gap {
             format!(
-                "edges touch within {gap:.2e} {unit}, a millionth of the scene's extent, and are joined within {within:.2e} {unit} ({from})"
+                "edges touch within {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"
             )
         } else {
             format!("edges touch within {gap:.2e} {unit} ({from})")

@@ -25,8 +25,8 @@ codes! {
     UnusedBlock "unused_block" "a block that no step places or plans",
     DefaultDensity "default_density" "blocks whose weight comes from the default density, 1 kg/m³",
     NoGround "no_ground" "a scene without ground",
-    NearMiss "near_miss" "edges that nearly touch, with a gap of up to 1 % of a block",
-    AngleRadians "angle_radians" "an angle that is a multiple of 15°, up to a full turn, in radians with three decimals or more",
+    NearMiss "near_miss" "edges that nearly touch: the gap between them is up to 1 % of the size of a block",
+    AngleRadians "angle_radians" "an angle that is probably a multiple of 15° given in radians, with three decimals or more",
 }
 
 /// Something that is allowed but probably not intended.
@@ -61,7 +61,7 @@ impl Note {
             line,
             message: crate::text::line(message),
             hint: crate::text::line(&format!(
-                "{hint}; if it is meant: \"silence\": [\"{code}\"]"
+                "{hint}; if the input is intended, add \"silence\": [\"{code}\"] to the scene"
             )),
         }
     }

@@ -54,7 +54,7 @@ impl ListEntry {
 ///     { "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]] },
 ///     { "id": "b", "polygon": [[1, 0], [4, 0], [4, 1], [1, 1]] }] }"#, None);
 /// let svg = output::svg::write(&figure::broken(&sketch, &figure::Options::default()));
-/// assert!(svg.contains("overlap 1 m deep"));
+/// assert!(svg.contains("overlap by 1 m"));
 /// ```
 pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     let theme = &options.theme;

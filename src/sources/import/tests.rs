@@ -160,7 +160,7 @@ fn blocks_in_each_other_are_refused_with_their_elements() {
     assert!(
         refusal.problems[0]
             .message
-            .contains("block `a` and the ground's rect \"ground\" overlap 1 m deep, 3 m² in all"),
+            .contains("block `a` and the ground's rect \"ground\" overlap by 1 m, with a common area of 3 m²"),
         "{}",
         refusal.problems[0].message
     );

@@ -112,7 +112,7 @@ fn a_verdict_that_hinges_on_a_slight_overlap_is_not_given_silently() {
     assert_eq!(judged(&file(0.003, Some(0.00303))).0, Verdict::Stable);
     for (depth, tolerance) in [(0.003, Some(1e-4)), (0.02, None)] {
         let problems = Scene::from_json(&file(depth, tolerance).to_string()).unwrap_err();
-        let deep = format!("overlap {depth} m deep");
+        let deep = format!("overlap by {depth} m,");
         assert!(problems.to_string().contains(&deep), "{problems}");
     }
     let problems = Scene::from_json(&file(0.003, Some(1e-4)).to_string()).unwrap_err();

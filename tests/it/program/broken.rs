@@ -22,10 +22,10 @@ fn a_refused_scene_is_drawn_with_its_problems_and_ends_with_2() {
     fs::write(bench.path("door.json"), doorway("")).expect("written");
     let ran = bench.run("render --broken door.json -o door.svg");
     assert_eq!(ran.code, 2, "{}", ran.err);
-    assert!(ran.err.contains("overlap 0.195 m deep"), "{}", ran.err);
+    assert!(ran.err.contains("overlap by 0.195 m,"), "{}", ran.err);
     let svg = fs::read_to_string(bench.path("door.svg")).expect("drawn all the same");
     assert!(svg.contains("By hand: refused, with 2 problems"));
-    for told in ["overlap 0.195 m deep", "overlap 0.3 m deep", "0.0050 m"] {
+    for told in ["overlap by 0.195 m,", "overlap by 0.3 m,", "0.0050 m"] {
         assert!(svg.contains(told), "{told}");
     }
     for mark in ["mark 1", "mark 2", "mark 3"] {

@@ -120,7 +120,7 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
     assert_eq!(overlap.code, 2);
     assert!(
         overlap.err.contains(
-            "overlap.svg: rect \"b\": block `b` and block `a` overlap 5 m deep, 150 m² in all"
+            "overlap.svg: rect \"b\": block `b` and block `a` overlap by 5 m, with a common area of 150 m²"
         ),
         "{}",
         overlap.err

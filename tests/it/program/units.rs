@@ -135,7 +135,7 @@ fn problems_name_the_units_of_the_file() {
         .expect_err("overlap")
         .to_string();
     assert!(
-        problems.contains("overlap 1000 mm deep, 3000000 mm² in all"),
+        problems.contains("overlap by 1000 mm, with a common area of 3000000 mm²"),
         "{problems}"
     );
     file["units"] = json!({ "length": "furlong" });

@@ -27,19 +27,19 @@ fn help(expected: &str, found: &str) -> String {
     );
     match expected {
         "a point [x, y]" if is_number => {
-            "write points in brackets: an outline is [[x, y], [x, y], …], and a list of holes one level deeper".into()
+            "write each point in brackets: an outline is [[x, y], [x, y], …], and `holes` is a list of outlines".into()
         }
         "a vector [x, y]" if is_number => {
             let size = found.trim_start_matches("the number ").trim_start_matches('-');
             format!("write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block")
         }
-        "a number" if is_text => "write a number without a unit: metres, newtons, kilograms, degrees, or the `units` of the file".into(),
+        "a number" if is_text => "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`".into(),
         // Only one value of the format must be a whole number: its version.
         "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {
             format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
         }
-        "a list" if found == "an object" => "write it in brackets, [{…}]".into(),
+        "a list" if found == "an object" => "write a list in brackets: [{…}]".into(),
         _ => format!("write {expected} here"),
     }
 }
@@ -54,7 +54,7 @@ pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) ->
 
 pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]: a scene has two dimensions: x to the right and y up",
+        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
         _ => "write [x, y]",
     };
     say(
@@ -66,7 +66,7 @@ pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
 
 pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]: a scene has two dimensions: x to the right and y up",
+        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
         _ => "write [x, y]",
     };
     say(
@@ -111,7 +111,7 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
             "joints are dry: they transmit pressure and friction, but no tension; remove the key"
                 .into()
         }
-        Some(near) if meant.is_some() => format!("it is called `{near}` here"),
+        Some(near) if meant.is_some() => format!("the key is called `{near}` here"),
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
     };
@@ -150,7 +150,7 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
             "the key `{}` occurs twice; first in line {line}, column {column}",
             shortened(key)
         ),
-        "remove one of the two",
+        "remove one of the two keys",
     )
 }
 
@@ -159,7 +159,7 @@ pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
     say(
         Code::DuplicateKey,
         format!("the key `{}` occurs twice", shortened(key)),
-        "remove one of the two",
+        "remove one of the two keys",
     )
 }
 
@@ -179,7 +179,7 @@ pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
 pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {
     say(
         Code::UnknownChoice,
-        "a contact of a body with itself",
+        "both bodies of the contact are the same body",
         "name two different bodies; `ground` is the ground",
     )
 }

@@ -33,7 +33,7 @@ pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) 
     say(
         Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
-        "see the first problem of this kind for the known names",
+        "the first problem of this kind lists the known names or the nearest one",
     )
 }
 
@@ -80,6 +80,6 @@ pub(in crate::mechanics::scene) fn pair_twice(names: &[String; 2], first: usize)
             shortened(&names[0]),
             shortened(&names[1])
         ),
-        "remove one of the two; the order of the names does not matter",
+        "remove one of the two entries; the order of the names does not matter",
     )
 }

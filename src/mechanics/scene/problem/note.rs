@@ -31,7 +31,7 @@ pub(in crate::mechanics::scene) fn grip_outside(
             digits(distance),
             shortened(block)
         ),
-        "give a point of the block, or leave `at` out for its centroid",
+        "give a point inside the block, or leave out `at` to use the centroid of the block",
     )
 }
 
@@ -48,15 +48,15 @@ pub(in crate::mechanics::scene) fn load_outside(
             digits(distance),
             shortened(block)
         ),
-        "give a point of the block, or leave `at` out for its centroid",
+        "give a point inside the block, or leave out `at` to use the centroid of the block",
     )
 }
 
 pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> Wording {
     let hint = if no_steps {
-        "give the block that it `holds`, or remove the robot"
+        "give the robot a block that it `holds`, or remove the robot"
     } else {
-        "let it `hold` a block in a step, or remove the robot; in a scene with `steps`, `holds` is ignored"
+        "let the robot `hold` a block in a step, or remove the robot; in a scene with `steps`, `holds` is ignored"
     };
     note(
         format!("the robot `{}` never holds a block", shortened(robot)),
@@ -67,7 +67,7 @@ pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> 
 pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
     note(
         format!("no step places the block `{}`", shortened(block)),
-        "add it to `place` of a step, or remove it",
+        "add the block to `place` of a step, or remove the block",
     )
 }
 
@@ -91,8 +91,8 @@ pub(in crate::mechanics::scene) fn default_density(
 
 pub(in crate::mechanics::scene) fn no_ground() -> Wording {
     note(
-        "the scene has no ground, so only robots can hold anything".into(),
-        "add a `ground` of one polygon or more",
+        "the scene has no ground, so only robots can support the blocks".into(),
+        "add at least one polygon to `ground`",
     )
 }
 

@@ -23,7 +23,7 @@ pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
     say(
         Code::TooLarge,
-        format!("the number {} is beyond ±{}", digits(x), digits(largest)),
+        format!("the number {} exceeds the limit of ±{}", digits(x), digits(largest)),
         check_units(units),
     )
 }
@@ -41,7 +41,7 @@ pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry
     say(
         Code::TooSmall,
         format!(
-            "the number {} is within ±{} of 0",
+            "the number {} is not 0, but smaller than the limit of ±{}",
             digits(x),
             digits(smallest)
         ),
@@ -58,7 +58,7 @@ pub(in crate::mechanics::scene) fn tiny_extent(
     say(
         Code::TooSmall,
         format!(
-            "its extent is {} {unit}, less than {} {unit}",
+            "the extent is {} {unit}, which is less than the limit of {} {unit}",
             digits(extent),
             digits(smallest)
         ),
@@ -80,7 +80,7 @@ pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
     say(
         Code::OutOfRange,
-        format!("the kernel {} is outside 0 … 1", digits(x)),
+        format!("the kernel {} is not between 0 and 1", digits(x)),
         "give the fraction of each contact that must stay free of force: 0 for none, 0.2 for a fifth",
     )
 }
@@ -88,8 +88,8 @@ pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
     say(
         Code::OutOfRange,
-        format!("the grid's side {} is not more than 0", digits(x)),
-        "give the edge length of a cell",
+        format!("the side {} of the grid is not positive", digits(x)),
+        "give the edge length of a cell, more than 0",
     )
 }
 
@@ -97,7 +97,7 @@ pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wordi
     say(
         Code::TooLarge,
         format!(
-            "the block's weight would be {} N, more than {} N",
+            "the block's weight would be {} N, more than the limit of {} N",
             digits(weight),
             digits(largest)
         ),

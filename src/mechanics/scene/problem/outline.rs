@@ -51,7 +51,7 @@ pub(in crate::mechanics::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wo
     say(
         Code::CrossingOutline,
         format!("{a} meets {b} at {}", point(at)),
-        "list the corners in order around the outline, without crossing or touching it; corners count from 0",
+        "list the corners in order around the outline, so that no sides cross or touch; corners are counted from 0",
     )
 }
 
@@ -66,16 +66,16 @@ pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
 pub(in crate::mechanics::scene) fn no_outline() -> Wording {
     say(
         Code::NoOutline,
-        "it has no `polygon`, no `cells` and no `shape`",
-        "give one of the three",
+        "the body has no `polygon`, no `cells` and no `shape`",
+        "give one of these three keys",
     )
 }
 
 pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
     say(
         Code::MissingKey,
-        "it has a `centre`, but no `mass` and no `weight`",
-        "give one of the two; without an outline no weight follows from a density",
+        "the block has a `centre`, but no `mass` and no `weight`",
+        "give `mass` or `weight`; a density is not enough without an outline",
     )
 }
 
@@ -83,15 +83,15 @@ pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
     say(
         Code::NoOutline,
         "the shape has no `polygon` and no `cells`",
-        "give one of the two",
+        "give `polygon` or `cells`",
     )
 }
 
 pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wording {
     say(
         Code::TwoOutlines,
-        format!("it has both `{first}` and `{second}`"),
-        "give one of the two",
+        format!("the keys `{first}` and `{second}` are both given"),
+        "give only one of these two keys",
     )
 }
 
@@ -99,7 +99,7 @@ pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
     say(
         Code::HolesWithoutPolygon,
         "`holes` need a `polygon`",
-        "give the outline as `polygon`, or remove `holes`; in a body of cells, a hole is a cell left out",
+        "give the outline as `polygon`, or remove `holes`; in a body of cells, leave out cells to make a hole",
     )
 }
 
@@ -147,14 +147,14 @@ pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
     say(
         Code::DuplicateCell,
         format!("the cell is listed twice; first as number {first}, counting from 0"),
-        "remove one of the two",
+        "remove one of the two cells",
     )
 }
 
 pub(in crate::mechanics::scene) fn cells_apart() -> Wording {
     say(
         Code::CellsApart,
-        "the cells are not all connected by edges",
+        "the cells are not all connected by common edges",
         "make each connected part a separate block",
     )
 }
@@ -163,14 +163,14 @@ pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
     say(
         Code::OffLattice,
         format!("{} is not a lattice point", pair(p)),
-        "cells lie at whole numbers; a polygon may lie anywhere",
+        "cells need whole numbers as coordinates; a polygon may have any coordinates",
     )
 }
 
 pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
     say(
         Code::TooLarge,
-        format!("{} is beyond ±{} lattice steps", pair(p), digits(reach)),
+        format!("{} exceeds the limit of ±{} lattice steps", pair(p), digits(reach)),
         "move the scene towards the origin",
     )
 }
@@ -207,13 +207,13 @@ pub(in crate::mechanics::scene) fn overlap(
     let Common {
         depth, area, at, ..
     } = common;
-    let help = "move them apart until they only touch".to_owned();
+    let help = "move the bodies apart until they only touch".to_owned();
     // Round the depth up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
     say(
         Code::Overlap,
         format!(
-            "{a} and {b} overlap {} {unit} deep, {} {unit}² in all, around {}{when}",
+            "{a} and {b} overlap by {} {unit}, with a common area of {} {unit}², around {}{when}",
             digits(*depth),
             digits(*area),
             point(*at)
@@ -229,7 +229,7 @@ pub(in crate::mechanics::scene) fn overlap(
 pub(in crate::mechanics::scene) fn more_overlaps(listed: usize) -> Wording {
     say(
         Code::MoreProblems,
-        format!("there are more overlaps than the {listed} listed"),
-        "correct these first",
+        format!("there are more overlaps than the {listed} in this list"),
+        "correct the listed overlaps first",
     )
 }

@@ -6,7 +6,7 @@ pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wordin
     say(
         Code::TooManySteps,
         format!("the frames of {steps} steps contain more than {most} blocks in total"),
-        "remove steps, or write several scenes",
+        "use fewer steps, or split the scene into several scenes",
     )
 }
 
@@ -19,14 +19,14 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
     say(
         Code::PlacedTwice,
         format!("the block `{}` is already placed, {when}", shortened(block)),
-        "place a block once; `remove` it first to place it again",
+        "place each block only once; to place a block again, `remove` it first",
     )
 }
 
 pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
     say(
         Code::NotPlaced,
-        format!("the block `{}` is removed but not placed", shortened(block)),
+        format!("the block `{}` is removed, but it is not placed", shortened(block)),
         "remove only blocks that an earlier step placed",
     )
 }
@@ -40,7 +40,7 @@ pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wor
             shortened(robot)
         ),
         format!(
-            "add \"{}\" to `release` of this step or an earlier one",
+            "add \"{}\" to `release` of this step or of an earlier step",
             shortened(robot)
         ),
     )
@@ -55,7 +55,7 @@ pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wo
             shortened(block)
         ),
         format!(
-            "add \"{}\" to `place` of this step or an earlier one",
+            "add \"{}\" to `place` of this step or of an earlier step",
             shortened(block)
         ),
     )
@@ -68,7 +68,7 @@ pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &st
         format!(
             "the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"
         ),
-        format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
+        format!("a robot can hold only one block; add \"{robot}\" to `release` of this step first"),
     )
 }
 

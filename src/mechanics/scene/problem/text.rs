@@ -18,8 +18,8 @@ pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
 pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
     say(
         Code::MoreProblems,
-        format!("there are more problems than the {listed} listed"),
-        "correct these first; many may have one cause",
+        format!("there are more problems than the {listed} in this list"),
+        "correct the listed problems first; many may have the same cause",
     )
 }
 
@@ -69,7 +69,7 @@ pub(in crate::mechanics::scene) fn comment() -> Wording {
     say(
         Code::NotJson,
         "JSON has no comments",
-        "remove the comment; `title` holds text for people",
+        "remove the comment; the key `title` can hold a text for people",
     )
 }
 
@@ -84,7 +84,7 @@ pub(in crate::mechanics::scene) fn single_quotes() -> Wording {
 pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
     say(
         Code::NotJson,
-        "a comma after the last entry",
+        "there is a comma after the last entry",
         "remove the comma, or add the entry that follows it",
     )
 }
@@ -108,7 +108,7 @@ pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
 pub(in crate::mechanics::scene) fn too_deep() -> Wording {
     say(
         Code::NestedTooDeep,
-        "nested more than 127 deep",
+        "more than 127 brackets are open at once",
         "a scene needs no more than seven levels of brackets",
     )
 }
@@ -116,7 +116,7 @@ pub(in crate::mechanics::scene) fn too_deep() -> Wording {
 pub(in crate::mechanics::scene) fn open_string() -> Wording {
     say(
         Code::NotJson,
-        "a string holds a line break or another control character",
+        "a string contains a line break or another control character",
         "close the string on its line; write a line break as \\n and a tab as \\t",
     )
 }
@@ -133,7 +133,7 @@ pub(in crate::mechanics::scene) fn not_json(expected: &str) -> Wording {
     say(
         Code::NotJson,
         format!("this is not JSON: expected {expected}"),
-        "correct the text here, or shortly before",
+        "correct the text here, or shortly before this place",
     )
 }
 
@@ -141,7 +141,7 @@ pub(in crate::mechanics::scene) fn behind_the_end() -> Wording {
     say(
         Code::NotJson,
         "there is text after the end of the scene",
-        "remove the text after the scene's last bracket, or a bracket before it that is too many",
+        "remove the text after the last bracket of the scene, or a superfluous closing bracket before it",
     )
 }
 
@@ -164,16 +164,16 @@ pub(in crate::mechanics::scene) fn surrogate() -> Wording {
 pub(in crate::mechanics::scene) fn conflict() -> Wording {
     say(
         Code::NotJson,
-        "a merge has left two versions of the file here",
+        "a merge conflict has left two versions of the text here",
         "keep one version, and delete the lines that begin with <<<<<<<, ======= and >>>>>>>",
     )
 }
 
 pub(in crate::mechanics::scene) fn other_format(format: &str) -> Wording {
     let help = match format {
-        "XML" => "a scene is written as JSON; a drawing becomes one with `drystone import`",
+        "XML" => "a scene is written as JSON; `drystone import` converts a drawing to a scene",
         _ => {
-            "a scene is written as JSON, which begins with `{`; `drystone new` writes one to start from"
+            "a scene is written as JSON, which begins with `{`; `drystone new` writes a scene to start from"
         }
     };
     say(Code::OtherFormat, format!("this looks like {format}"), help)

@@ -170,7 +170,7 @@ fn contact<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Con
     let bodies = r.required(o, at, "bodies", |r, n, at| match &n.kind {
         NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
         _ => {
-            r.wrong(n, at, "a list of the names of two bodies");
+            r.wrong(n, at, "a list with the names of two bodies");
             None
         }
     });
@@ -221,7 +221,7 @@ fn friction_pair<'t>(
     let between = r.required(o, at, "between", |r, n, at| match &n.kind {
         NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
         _ => {
-            r.wrong(n, at, "a list of the names of two materials");
+            r.wrong(n, at, "a list with the names of two materials");
             None
         }
     });

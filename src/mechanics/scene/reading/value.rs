@@ -99,7 +99,7 @@ impl<'s, 't> Reader<'s, 't> {
             NodeKind::Flag(flag) => flag.to_string(),
             NodeKind::Number(_) => format!("the number {}", problem::shortened(self.written(node))),
             NodeKind::Text(text) => format!("the string \"{}\"", problem::shortened(text)),
-            NodeKind::List(list) => format!("a list of {}", list.len()),
+            NodeKind::List(list) => format!("a list of length {}", list.len()),
             NodeKind::Object(_) => "an object".into(),
         }
     }

@@ -145,7 +145,7 @@ fn what_the_page_says_is_refused_is_refused() {
         Claim(
             "by more than the `contact_tolerance` if it is given",
             sunk(0.15, given.clone()),
-            Refused("overlap", "0.15 m deep"),
+            Refused("overlap", "by 0.15 m,"),
         ),
         Claim(
             "bodies may overlap by as much",
