@@ -68,7 +68,8 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Returns coordinate `d` of the box's centre, multiplied by 2. The factor saves a division; callers allow for it.
+    /// Returns coordinate `d` of the box's centre, multiplied by 2. This saves a division, and the factor does not
+    /// matter for comparisons.
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }

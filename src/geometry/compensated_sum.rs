@@ -12,7 +12,7 @@ pub struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    /// Adds `value` to the sum, and its rounding error to the sum of the errors.
+    /// Adds `value` to the sum. The rounding error of this addition is kept separately.
     pub fn add(&mut self, value: f64) {
         // Two-sum: this formula gives the exact rounding error, whichever of the two numbers is larger.
         let sum = self.rounded + value;
@@ -21,7 +21,7 @@ impl CompensatedSum {
         self.rounded = sum;
     }
 
-    /// Adds the product `a * b` to the sum. The rounding error of the product is not lost.
+    /// Adds the product `a * b` to the sum. The rounding errors of the product and of the addition are kept separately.
     pub fn add_product(&mut self, a: f64, b: f64) {
         let product = a * b;
         self.add(product);

@@ -143,8 +143,8 @@ impl Clusters {
     }
 }
 
-/// Makes one node for each cluster. Returns the nodes, the bodies of all nodes in one list, and, at the number of each
-/// cluster's first corner, the index of its node.
+/// Makes one node for each cluster. Returns the nodes, the bodies of all nodes in one list, and a list of node indices:
+/// the entry at the first corner of a cluster is the index of the cluster's node.
 fn merge(
     corners: &[UnplacedCorner],
     joined: &Clusters,

@@ -43,8 +43,8 @@ impl Findings {
         }
     }
 
-    /// True if some part of the entry at `at` could not be read. An entry is an element of `blocks`, `materials` and so
-    /// on.
+    /// True if some part of the entry to which the path `at` belongs could not be read. An entry is an element of
+    /// `blocks`, `materials` and so on.
     pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
         // Test the common case first: the whole file could be read.
         !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())

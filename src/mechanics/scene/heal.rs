@@ -99,8 +99,8 @@ impl HealingReach {
         self.usual.max(self.healing)
     }
 
-    /// Returns the largest distance by which corners of a body may move. `size` is the size of the body in the same
-    /// unit.
+    /// Returns the largest distance by which corners of a body may move. `size` is the size of the body. Both are in
+    /// the unit of the corners.
     fn healing_of(self, size: f64) -> f64 {
         let part = match self.source {
             ToleranceSource::Given => MOST,
@@ -396,13 +396,13 @@ impl Scene {
             [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
         let unit = unit.symbol();
         let mut words = if within <= 0.0 {
-            format!("edges touch within {gap:.2e} {unit}, a millionth of the scene's extent")
+            format!("edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent")
         } else if within < gap {
             format!(
-                "edges touch within {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"
+                "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"
             )
         } else {
-            format!("edges touch within {gap:.2e} {unit} ({from})")
+            format!("edges touch within a distance of {gap:.2e} {unit} ({from})")
         };
         if corners > 0 {
             let of = if bodies == 1 { "body" } else { "bodies" };

@@ -1,4 +1,4 @@
-//! Estimates the rounding error of coordinates from the digits with which the file writes them.
+//! Estimates the rounding error of coordinates from their digits in the scene file.
 //!
 //! Only digits are used. If most coordinates end at the same decimal, the file was rounded to this decimal. If all
 //! numbers are 32-bit floats, they were computed or stored as such floats. Otherwise no rounding is assumed.

@@ -52,11 +52,11 @@ codes! {
     NotJson "not_json" "the text is not JSON at this place",
     WrongType "wrong_type" "the value has the wrong type, such as a string where a number is expected",
     WrongLength "wrong_length" "a list has too many or too few entries, such as a point with three coordinates",
-    UnknownKey "unknown_key" "the format has no such key here",
+    UnknownKey "unknown_key" "the format has no such key in this object",
     DuplicateKey "duplicate_key" "a key occurs twice in one object",
     MissingKey "missing_key" "a required key is missing",
     UnknownChoice "unknown_choice" "a word is not one of the allowed values",
-    UnknownVersion "unknown_version" "the version of the format is not known",
+    UnknownVersion "unknown_version" "the version of the scene format is not known",
     NotFinite "not_finite" "a number is infinite or not a number",
     TooLarge "too_large" "a number, a weight or a lattice coordinate is too large",
     TooSmall "too_small" "a number or an extent is not 0, but too small to calculate with",
@@ -86,7 +86,7 @@ codes! {
     NotPlaced "not_placed" "a block is removed or held although it is not placed",
     RemovedWhileHeld "removed_while_held" "a block is removed while a robot holds it",
     HoldsTwo "holds_two" "a robot takes hold of a block while it still holds another block",
-    MoreProblems "more_problems" "there are more problems than are listed",
+    MoreProblems "more_problems" "there are more problems than the list contains",
 }
 
 #[cfg(test)]

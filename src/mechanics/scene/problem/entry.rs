@@ -34,7 +34,7 @@ fn help(expected: &str, found: &str) -> String {
             format!("write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block")
         }
         "a number" if is_text => "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`".into(),
-        // Only one value of the format must be a whole number: its version.
+        // Only the version of the format is read as a whole number.
         "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {
             format!("write \"{}\", in quotes", found.trim_start_matches("the number "))

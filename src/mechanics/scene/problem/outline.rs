@@ -18,7 +18,7 @@ impl fmt::Display for Side {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the side from corner {} to {}",
+            "the side from corner {} to corner {}",
             self.corners[0], self.corners[1]
         )?;
         self.hole
@@ -67,7 +67,7 @@ pub(in crate::mechanics::scene) fn no_outline() -> Wording {
     say(
         Code::NoOutline,
         "the body has no `polygon`, no `cells` and no `shape`",
-        "give one of these three keys",
+        "give `polygon`, `cells` or `shape`",
     )
 }
 
@@ -91,7 +91,7 @@ pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wo
     say(
         Code::TwoOutlines,
         format!("the keys `{first}` and `{second}` are both given"),
-        "give only one of these two keys",
+        "give only one of the two keys",
     )
 }
 
@@ -219,7 +219,7 @@ pub(in crate::mechanics::scene) fn overlap(
             point(*at)
         ),
         if common.may_be_meant {
-            format!("{help}, or give \"contact_tolerance\": {enough} if they are meant to touch")
+            format!("{help}, or give \"contact_tolerance\": {enough} if the bodies are meant to touch")
         } else {
             help
         },
