@@ -396,7 +396,9 @@ impl Scene {
             [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
         let unit = unit.symbol();
         let mut words = if within <= 0.0 {
-            format!("edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent")
+            format!(
+                "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent"
+            )
         } else if within < gap {
             format!(
                 "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"

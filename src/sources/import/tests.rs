@@ -158,9 +158,9 @@ fn blocks_in_each_other_are_refused_with_their_elements() {
     assert_eq!(refusal.problems.len(), 1);
     assert_eq!(refusal.problems[0].element, "rect \"a\"");
     assert!(
-        refusal.problems[0]
-            .message
-            .contains("block `a` and the ground's rect \"ground\" overlap by 1 m, with a common area of 3 m²"),
+        refusal.problems[0].message.contains(
+            "block `a` and the ground's rect \"ground\" overlap by 1 m, with a common area of 3 m²"
+        ),
         "{}",
         refusal.problems[0].message
     );

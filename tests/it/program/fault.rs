@@ -39,7 +39,8 @@ fn is_reported(text: &str) -> bool {
     // Lines are broken to the width of the terminal.
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
-    text.contains("faulty.json") && text.contains("please report this error together with the scene")
+    text.contains("faulty.json")
+        && text.contains("please report this error together with the scene")
 }
 
 #[test]

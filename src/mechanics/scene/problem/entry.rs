@@ -54,7 +54,9 @@ pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) ->
 
 pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
+        3.. => {
+            "write [x, y]; a scene has only two dimensions: x points to the right, and y points up"
+        }
         _ => "write [x, y]",
     };
     say(
@@ -66,7 +68,9 @@ pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
 
 pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     let help = match found {
-        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
+        3.. => {
+            "write [x, y]; a scene has only two dimensions: x points to the right, and y points up"
+        }
         _ => "write [x, y]",
     };
     say(

@@ -23,7 +23,11 @@ pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
     say(
         Code::TooLarge,
-        format!("the number {} exceeds the limit of ±{}", digits(x), digits(largest)),
+        format!(
+            "the number {} exceeds the limit of ±{}",
+            digits(x),
+            digits(largest)
+        ),
         check_units(units),
     )
 }

@@ -170,7 +170,11 @@ pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
 pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
     say(
         Code::TooLarge,
-        format!("{} exceeds the limit of ±{} lattice steps", pair(p), digits(reach)),
+        format!(
+            "{} exceeds the limit of ±{} lattice steps",
+            pair(p),
+            digits(reach)
+        ),
         "move the scene towards the origin",
     )
 }
@@ -219,7 +223,9 @@ pub(in crate::mechanics::scene) fn overlap(
             point(*at)
         ),
         if common.may_be_meant {
-            format!("{help}, or give \"contact_tolerance\": {enough} if the bodies are meant to touch")
+            format!(
+                "{help}, or give \"contact_tolerance\": {enough} if the bodies are meant to touch"
+            )
         } else {
             help
         },

@@ -26,7 +26,10 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
 pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
     say(
         Code::NotPlaced,
-        format!("the block `{}` is removed, but it is not placed", shortened(block)),
+        format!(
+            "the block `{}` is removed, but it is not placed",
+            shortened(block)
+        ),
         "remove only blocks that an earlier step placed",
     )
 }
