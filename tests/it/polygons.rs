@@ -145,7 +145,7 @@ fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
     };
     let (falls, used) = captions(&block(1.0, 4.0));
     assert!(
-        falls.contains("The forces include those that are missing."),
+        falls.contains("These forces include the missing forces."),
         "{falls}"
     );
     assert_eq!(used, None);

@@ -299,7 +299,7 @@ fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
         "changed: right and lintel",
         "weight 11 N → 22 N",
         "centroid moved by (-1, 0) m",
-        "the same blocks in the same places",
+        "the blocks and their places are the same",
         "no force changed by over 5 %",
     ] {
         assert!(page.contains(words), "{words}");

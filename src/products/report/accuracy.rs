@@ -35,7 +35,7 @@ fn frames(study: &Study) -> String {
     }
 }
 
-/// Returns the first sentences of every page: the version, the number of frames, and which numbers depend on the
+/// Returns the introduction of an accuracy page: the version, the number of frames, and which numbers depend on the
 /// machine.
 pub fn heading(study: &Study) -> String {
     format!(
@@ -203,9 +203,10 @@ pub fn page(study: &Study) -> Result<String, ChartError> {
                 p { (heading(study)) }
                 (PreEscaped(picture))
                 p.small {
-                    "Errors are relative errors of the total force, or of the total sticking if a frame falls. The reference is "
-                    "computed in extended precision and certified by its own bound. A red cross marks at least one wrong "
-                    "verdict. The golden band is the Pareto front: no other method is both faster and more accurate."
+                    "Errors are relative errors of the total force, or of the total sticking if a frame falls. "
+                    "The reference values are computed in extended precision, with a certified bound on their error. "
+                    "A red cross marks at least one wrong verdict. "
+                    "The golden band is the Pareto front: no other method without wrong verdicts is both faster and more accurate."
                 }
                 h2 { "All frames together" }
                 (lines(&summary(study)))
@@ -253,7 +254,7 @@ fn frame(case: &Case) -> maud::Markup {
             }
             p.small {
                 @match (truth.verdict, truth.total) {
-                    (Verdict::Undecided, _) => { "No reference could be certified." }
+                    (Verdict::Undecided, _) => { "No reference value could be certified for this frame." }
                     (_, Some(total)) => { "Reference " (format!("{total:.15e}")) " N, certified to " (small(Some(truth.gap))) "." }
                     (_, None) => { "The verdict is certified; there is no finite total to compare." }
                 }

@@ -34,7 +34,8 @@ const WORD: &str = "drystone";
 #[error("{}", .0.join("\n\n"))]
 pub struct BookError(pub Vec<String>);
 
-/// Draws the scenes of a book. The input of an mdBook preprocessor is the JSON text `[context, book]`; the output is the book.
+/// Draws the scenes of a book. `input` is the JSON text `[context, book]` that mdBook gives to a preprocessor. Returns
+/// the JSON text of the book with figures.
 ///
 /// # Errors
 /// If the input is not the JSON of an mdBook preprocessor, or if scenes cannot be drawn. The error then gives
@@ -51,7 +52,7 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     let source = input[0]["config"]["book"]["src"].as_str().unwrap_or("src");
     let source = root.join(source);
     let Some(mut book) = input.get_mut(1).map(Value::take) else {
-        return Err(invalid("it has no book after the context"));
+        return Err(invalid("the JSON has no book after the context"));
     };
     let mut problems = Vec::new();
     // mdBook 0.5 uses the key `items` for the chapters, earlier versions use `sections`.
@@ -61,7 +62,7 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
         "sections"
     };
     let Some(items) = book.get_mut(key).and_then(Value::as_array_mut) else {
-        return Err(invalid("the book has no chapters"));
+        return Err(invalid("the JSON of the book has no list of chapters"));
     };
     for found in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
         chapter(found, &source, &mut problems);
@@ -88,8 +89,8 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// Returns the text of a chapter in which figures replace all drystone blocks. Adds blocks that cannot be drawn to
-/// `problems`.
+/// Returns the text of a chapter with a figure in place of each code block that begins with `drystone`. Adds a message
+/// to `problems` for each code block that cannot be drawn.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -129,8 +130,8 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     drawn
 }
 
-/// Returns the characters before every line of a block that begins at byte `start`: spaces and `>`. Without these
-/// characters, the block would leave its list or quotation.
+/// Returns the indentation of a code block that begins at byte `start`: the spaces and `>` before each of its lines.
+/// Without this indentation, the figure would leave the list or quotation that contains the code block.
 fn margin(content: &str, start: usize) -> String {
     let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
     let kept = |c: char| if c == '>' { c } else { ' ' };
@@ -170,7 +171,7 @@ impl FigureRequest {
                 ("width", value) => {
                     let width = value.parse().ok().filter(|w| (100.0..=4000.0).contains(w));
                     wanted.options.width =
-                        Some(width.ok_or("width= takes pixels, from 100 to 4000")?);
+                        Some(width.ok_or("width= must be a number of pixels from 100 to 4000")?);
                 }
                 ("amounts", "") => wanted.options.amounts = true,
                 ("nocaption", "") => wanted.caption = false,
@@ -234,11 +235,11 @@ fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, Strin
                 Some(id) => scene.blocks.iter().position(|b| b.id == *id),
                 None => (scene.blocks.len() == 1).then_some(0),
             };
-            let block = BlockId(block.ok_or("block= must name a block of the scene")?);
+            let block = BlockId(block.ok_or("block= must be the id of a block in the scene")?);
             let frame = scene.frames.iter().rposition(|f| f.placed.contains(&block));
             return frame
                 .and_then(|f| figure::freebody(analysis, f, block, &wanted.options))
-                .ok_or("the block is never placed".to_owned());
+                .ok_or("no step of the scene places this block".to_owned());
         }
         name => Kind::from_name(name).ok_or(format!(
             "there is no kind of figure {name:?}; known are {}, freebody",

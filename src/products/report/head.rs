@@ -42,7 +42,7 @@ pub struct Refused {
 }
 
 impl Refused {
-    /// Returns one line for each problem: its position, its message and its remedy.
+    /// Returns one line for each problem, with its position in the file, its message and its remedy.
     pub fn lines(&self) -> Vec<String> {
         let described = self.problems.iter().map(|problem| {
             let place = match (problem.line, problem.path.as_str()) {

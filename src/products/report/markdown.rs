@@ -18,7 +18,7 @@ fn folder(stem: &str) -> String {
     format!("{}-figures", slug(stem))
 }
 
-/// Writes the part above the scenes.
+/// Writes the part of a report above its scenes: title, summary, notes, invalid files, and the table of all scenes.
 pub(super) fn head(head: &Head<'_>) -> String {
     let mut out = format!("# {}\n\n{}.\n\n", markdown(head.title), head.summary);
     for note in head.notes {
@@ -78,7 +78,7 @@ pub(super) fn section(
     Ok((writer.out, writer.files))
 }
 
-/// Writes text as inline code. The code has more backticks around it than the text contains.
+/// Writes text as inline code. The fence around it has more backticks than any run of backticks in the text.
 fn code(words: &str) -> String {
     let words = text::line(words);
     let mut fence = "`".to_owned();
@@ -183,12 +183,12 @@ impl Writer {
     }
 }
 
-/// Draws a margin as a row of characters. The characters are full where the structure stands. A disc (inside) or a
-/// cross (outside) is at the present value.
+/// Draws a margin as a row of characters, with full blocks where the structure stands. At the present value is a disc
+/// if it is certainly inside, otherwise a cross.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
-        // A share is from 0 to 1.
+        // The cast cannot overflow: a share lies between 0 and 1.
         ((share * BAR as f64) as usize).min(BAR - 1)
     };
     let mut cells = ['─'; BAR];

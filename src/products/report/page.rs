@@ -166,7 +166,7 @@ impl Report {
         words
     }
 
-    /// Returns the part above the scenes.
+    /// Returns the content of the part above the scenes.
     fn head(&self) -> Head<'_> {
         Head {
             title: &self.title,
@@ -241,18 +241,18 @@ impl Body {
     }
 }
 
-/// Writes a report as PDF. Pages come before the scenes if there are several scenes, notes, or files that are not
-/// valid scenes.
+/// Writes a report as PDF. It begins with the summary and the contents, unless it has only one scene, no notes, and no
+/// files that are not valid scenes.
 fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, ReportError> {
     let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
-    // Placeholders for page numbers are sufficient here, because the page numbers do not change the length of the table
-    // of contents.
+    // Count the pages before the scenes. The page numbers in the contents are placeholders here, because they do not
+    // change the number of pages.
     let first = if is_short {
         0
     } else {
         print::head(head, &vec![999; scenes.len()]).len()
     };
-    // `starts` is indexed by the numbers of the scenes, because the scenes may have been sorted.
+    // Index `starts` by the numbers of the scenes, because the scenes may have been sorted.
     let mut starts = vec![0; scenes.len()];
     let mut next = first;
     for (row, pages) in head.rows.iter().zip(&scenes) {

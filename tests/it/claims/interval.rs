@@ -459,12 +459,12 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
 #[test]
 fn what_it_would_take_lies_on_the_right_side_of_the_end() {
     for (told, sentence) in scenes().iter().zip([
-        "It would fall at 3.82 times its loads.",
-        "It would stand at 1.34 times its loads.",
-        "It would fall below 0.301 times its loads.",
-        "It would stand at 0.327 of its loads.",
-        "No multiple of its loads makes it fall.",
-        "It falls whatever the factor on its loads.",
+        "The structure would fall at 3.82 times its loads.",
+        "The structure would stand at 1.34 times its loads.",
+        "The structure would fall below 0.301 times its loads.",
+        "The structure would stand at 0.327 times its loads.",
+        "The structure stands at every multiple of its loads.",
+        "The structure falls at every factor on its loads.",
     ]) {
         let has = told.page.contains(sentence);
         let is_loaded = !list(&told.file["loads"]).is_empty();
@@ -496,14 +496,14 @@ fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
     let (mut frictions, mut tilts) = (0, 0);
     for told in scenes() {
         let intervals = &told.frame["margins"]["intervals"];
-        let start = "It would fall with a friction coefficient below ";
+        let start = "The structure would fall with a friction coefficient below ";
         if let Some(found) = number_after(&told.page, start) {
             let low = number(&intervals["friction"][0]);
             let is_below = found <= low * (1.0 + 1e-6) && found >= 0.99 * low;
             assert!(is_below, "{found}: {low}");
             frictions += 1;
         }
-        let Some((_, turned)) = told.page.split_once("It would fall if gravity turned ") else {
+        let Some((_, turned)) = told.page.split_once("The structure would fall if gravity turned by ") else {
             continue;
         };
         let turned = &turned[..turned.find(". ").unwrap_or(turned.len())];

@@ -24,10 +24,10 @@ const WRONG: (f64, f64) = (600.0, 730.0);
 const UNDECIDED: (f64, f64) = (764.0, 894.0);
 /// Font size of names and numbers, and of explanations, pixels.
 const SIZES: (f64, f64) = (15.0, 13.0);
-/// Smaller errors are shown as this value, because they are rounding errors of f64.
+/// Errors below this value are drawn at this value, because they are rounding errors of f64.
 const LEAST: f64 = 1e-16;
 
-/// Draws a summary as SVG, with text as outlines. `frames` is the number of frames of the study.
+/// Draws the summary of a study as SVG, with text as outlines. `frames` is the number of frames of the study.
 ///
 /// # Errors
 /// [`OutlineError`] if the text cannot be laid out.
@@ -173,13 +173,14 @@ impl Page<'_> {
         place(error.clamp(LEAST, 1.0), (LEAST, 1.0), ERRORS)
     }
 
-    /// Returns the x coordinate of a tolerance in a group of columns, pixels. `column` is the index of the tolerance.
+    /// Returns the x coordinate, in pixels, of the column for one tolerance. `column` is the index of the tolerance,
+    /// and `from` and `to` are the x coordinates of the first and the last column.
     fn column(&self, column: usize, (from, to): (f64, f64)) -> f64 {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         from + (to - from) * column as f64 / last
     }
 
-    /// Returns the index of the tolerance of a summary line.
+    /// Returns the index, in `tolerances`, of the tolerance of a summary line.
     fn place(&self, line: &Summary) -> usize {
         let found = self.tolerances.iter().position(|t| *t == line.tolerance);
         found.unwrap_or(0)
@@ -239,7 +240,7 @@ impl Page<'_> {
         items
     }
 
-    /// Draws the number of wrong verdicts and the number of undecided verdicts.
+    /// Draws the numbers of wrong and of undecided verdicts of a summary line. `y` is the middle of its row, in pixels.
     fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
         let counts = [
             (line.wrong, WRONG, self.theme.falls),

@@ -9,9 +9,9 @@ use crate::scene::{BlockId, BodyId, Load, Scene};
 use crate::text::line;
 use crate::wording::failure::named;
 
-/// Largest number of single reactions. More reactions are added up for each part of the ground.
+/// Largest number of reactions in separate rows. If there are more, they are summed for each part of the ground.
 const MAX_REACTIONS: usize = 8;
-/// Largest number of single loads. More loads are added up.
+/// Largest number of loads in separate rows. If there are more, one row has their sum.
 const MAX_LOADS: usize = 6;
 
 /// Torques below this length (metres) times the force are rounding errors of the solver.
@@ -40,7 +40,7 @@ impl Force {
         }
     }
 
-    /// Adds several forces to one row with the sum of the forces and the sum of the moments.
+    /// Returns one row for several forces, with the sum of the forces and the sum of their moments.
     fn sum(what: impl Into<String>, forces: &[Force]) -> Force {
         Force {
             what: what.into(),
@@ -52,8 +52,8 @@ impl Force {
     }
 }
 
-/// Lists the external forces on the supported blocks of a frame, and their sum: reactions, robots, missing forces,
-/// weight and loads. Moments are about the origin.
+/// Makes a table of the external forces on the supported blocks of a frame: reactions, forces of robots, missing
+/// forces, weight and loads. The last row is their sum. Moments are about the origin.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let about = Point::origin();
@@ -88,7 +88,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     table(caption, &forces, Units::new(scene, found))
 }
 
-/// Lists the forces on one block, and their sum. Moments are about the centroid of the block.
+/// Makes a table of the forces on one block. The last row is their sum. Moments are about the centroid of the block.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
     let (scene, found) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
@@ -128,7 +128,8 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     table(&caption, &forces, Units::new(scene, found))
 }
 
-/// Returns the force of an interface on one of its two bodies, N.
+/// Returns the force at an interface, in newtons, that acts on `body`. `body` is one of the two bodies of the
+/// interface.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
     match contact.resultant.on == body {
         true => contact.resultant.force,
@@ -169,7 +170,7 @@ fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
     summed.collect()
 }
 
-/// Returns the forces of robots on all blocks, or on `block` only.
+/// Returns the forces that robots exert on all blocks, or only on `block` if it is given.
 fn robots(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -187,8 +188,8 @@ fn robots(
     holding.map(force).collect()
 }
 
-/// Returns the missing forces on these blocks. Forces that these blocks would exert on each other cancel and are left
-/// out. More than [`MAX_REACTIONS`] forces are added to one sum.
+/// Returns the missing forces on these blocks. Missing forces between two of these blocks cancel and are left out. If
+/// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
 fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &found.failures {
@@ -198,14 +199,14 @@ fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Poin
         let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), (g, u)| (f + g, t + u));
         if force.norm() > 0.0 || torque != 0.0 {
             let what = match failure.robot() {
-                Some(robot) => format!("missing, robot {}", line(&scene.robots[robot.0].id)),
-                None => "missing, as if the bodies stuck together".to_owned(),
+                Some(robot) => format!("missing force of robot {}", line(&scene.robots[robot.0].id)),
+                None => "missing force, as if the bodies stuck together".to_owned(),
             };
             forces.push(Force::new(what, failure.at(), force, torque, about));
         }
     }
     if forces.len() > MAX_REACTIONS {
-        let what = format!("missing, at {} points", forces.len());
+        let what = format!("missing forces at {} points", forces.len());
         return vec![Force::sum(what, &forces)];
     }
     forces
@@ -246,7 +247,7 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
     let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
     for force in forces {
         let mut what = force.what.clone();
-        // Smaller torques are rounding errors of the solver.
+        // Leave out torques that are only rounding errors of the solver.
         if force.torque.abs() > TORQUE_TOL * (1.0 + force.force.norm()) {
             let stated = moments.with_unit(force.torque);
             what.push_str(&format!(", and a torque of {stated}"));
@@ -273,7 +274,7 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
     grid
 }
 
-/// Explains the sums of both tables, and the formula of the moment.
+/// Explains what the sums in the two balance tables mean, and how moments are computed.
 pub(super) fn check_words(found: &FrameAnalysis) -> String {
     let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
     let words = match found.verdict {

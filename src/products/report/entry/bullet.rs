@@ -46,10 +46,12 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
 }
 
 /// The meaning of the shapes of bars.
-pub(super) const SHAPES: &str = "A bar covers the values at which it stands: it falls beyond a stroke (dashed: not confirmed) \
-                                 and stands beyond an arrow. Present value: disc inside, cross outside, ring undecided.";
+pub(super) const SHAPES: &str = "A bar covers the values at which the structure stands. The structure falls \
+                                 beyond a stroke (dashed: not confirmed), and still stands beyond an arrow. The \
+                                 present value is a disc inside the bar, a cross outside it, or a ring if its \
+                                 position is unknown.";
 
-/// The scale ends at this multiple of the largest absolute value that is shown.
+/// The upper end of the scale, as a multiple of the largest absolute value that is drawn.
 const BEYOND: f64 = 1.25;
 
 impl MarginBar {
@@ -100,13 +102,13 @@ impl MarginBar {
         }
     }
 
-    /// True if the present value is inside the interval.
+    /// True if the present value is inside the interval of values at which the structure stands.
     pub(crate) fn is_inside(&self) -> bool {
         self.position == Position::Inside
     }
 
-    /// Returns the margin as a sentence that names its parameter. The sentence of the load factor already names the
-    /// loads.
+    /// Returns the margin in words, after the name of its parameter. The words for the load factor need no name in
+    /// front, because they mention the loads.
     pub fn short(&self) -> String {
         if self.is_load_factor {
             return self.words.clone();
@@ -115,8 +117,8 @@ impl MarginBar {
     }
 }
 
-/// Returns both ends of the scale, a little beyond all values that are drawn. The scale begins at 0, or is symmetric
-/// about 0 if the parameter can be negative. The scale of a kernel ends at 1.
+/// Returns the lower and the upper end of the scale. The upper end is [`BEYOND`] times the largest value that is drawn,
+/// or 1 for a kernel. The lower end is 0, or minus the upper end if the parameter can be negative.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);

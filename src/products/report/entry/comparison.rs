@@ -73,7 +73,8 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     }
 }
 
-/// Compares the steps in order. Returns a sentence about each step, and the sections of the report.
+/// Compares the steps of the two scenes in their order. Returns one sentence for each step, and the sections of the
+/// report.
 fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Section>) {
     let [was, is] = sides;
     let options = sheet::options(wanted);
@@ -103,7 +104,8 @@ fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Sect
                 alone(side, number, drawing, only_in(counts, number))
             }
         };
-        // `sheet::empty` knows only one scene, but letters are needed if either scene has several steps.
+        // Set the letter here: `sheet::empty` knows only one scene, but letters are needed if either scene has several
+        // steps.
         section.letter = if several {
             letter(number)
         } else {
@@ -116,7 +118,7 @@ fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Sect
 }
 
 fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "the scales of arrows and colours are those of this figure only";
+    let scale = "this figure has its own scales for arrows and colours";
     let name = line(side.file.name);
     Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
@@ -134,7 +136,8 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// Describes a step that only one of the scenes has. Returns the sentence `why`, and a section for the step.
+/// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`, which says
+/// which scene has the step.
 fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
     let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
     let mut section = sheet::empty(scene, number, found.verdict);
@@ -144,7 +147,7 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
     (why.to_owned(), section)
 }
 
-/// Compares a step that both scenes have. Returns a sentence about the changes, and a section for the step.
+/// Compares a step that both scenes have. Returns a sentence about the changes, and the report section for the step.
 fn both(
     sides: [Side<'_>; 2],
     number: usize,
@@ -205,7 +208,7 @@ fn both(
     (sentence, section)
 }
 
-/// Returns a sentence about both verdicts and all changes of a step, without a full stop.
+/// Returns one sentence, without a full stop, with the two verdicts and all changes of a step.
 fn changes_sentence(
     [then, now]: [&FrameAnalysis; 2],
     shape: &Shapes,
@@ -220,12 +223,12 @@ fn changes_sentence(
     }];
     let mut differs = shape.stated();
     if differs.is_empty() {
-        differs.push("the same blocks in the same places".into());
+        differs.push("the blocks and their places are the same".into());
     }
     stated.extend(differs);
     stated.extend(settings.stated());
     stated.push(match forces.changed().count() {
-        _ if forces.all.is_empty() => "no interface that both have".to_owned(),
+        _ if forces.all.is_empty() => "the two steps have no interface in common".to_owned(),
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",

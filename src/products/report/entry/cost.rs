@@ -67,12 +67,12 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     [
         stage(
             "posing",
-            "the contributions of all effects, assembled to one program",
+            "the contributions of all effects are assembled into one linear program",
             stages.assembly,
         ),
         stage(
             "solving and proving",
-            "all unknowns together: no time can be given for a single effect",
+            "all effects are solved together, so no time can be given for a single effect",
             stages.solution,
         ),
     ]

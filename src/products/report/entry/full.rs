@@ -88,7 +88,7 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
             y: "joints".to_owned(),
             ..bars
         };
-        // Frames without forces have no chart.
+        // `chart::bars` returns an error if there are no values. The chart is then left out.
         let svg = chart::bars(&chart).ok()?;
         Some(Chart {
             caption: caption.to_owned(),

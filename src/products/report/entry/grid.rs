@@ -66,7 +66,7 @@ impl TableCell {
         }
     }
 
-    /// Makes a cell whose text is emphasised if `strong`.
+    /// Makes a cell with this text, which is emphasised if `strong` is true.
     pub fn strong_if(strong: bool, words: impl Into<String>) -> TableCell {
         TableCell {
             strong,

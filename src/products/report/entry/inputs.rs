@@ -75,7 +75,8 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-/// Returns the density of a block in kg/m³, computed from its weight. Returns `None` if gravity or thickness is zero.
+/// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the scene gives no
+/// outline for the block, or if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
     if own.body.is_schematic {
@@ -139,7 +140,7 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-/// Describes the direction of a force: `downwards`, `to the right`, `down and right, 30° from the vertical`.
+/// Describes the direction of a force: `downwards`, `to the right`, `down and right, 30.0° from the vertical`.
 fn direction(force: Vector) -> String {
     let negligible = 1e-9 * force.norm();
     let across = match force.x {
@@ -163,7 +164,7 @@ fn direction(force: Vector) -> String {
     }
 }
 
-/// Makes a table of the robots that hold blocks in a frame, with their limits.
+/// Makes a table of the robots that hold blocks in a frame, with the limits of their forces and torques.
 pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new(

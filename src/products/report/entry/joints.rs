@@ -74,9 +74,9 @@ impl<'a> Ranking<'a> {
         }
     }
 
-    /// Returns the block that is drawn as a free body. This is a block at the largest failure or, without failures, at
-    /// the joint with the highest utilisation. Of two blocks it is the heavier one. Returns `None` if there is no
-    /// failure and no joint carries force.
+    /// Returns the governing block, for which the report lists all forces. It belongs to the largest failure or,
+    /// without failures, to the joint with the highest utilisation. If two blocks meet there, it is the heavier block.
+    /// Returns `None` if there is no failure and no joint carries force.
     pub fn block(&self) -> Option<BlockId> {
         let bodies = match failure::by_amount(self.found).first() {
             Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
@@ -113,7 +113,8 @@ impl<'a> Ranking<'a> {
         Some(format!("{}: {why}", name(self.scene, contact)))
     }
 
-    /// Makes the table of joints that carry force: all of them with `all`, otherwise the first [`MAX_JOINTS`].
+    /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, it has only
+    /// the first [`MAX_JOINTS`] joints.
     pub fn table(&self, all: bool) -> Grid {
         let shown: &[Used] = match all {
             true => &self.used,
@@ -126,7 +127,8 @@ impl<'a> Ranking<'a> {
         let metres = self
             .units
             .lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
-        // The offset has the same decimals as the lengths of the joints, because it is measured along them.
+        // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
+        // offsets.
         let offs = self
             .units
             .lengths(contacts().map(|c| 0.5 * c.interface.length()));
@@ -180,7 +182,7 @@ impl<'a> Ranking<'a> {
         };
         let added = match self.found.verdict {
             Verdict::Stable => "",
-            Verdict::Unstable => " The forces include those that are missing.",
+            Verdict::Unstable => " These forces include the missing forces.",
             Verdict::Undecided => " These forces are not proved.",
         };
         format!(
@@ -190,8 +192,8 @@ impl<'a> Ranking<'a> {
         )
     }
 
-    /// Returns the parts of a figure with a tooltip: joints, robots and failures. Empty if there are more than
-    /// [`MAX_HOVER_TARGETS`] joints.
+    /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. Empty if the
+    /// frame has more than [`MAX_HOVER_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
         if self.found.contacts.len() > MAX_HOVER_TARGETS {
             return Vec::new();
@@ -232,7 +234,7 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// Describes a failure, with amounts in the unit of the sheet.
+/// Describes a failure in a sentence. Its amounts have the units of the report sheet.
 pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
     let write = |value: f64, unit: Unit| units.words(value, unit);
     failure::missing_sentence(scene, failed, &write)
@@ -263,7 +265,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let off = (contact.resultant.at - interface.middle())
         .dot(&interface.tangent())
         .abs();
-    // With a kernel of 1, the resultant may act only in the middle.
+    // With a kernel of 1, the allowed distance is 0, and the joint counts as fully used.
     let share = if half > 0.0 {
         (off / half).min(1.0)
     } else {
@@ -272,7 +274,7 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// Makes a table of the robots of a frame, with their forces and the largest used share of their limits.
+/// Makes a table of the robots of a frame, with their forces and the largest share of a limit that each robot uses.
 pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
     let units = Units::new(scene, found);

@@ -123,8 +123,8 @@ impl Entry {
         }
     }
 
-    /// Replaces the figures by the figures of `other`. `other` is an entry of the same scene in which the fonts of
-    /// drystone can show all names.
+    /// Replaces the figures by those of `other`. `other` is an entry of the same scene, in which code points replace
+    /// all characters that the fonts of drystone lack.
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
@@ -180,8 +180,8 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     object.trim_end().to_owned()
 }
 
-/// Returns pairs of a purpose and a command. The commands repeat the figures, the full report and the numbers of a
-/// scene.
+/// Returns the commands that make the figures, the full report and the numbers of a scene again. Each pair has the
+/// purpose of a command and the command.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
     let theme = options
         .theme_name

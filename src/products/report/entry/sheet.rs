@@ -1,5 +1,5 @@
-//! [`sheet`]: the two pages on one frame. The first has the verdict, pictures and inputs; the second has joints,
-//! balance, margins and assumptions.
+//! [`sheet`]: the two report pages about one frame. The first page has the verdict, pictures and inputs. The second
+//! page has joints, balance, margins and assumptions.
 
 use super::governing::headline_words;
 use super::joints::{Ranking, robots};
@@ -57,7 +57,7 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     }
 }
 
-/// Makes the two pages of a frame.
+/// Makes the two report pages about a frame. `steps` is the table of all steps, if the scene has several.
 pub(super) fn sheet(
     analysis: &Analysis,
     number: usize,
@@ -97,8 +97,8 @@ pub(super) fn sheet(
     section
 }
 
-/// Describes other steps that do not stand, in two columns. Each step has its first figure and the reason for its
-/// verdict.
+/// Describes the steps `numbers`, which do not stand, in two columns. For each step, it shows the first figure and the
+/// reason for the verdict.
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
@@ -129,7 +129,7 @@ pub(super) fn others(
         .collect()
 }
 
-/// Returns a sentence with the verdict and its reasons, with amounts in the unit of the sheet.
+/// Returns a sentence with the verdict and its reasons. Amounts have the units of the report sheet.
 fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     let units = Units::new(scene, found);
     let write = |value: f64, unit: Unit| units.words(value, unit);
@@ -145,8 +145,8 @@ fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
     }
 }
 
-/// Draws the pictures of a frame. If the frame falls, they show the collapse and the forces. Otherwise they show the
-/// force flow, and how the frame would fall beyond its margin.
+/// Draws the figures of a frame. If the frame falls, they show the collapse and the forces. If it stands, they show the
+/// force flow, and how the frame would fall beyond its margin. If it is undecided, they show the forces.
 fn figures(
     analysis: &Analysis,
     number: usize,
@@ -187,12 +187,12 @@ fn figures(
     match found.verdict {
         Verdict::Unstable => {
             if !found.mechanism.is_empty() {
-                let words = "How it begins to fall. Dashed: the blocks before they move.";
+                let words = "How the structure begins to fall. Dashed: the blocks before they move.";
                 add(words, drawn(Kind::Mechanism, same));
             }
             let words = match found.failures.is_empty() {
                 true => "The forces on every block.",
-                false => "The forces on every block; what is missing has the colour of failures.",
+                false => "The forces on every block; missing forces have the colour of failures.",
             };
             add(words, drawn(Kind::Forces, same));
         }
@@ -204,7 +204,7 @@ fn figures(
                 };
             add(words, drawn(kind, same));
             if let Some(toward) = story::toward(found) {
-                let words = "How it would fall, just beyond its margin.";
+                let words = "How the structure would fall just beyond its margin.";
                 add(
                     words,
                     drawn(Kind::Margin, &|options| options.toward = toward),
@@ -232,8 +232,8 @@ fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
         false => vec![take.join(" ")],
     };
     let heading = match found.verdict {
-        Verdict::Unstable => "Where it fails",
-        _ => "Where it would fail first",
+        Verdict::Unstable => "Where the structure fails",
+        _ => "Where the structure would fail first",
     };
     let mut columns = Vec::new();
     if !first.is_empty() {
@@ -297,7 +297,7 @@ fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
 
 fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
     let frames = match scene.frames.len() {
-        1 => "settlement, time, impact, earthquakes and the order in which it is built",
+        1 => "settlement, time, impact, earthquakes and the order of construction",
         _ => "settlement, time, impact and earthquakes",
     };
     let least = match (found.verdict, found.least_force) {
@@ -315,7 +315,8 @@ fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns notes that readers of the results must know: wedging and notices of the analysis.
+/// Returns remarks that a reader of the results must know: the result of the test for wedging, and the notices of the
+/// analysis.
 fn remarks(found: &FrameAnalysis) -> Vec<String> {
     let wedging = found
         .effects

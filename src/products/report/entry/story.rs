@@ -41,7 +41,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
         Verdict::Undecided => None,
         Verdict::Unstable => {
             let mut said: Vec<String> = unsupported_phrase(scene, found).into_iter().collect();
-            // This is the mechanism that the figure shows.
+            // Use the elementary mechanism, because the figure shows it too.
             let shown = alone(analysis, number).elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
@@ -56,11 +56,11 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
                 Toward::LoadFactor => format!("At {} times its loads", three_up(value)),
                 Toward::Tilt => {
                     let side = if value < 0.0 { "left" } else { "right" };
-                    format!("If gravity turns {}° to the {side}", three(value.abs()))
+                    format!("If gravity turns by {}° to the {side}", three(value.abs()))
                 }
                 Toward::HorizontalLoad => {
                     let side = if value < 0.0 { "left" } else { "right" };
-                    format!("Under {} of its weight to the {side}", three(value.abs()))
+                    format!("Under a horizontal load of {} times the weight to the {side}", three(value.abs()))
                 }
             };
             let how = collapse(analysis, number, &mechanism)?;
@@ -152,34 +152,34 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     Some(match (margin.parameter, verdict, inside) {
         (Parameter::LoadFactor, Verdict::Stable, true) => match (low, high) {
             (Some(low), Some(high)) if low > 0.0 => format!(
-                "It would fall at {} times its loads, and below {} times its loads.",
+                "The structure would fall at {} times its loads, and below {} times its loads.",
                 three_up(high),
                 three_down(low)
             ),
-            (_, Some(high)) => format!("It would fall at {} times its loads.", three_up(high)),
+            (_, Some(high)) => format!("The structure would fall at {} times its loads.", three_up(high)),
             (Some(low), None) if low > 0.0 => {
-                format!("It would fall below {} times its loads.", three_down(low))
+                format!("The structure would fall below {} times its loads.", three_down(low))
             }
-            _ => "No multiple of its loads makes it fall.".to_owned(),
+            _ => "The structure stands at every multiple of its loads.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
             (Some(low), _) if low > 1.0 => {
-                format!("It would stand at {} times its loads.", three_up(low))
+                format!("The structure would stand at {} times its loads.", three_up(low))
             }
-            (_, Some(high)) => format!("It would stand at {} of its loads.", three_down(high)),
-            _ => "It falls whatever the factor on its loads.".to_owned(),
+            (_, Some(high)) => format!("The structure would stand at {} times its loads.", three_down(high)),
+            _ => "The structure falls at every factor on its loads.".to_owned(),
         },
         (Parameter::Friction, Verdict::Stable, true) => match low {
             Some(low) if low > 0.0 => {
                 let low = three_down(low);
-                format!("It would fall with a friction coefficient below {low}; now {now}.")
+                format!("The structure would fall with a friction coefficient below {low}; now {now}.")
             }
-            _ => "It needs no friction.".to_owned(),
+            _ => "The structure needs no friction.".to_owned(),
         },
         (Parameter::Friction, Verdict::Unstable, false) => match low {
             Some(low) if low > 0.0 => {
                 let low = three_up(low);
-                format!("It would stand with a friction coefficient of {low}; now {now}.")
+                format!("The structure would stand with a friction coefficient of {low}; now {now}.")
             }
             _ => "More friction does not help.".to_owned(),
         },
@@ -191,7 +191,7 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
             let sides: Vec<String> = sides.into_iter().flatten().collect();
             match sides.is_empty() {
                 true => return None,
-                false => format!("It would fall if gravity turned {}.", sides.join(" or ")),
+                false => format!("The structure would fall if gravity turned by {}.", sides.join(" or ")),
             }
         }
         _ => return None,

@@ -20,7 +20,7 @@ pub struct HoverTarget {
     pub ends: [Point; 2],
 }
 
-/// Makes a target at a point in metres.
+/// Makes a hover target for a point. Its coordinates are in metres.
 pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     HoverTarget {
         mark,
@@ -29,8 +29,8 @@ pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     }
 }
 
-/// Returns the drawing with an invisible target for each part, above all other items. A drawing without a scene is
-/// returned unchanged.
+/// Returns a copy of the drawing with an invisible hover target for each of `touches`, on top of all other items. If
+/// the drawing contains no scene, the copy is unchanged.
 pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {

@@ -58,24 +58,25 @@ impl Units {
         }
     }
 
-    /// Returns the column format for numbers in newtons.
+    /// Chooses the unit and the decimals of a column of forces. `numbers` are all forces of the column, in newtons.
     pub fn newtons(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         self.column(numbers, self.scene.force())
     }
 
-    /// Returns the column format for numbers in newton metres.
+    /// Chooses the unit and the decimals of a column of torques. `numbers` are all torques of the column, in newton
+    /// metres.
     pub fn torques(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         self.column(numbers, self.scene.torque())
     }
 
-    /// Returns the symbols of the units of lengths, forces and torques. The last two have the prefix.
+    /// Returns the unit symbols of lengths, forces and torques. The symbols of forces and torques include the prefix.
     pub fn symbols(self) -> [String; 3] {
         let length = self.scene.length().symbol();
         let [force, torque] = [self.scene.force(), self.scene.torque()].map(|u| self.symbol(u));
         [length, force, torque]
     }
 
-    /// Returns the column format for coordinates in metres.
+    /// Chooses the unit and the decimals of a column of lengths. `numbers` are all lengths of the column, in metres.
     pub fn lengths(self, numbers: impl IntoIterator<Item = f64>) -> Column {
         Column::lengths(numbers, self.scene)
     }
@@ -121,8 +122,8 @@ impl Units {
 }
 
 impl Column {
-    /// Chooses the number of decimals for coordinates. The numbers are in metres; they are written in the unit of the
-    /// scene.
+    /// Chooses the decimals of a column of lengths. `numbers` are in metres; the column shows them in the length unit
+    /// of the scene.
     pub fn lengths(numbers: impl IntoIterator<Item = f64>, units: UnitsEntry) -> Column {
         let unit = units.length();
         let factor = 1.0 / unit.size;
@@ -133,7 +134,8 @@ impl Column {
         }
     }
 
-    /// Writes a number with the prefix and the decimals of the column, without the unit.
+    /// Converts a value from the SI unit to the unit of the column, and writes it with the decimals of the column,
+    /// without the unit.
     pub fn write(&self, value: f64) -> String {
         let text = format!("{:.*}", self.decimals, value * self.factor);
         match text.strip_prefix('-') {
@@ -144,7 +146,7 @@ impl Column {
         }
     }
 
-    /// Writes a number with the prefix and the decimals of the column, followed by the unit.
+    /// Writes a value like [`Column::write`], followed by the unit of the column.
     pub fn with_unit(&self, value: f64) -> String {
         format!("{} {}", self.write(value), self.unit)
     }

@@ -10,9 +10,9 @@ const BAR: (f64, f64) = (220.0, 20.0);
 /// Distance of the ends of the scale from the ends of the bar. Marks and arrows at these ends stay inside the bar.
 const INSET: f64 = 7.0;
 
-/// Draws a bar from the lower to the upper end of the interval, on a scale. The shapes are clear without colours. An
-/// end is a stroke, which is dashed if the end is not confirmed. If the interval has no end, an arrow replaces the
-/// stroke. The present value is a disc inside the interval, a cross outside, and a ring if its position is unknown.
+/// Draws a margin as a bar that covers the values at which the structure stands. An end is a stroke, which is dashed if
+/// the end is not confirmed, or an arrow if the values have no end there. The present value is a disc inside the bar, a
+/// cross outside it, or a ring if its position is unknown. The shapes differ, so that they are clear without colours.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR;
     let at = |value: f64| {
@@ -48,7 +48,7 @@ pub(super) fn bar(bullet: &MarginBar) -> Markup {
     }
 }
 
-/// Draws the mark of the present value.
+/// Draws the mark of the present value. `at` is its x coordinate in pixels.
 fn now(position: Position, at: f64) -> Markup {
     html! {
         @match position {

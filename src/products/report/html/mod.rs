@@ -22,7 +22,7 @@ use crate::wording::verdict::plain;
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
-/// Largest number of scenes for which all scenes are unfolded when the page opens.
+/// If a report has more scenes than this, they are collapsed when the page opens.
 const OPEN: usize = 12;
 
 /// Writes one page with all scenes. `bodies` has the HTML of each scene from [`section`].
@@ -114,7 +114,7 @@ fn refused(head: &Head<'_>) -> Markup {
         @if !head.refused.is_empty() {
             section.refused aria-labelledby="refused" {
                 h2 #refused { "Files that are not valid scenes" }
-                p { "These files are not in the report. Each is listed with all its problems." }
+                p { "These files are not in the report. All problems of each file are listed below its name." }
                 @for file in head.refused {
                     h3 { bdi { (text::line(&file.name)) } }
                     ul { @for line in file.lines() { li { (line) } } }
@@ -124,12 +124,12 @@ fn refused(head: &Head<'_>) -> Markup {
     }
 }
 
-/// Writes the mark and the word of a verdict.
+/// Writes a verdict with its mark: `✓ stands`.
 fn verdict(verdict: Verdict) -> Markup {
     html! { span.verdict.(plain(verdict)) { span aria-hidden="true" { (sign(verdict)) } " " (plain(verdict)) } }
 }
 
-/// Writes the verdict, or both verdicts of a comparison, on one line.
+/// Writes the verdict of a scene, or both verdicts of a comparison, on one line.
 fn verdicts(row: &Row) -> Markup {
     html! {
         span.verdicts {
@@ -164,9 +164,9 @@ fn overview(head: &Head<'_>, link: &dyn Fn(usize) -> String) -> Markup {
                             th scope="col" data-sort="text" { "name" }
                             th scope="col" data-sort="text" { "verdict" }
                             @if margins { th scope="col" data-sort="number" { "headline margin" } }
-                            th.number scope="col" data-sort="number" { "friction used, where it stands" }
+                            th.number scope="col" data-sort="number" { "friction used (standing steps)" }
                             th.number scope="col" data-sort="number" { "blocks" }
-                            th.number scope="col" data-sort="number" { "largest force, where it stands" }
+                            th.number scope="col" data-sort="number" { "largest force (standing steps)" }
                             th scope="col" data-sort="text" { (fails) }
                         }
                     }

@@ -12,10 +12,10 @@ use crate::report::entry::{
 };
 use crate::wording::verdict::plain;
 
-/// Largest number of rows of a table that is not folded.
+/// Tables with more rows are collapsed.
 const LONG: usize = 24;
 
-/// Writes a scene as a part of a page that can be unfolded. `number` counts from 1.
+/// Writes a scene as a collapsible part of a page. `number` is the number of the scene, counted from 1.
 pub(crate) fn section(entry: &Entry, number: usize) -> String {
     let row = &entry.row;
     let body = html! {
@@ -46,7 +46,7 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
 fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
     let id = format!("scene-{number}-step-{place}");
     let label = format!("{} {}", section.letter, section.title);
-    // The name of a landmark must be unique on the page.
+    // The label of an ARIA landmark must be unique on the page, so it includes the number of the scene.
     let label = match label.trim() {
         "" => None,
         label => Some(format!("Scene {number}: {label}")),
@@ -159,7 +159,7 @@ impl Writer {
                     None => div.paper { (light) },
                 }
                 @if !figure.touches.is_empty() {
-                    p.readout aria-hidden="true" { "Point at a joint, a robot or a line of a table." }
+                    p.readout aria-hidden="true" { "Point at a joint, a robot or a table row to highlight it." }
                 }
                 figcaption { (figure.caption) }
             }

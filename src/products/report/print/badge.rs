@@ -1,4 +1,4 @@
-//! Draws the verdict of a sheet with its headline margin.
+//! Draws the verdict of a report sheet with the headline margin.
 
 use super::bar;
 use super::flow::{Flow, GAP, LINE, SMALL};
@@ -28,7 +28,7 @@ struct Words {
 }
 
 impl Words {
-    /// Returns the height of the panel with these texts, pixels. A line is at most `room` pixels wide.
+    /// Returns the height, in pixels, of the panel for these texts. A line of text is at most `room` pixels wide.
     fn height(&self, room: f64) -> f64 {
         let lines = |words: &str, face: Face, size: f64| {
             LINE * size * wrap(words, face, size, room).len() as f64
@@ -72,7 +72,7 @@ impl Flow {
         self.y = top + high + 8.0;
     }
 
-    /// Draws the tinted panel with this height, and the word of the verdict at its left edge.
+    /// Draws the tinted panel, `high` pixels high, with the verdict at its left edge.
     fn verdict_panel(&mut self, verdict: Verdict, high: f64) {
         let (ink, tint) = match verdict {
             Verdict::Stable => (Colour::hex(0x17743f), Colour::hex(0xe8f3ec)),

@@ -13,7 +13,7 @@ const INSET: f64 = 6.0;
 const SAFE: u32 = 0x002e_8b62;
 const FALLS: u32 = 0x009c_1515;
 
-/// Draws a bar of the width `wide`. `at` is its upper left corner. Both are in pixels.
+/// Draws a margin as a bar with the width `wide` and the upper left corner `at`, both in pixels.
 pub(super) fn draw(flow: &mut Flow, bar: &MarginBar, at: PagePoint, wide: f64) {
     let place = BarPlace { bar, at, wide };
     let rule = Stroke::new(flow.theme.rule, 2.5);
@@ -34,24 +34,24 @@ struct BarPlace<'b> {
 }
 
 impl BarPlace<'_> {
-    /// Returns the x coordinate of a value on the page, pixels.
+    /// Returns the x coordinate on the page, in pixels, of a value of the parameter.
     fn x(&self, value: f64) -> f64 {
         self.at.x + INSET + (self.wide - 2.0 * INSET) * self.bar.share(value)
     }
 
-    /// Returns the y coordinate of the line of the bar, pixels.
+    /// Returns the y coordinate of the centre line of the bar, in pixels.
     fn middle(&self) -> f64 {
         self.at.y + 0.5 * HEIGHT
     }
 
-    /// Returns a part of the line of the bar between two x coordinates, pixels.
+    /// Returns the part of the bar's centre line between two x coordinates, in pixels.
     fn along(&self, from: f64, to: f64) -> Outline {
         let y = self.middle();
         Outline::line([PagePoint::new(from, y), PagePoint::new(to, y)])
     }
 
-    /// Draws the safe part. The sign at an end shows whether the end is confirmed, not confirmed, or open. An end at
-    /// the limit of the domain has no sign.
+    /// Draws the part of the bar at which the structure stands. An end is a stroke if it is confirmed, a dashed stroke
+    /// if not, and an arrow if the values have no end. An end at the limit of the parameter's domain has no mark.
     fn safe_part(&self, flow: &mut Flow) {
         let Some((from, to)) = self.bar.safe else {
             return;
@@ -81,8 +81,8 @@ impl BarPlace<'_> {
         }
     }
 
-    /// Draws the present value. The sign is a disc in the safe part, a cross outside it, and a circle if its position
-    /// is not known. If the value is only known between two bounds, both bounds have a sign.
+    /// Draws the present value: a disc in the safe part, a cross outside it, or a circle if its position is unknown. If
+    /// only two bounds of the value are known, both bounds are drawn.
     fn present_value(&self, flow: &mut Flow) {
         let Some((least, most)) = self.bar.now else {
             return;

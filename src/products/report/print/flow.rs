@@ -1,4 +1,4 @@
-//! [`Flow`]: places parts on pages from top to bottom.
+//! [`Flow`]: places text, tables and figures on the pages of a PDF, from top to bottom.
 
 use super::Page;
 use crate::drawing::text::{width, wrap};
@@ -31,7 +31,7 @@ const UNBROKEN_LINES: usize = 6;
 /// Space between two columns.
 pub(super) const GAP: f64 = 14.0;
 
-/// Places parts on pages from top to bottom.
+/// Places text, tables and figures on pages from top to bottom.
 pub(super) struct Flow {
     pub pages: Vec<Page>,
     /// The number of the current page.
@@ -50,7 +50,7 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    /// Begins with one empty page. `foot` is the line at the foot of every page.
+    /// Makes a flow with one empty page. `foot` is the line at the foot of every page.
     pub fn new(foot: String) -> Flow {
         let mut flow = Flow {
             pages: Vec::new(),
@@ -112,7 +112,7 @@ impl Flow {
         self.open.push(item.into());
     }
 
-    /// Adds the items since the last call to the page, as one group with this role.
+    /// Moves the items that were added since the last call of this function to the page, as one group with this role.
     pub fn close(&mut self, role: Role) {
         let items = std::mem::take(&mut self.open);
         if items.is_empty() {
@@ -154,7 +154,7 @@ impl Flow {
         self.close(role.clone());
     }
 
-    /// Adds a heading. Levels count from 1; headings of levels 1 to 3 become bookmarks.
+    /// Adds a heading of this level, with the font size `size` in pixels. Headings of levels 1 to 3 become bookmarks.
     pub fn heading(&mut self, words: &str, size: f64, level: u8) {
         self.reserve(6.0 * size);
         self.y += if self.y > MARGIN { 0.5 * size } else { 0.0 };
@@ -306,7 +306,8 @@ impl Flow {
     }
 }
 
-/// Returns the scale, at most 1, with which a figure is at most `wide` pixels wide and [`MAX_FIGURE_HEIGHT`] high.
+/// Returns the scale, at most 1, at which a figure is at most `wide` pixels wide and at most [`MAX_FIGURE_HEIGHT`]
+/// high.
 fn fitted(drawing: &Drawing, wide: f64) -> f64 {
     (wide / drawing.width)
         .min(MAX_FIGURE_HEIGHT / drawing.height)

@@ -33,7 +33,8 @@ pub(super) struct Page {
     foot: String,
 }
 
-/// Makes the pages before the scenes. `numbers` has the page on which each scene begins, counted from 1.
+/// Makes the pages before the scenes: title, summary and contents. `numbers` has the page on which each scene begins,
+/// counted from 1.
 pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     let mut flow = Flow::new(String::new());
     flow.heading(head.title, 24.0, 1);
@@ -97,7 +98,7 @@ fn foot(entry: &Entry) -> String {
 
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     for (number, part) in parts.iter().enumerate() {
-        // A heading stays on one page with the table below it.
+        // Keep a heading on the same page as the table below it.
         if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
         {
             flow.reserve(HEADING + flow.least(grid));

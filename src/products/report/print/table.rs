@@ -51,7 +51,7 @@ impl Flow {
         self.y += 0.5 * TEXT_SIZE;
     }
 
-    /// Returns the height in pixels that must be free on a page so that a table can begin there.
+    /// Returns the height, in pixels, that must be free on a page for a table to begin there.
     pub fn least(&self, grid: &Grid) -> f64 {
         match grid.lines.is_empty() {
             true => 0.0,
@@ -82,7 +82,7 @@ impl Flow {
         }
     }
 
-    /// Adds a row. Row 0 is the head.
+    /// Adds a row of a table at the current position. `number` is the number of the row; the head is row 0.
     fn row(&mut self, layout: &Layout, row: &[TableCell], number: usize) {
         let (top, high) = (self.y, layout.height(row));
         let mut x = self.left;
@@ -148,8 +148,8 @@ impl Flow {
 }
 
 impl Layout {
-    /// Returns the height in pixels that must be free so that the table can begin. For a short table, this is its whole
-    /// height. For a long table, it is the height of the head and two rows.
+    /// Returns the height, in pixels, that must be free on a page for the table to begin there. For a short table, this
+    /// is its whole height. For a long table, it is the height of the caption, the head and two rows.
     fn least(&self, grid: &Grid) -> f64 {
         let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
         let rows = match whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
@@ -188,8 +188,9 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// Returns the widths of the columns, pixels. If there is space, a column has the width of its text and a share of the
-/// free space. Otherwise heads break at their spaces, and if that is not enough, the widest columns become narrower.
+/// Returns the widths of the columns in pixels. If there is enough space, each column has the width of its text plus a
+/// share of the free space. If not, heads break at their spaces. If that is not enough, the widest columns become
+/// narrower.
 fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();
@@ -233,7 +234,7 @@ fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> 
         let count = widths.iter().filter(|w| **w >= most).count() as f64;
         let to = next.max(most - (sum - room) / count);
         if to >= most {
-            // All columns have their least width.
+            // No column can become narrower.
             return widths;
         }
         for wide in widths.iter_mut().filter(|w| **w >= most) {

@@ -56,7 +56,8 @@ impl<'a> SharedForces<'a> {
         }
     }
 
-    /// Returns the forces that changed.
+    /// Iterates over the forces that changed: those that differ by more than 5 % of the larger force, without forces at
+    /// the level of rounding errors.
     pub fn changed(&self) -> impl Iterator<Item = &ForceChange<'a>> {
         self.all.iter().filter(|force| force.is_change(self.noise))
     }
@@ -69,8 +70,8 @@ impl<'a> SharedForces<'a> {
                 "between",
                 "#first, N",
                 "#second, N",
-                "#change of the amount",
-                "#change as a vector, relative to the larger",
+                "#change of the magnitude",
+                "#change as a vector, relative to the larger force",
             ],
         );
         for force in self.changed() {

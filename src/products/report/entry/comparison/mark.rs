@@ -22,7 +22,8 @@ fn radius(places: &[PagePoint]) -> f64 {
     };
     let (width, height) = (span(|p| p.x), span(|p| p.y));
     let count = places.len() as f64;
-    // The mean distance of the rings if they were spread evenly over their bounding box, or along a line.
+    // Estimate the distance between neighbouring rings, as if they were spread evenly over their bounding box or along
+    // a line.
     let apart = f64::max(
         libm::sqrt(width * height / count),
         width.max(height) / count,
@@ -33,8 +34,8 @@ fn radius(places: &[PagePoint]) -> f64 {
     }
 }
 
-/// Draws an outline around blocks and a ring around points in a drawing of the scene. `blocks` has indices of blocks;
-/// `rings` has points in metres.
+/// Draws an outline around some blocks, and a ring around some points, in a drawing of the scene. `blocks` has the
+/// indices of the blocks, and `rings` has the points in metres.
 pub(super) fn mark(
     drawing: &mut Drawing,
     scene: &Scene,

@@ -1,11 +1,11 @@
-//! The tables of sums and margins of two frames.
+//! Tables that compare the sums of forces and the margins of two frames.
 
 use super::Side;
 use crate::analysis::FrameAnalysis;
 use crate::report::entry::{Grid, bullet};
 use crate::wording::number::{digits, tenths};
 
-/// Describes a change of a number as a share of `before`, in percent.
+/// Writes the change of a number relative to `before`, in percent, with its sign; `none` if there is no change.
 pub(super) fn change(before: f64, after: f64) -> String {
     if (after - before).abs() <= 1e-9 * before.abs() {
         return "none".to_owned();
@@ -20,7 +20,7 @@ pub(super) fn change(before: f64, after: f64) -> String {
     }
 }
 
-/// Makes the table of the weights and the sums of forces of two frames.
+/// Makes a table that compares two frames by weight, total force, total sticking and largest force at an interface.
 pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
     let largest = |f: &FrameAnalysis| {
@@ -42,7 +42,7 @@ pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
     grid
 }
 
-/// Makes the table of the margins of two frames.
+/// Makes a table that compares the margins of two frames, with one row for each margin.
 pub(super) fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
     let [first, second] =

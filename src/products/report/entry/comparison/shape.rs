@@ -38,7 +38,7 @@ impl Shapes {
             let named = placed.into_iter().map(|i| (scene.blocks[i].id.clone(), i));
             named.collect()
         };
-        // Blocks are in the order of the file, because sorting by name would put v10 before v2.
+        // Keep the blocks in the order of the file, because sorting by name would put v10 before v2.
         let [then, now] = sides.map(blocks);
         let [before, after] = [&then, &now].map(|list| -> BTreeMap<&str, usize> {
             list.iter().map(|(id, i)| (id.as_str(), *i)).collect()
