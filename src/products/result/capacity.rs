@@ -1,4 +1,4 @@
-//! Writes the forces that a block can carry as JSON.
+//! Writes a load capacity as JSON: the set of forces that a block can carry.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use crate::analysis::{CapacityEdge, CapacityVertex, LoadCapacity as Found};
 use crate::scene::Scene;
 use crate::text;
 
-/// Writes a capacity as one line of JSON, as in `capacity` of the frame's result.
+/// Writes a load capacity as one line of JSON: the value of the key `capacity` in the result of a frame.
 pub fn capacity_json(scene: &Scene, capacity: &Found) -> String {
     let json = serde_json::to_string(&Capacity::new(scene, capacity));
     text::json(&json.expect("plain structures with text keys always serialise into memory"))

@@ -1,4 +1,4 @@
-//! [`Excluded`]: the reasons why a frame does not stand at any value of a parameter.
+//! [`Excluded`]: for parameters with an empty interval, the motions that prove that the frame falls at every value.
 
 use serde::Serialize;
 
@@ -46,7 +46,7 @@ struct Reason<'a> {
 }
 
 impl<'a> Excluded<'a> {
-    /// Collects the reasons from all margins. Returns `None` if no interval is empty.
+    /// Collects these motions from the intervals of all parameters. Returns `None` if no interval is empty.
     pub(super) fn new(scene: &'a Scene, found: &Intervals) -> Option<Excluded<'a>> {
         let of = |interval: &Option<Interval>| reasons(scene, interval.as_ref()?);
         let robots = found.robots.iter().filter_map(|robot| {

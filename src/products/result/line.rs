@@ -74,7 +74,7 @@ pub struct UnknownField {
 }
 
 impl Fields {
-    /// Reads a list such as `verdict,frames.total_force`.
+    /// Reads a list of field names, such as `verdict,frames.total_force`.
     ///
     /// # Errors
     /// All names that are not fields.
@@ -103,8 +103,9 @@ impl Fields {
         }
     }
 
-    /// True if a field is selected by its own name, by the name of a part of it, or by the name of an object that
-    /// contains it. `all` and `frames` do not count: they do not select fields that a result has only on request.
+    /// True if the field at `path` is selected: by its own name, by the name of a part of it, or by the name of an
+    /// object that contains it. The names `all` and `frames` do not count, because they do not select fields that a
+    /// result has only on request.
     pub fn ask(&self, path: &[&str]) -> bool {
         let within = |chosen: &Vec<&str>| {
             let short = chosen.len().min(path.len());
@@ -113,13 +114,13 @@ impl Fields {
         self.chosen.iter().any(within)
     }
 
-    /// Adds the margins of every frame, unless some margins are already selected.
+    /// Selects, in addition, the margins of every frame, unless some margins are already selected.
     #[must_use]
     pub fn with_margins(self) -> Fields {
         self.with(&["frames", "margins"])
     }
 
-    /// Adds the field that states whether a frame stands only by wedging.
+    /// Selects, in addition, the field that states whether a frame stands only by wedging.
     #[must_use]
     pub fn with_wedging(self) -> Fields {
         self.with(&["frames", "only_by_wedging"])
@@ -162,8 +163,8 @@ pub enum PictureOutcome {
     Refused(String),
 }
 
-/// Writes the line for an analysis, with a line feed. The same analysis gives the same bytes, unless
-/// `frames.solve.seconds` is selected.
+/// Writes the selected fields of an analysis as one line that ends with a line feed. The same analysis gives the same
+/// bytes, unless the field `frames.solve.seconds` is selected.
 ///
 /// # Example
 /// ```
@@ -225,8 +226,8 @@ pub fn line_of(
     ended(out)
 }
 
-/// Writes a line with the title of the scene and its verdict, and a line feed. Fields that are not selected are left
-/// out.
+/// Writes the title of a scene and its verdict as one line that ends with a line feed. If one of these fields is not
+/// selected, it is left out.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
     let mut out = begun(origin);
     put_few(&mut out, title, verdict, fields);
@@ -282,7 +283,8 @@ fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value as JSON, in the order of `parts`.
+/// Writes the selected parts of a value as JSON, in the order of `parts`. `chosen` has the selected paths, relative to
+/// the value.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

@@ -1,5 +1,5 @@
-//! Writes margins as JSON. A margin is a number, `null` if the frame falls at every value, or `"unbounded"` if it
-//! stands at every value.
+//! Writes margins as JSON. A margin is the limit value of a parameter, `null` if the frame falls at every value, or
+//! `"unbounded"` if it stands at every value.
 //!
 //! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict confirms
 //! is also `null`; a notice of the frame then states the two values between which the margin lies. Margins that were
@@ -20,7 +20,7 @@ use crate::analysis::{
 use crate::scene::Scene;
 use crate::text;
 
-/// Writes the margins of a frame as one line of JSON, as in `margins` of the frame's result.
+/// Writes the margins of a frame as one line of JSON: the value of the key `margins` in the result of the frame.
 pub fn margins_json(scene: &Scene, margins: &Found) -> String {
     let json = serde_json::to_string(&Margins::new(scene, margins));
     text::json(&json.expect("plain structures with text keys always serialise into memory"))

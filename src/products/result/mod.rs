@@ -163,7 +163,7 @@ struct Tolerance {
     largest_move: Number,
 }
 
-/// True if the key is left out because the total is proved to be the least.
+/// Returns `least`: true if the total force is proved to be the least possible. serde then leaves out the key.
 fn is_least(least: &bool) -> bool {
     *least
 }

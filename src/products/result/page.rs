@@ -24,8 +24,8 @@ pub fn quoted(words: &str) -> String {
     text::json(&string)
 }
 
-/// Writes a report as one JSON object that ends with a line feed. The object has the counts, and a list with the key
-/// `list`. The list has the JSON `objects` of the scenes, one per line.
+/// Writes a report as one JSON object that ends with a line feed. The object has the counts and a list of the scenes.
+/// `list` is the key of the list, and `objects` has its entries as JSON, one per scene and line.
 ///
 /// ```
 /// use drystone::result::{Counts, report_json};

@@ -86,8 +86,8 @@ fn listed<T: Serialize>(entries: &[T]) -> String {
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.
 ///
-/// Lines and columns refer to the input file, so that an editor finds them. If the scene is one line of the input, the
-/// problems are on this line.
+/// Line and column numbers refer to the input file, so that an editor finds the place. If the scene is one line of the
+/// input, all its problems are on this line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
     written(
@@ -100,7 +100,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     )
 }
 
-/// Makes the entries for the problems of a text. `before` is the number of lines before this text in its file.
+/// Makes the JSON entries for the problems of a text. `before` is the number of lines in the file before this text.
 fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
     problems

@@ -1,4 +1,4 @@
-//! [`Solve`]: the solution method and its cost, as written in a result.
+//! [`Solve`]: the method that decided a frame, its iterations and its time, as written in a result.
 
 use serde::Serialize;
 

@@ -16,7 +16,8 @@ pub(super) struct Name {
 /// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // Keys below the name of a robot are not separate fields. They are selected together.
+    // A path with `*` is a key below the name of a robot. Such keys are not separate fields: they are selected
+    // together.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))
@@ -62,10 +63,10 @@ pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     Some(path)
 }
 
-/// Returns the most similar field; `None` if no field is similar.
+/// Returns the name of the field that is most similar to `typed`; `None` if no name is similar.
 pub(super) fn nearest(typed: &str) -> Option<String> {
     let known = all();
-    // Users may type other common words for interfaces and for the total force.
+    // Suggest the right field if the user typed another common word for the interfaces or for the total force.
     let synonym = match typed.rsplit('.').next().unwrap_or(typed) {
         "forces" | "contacts" | "contact_forces" => Some("frames.interfaces"),
         "force" | "sum_of_forces" => Some("frames.total_force"),
@@ -77,7 +78,7 @@ pub(super) fn nearest(typed: &str) -> Option<String> {
     text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// Returns all fields, with dots between the parts of a path.
+/// Returns the names of all fields, such as `frames.total_force`.
 fn all() -> Vec<String> {
     fn add(names: &[Name], before: &str, list: &mut Vec<String>) {
         for name in names {
