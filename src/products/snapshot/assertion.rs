@@ -83,17 +83,16 @@ macro_rules! assert_figure {
     };
 }
 
-/// Implements [`assert_scene!`](crate::assert_scene). The path is relative to `crate_folder`.
+/// Implements [`assert_scene!`](crate::assert_scene). `path` is the scene file, relative to `crate_folder`.
 ///
-/// # Panics
-/// If a reference does not match or the scene is not valid.
+/// # Panics If a reference does not match, or if the scene does not exist or is not valid.
 #[track_caller]
 pub fn scene(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
     scenes_at(&[place], &place_words(path));
 }
 
-/// Implements [`assert_scenes!`](crate::assert_scenes). The path is relative to `crate_folder`.
+/// Implements [`assert_scenes!`](crate::assert_scenes). `path` is the folder of the scenes, relative to `crate_folder`.
 ///
 /// # Panics
 /// If a reference does not match or has no scene, if a scene is not valid, or if there is no scene.
@@ -103,7 +102,7 @@ pub fn scenes(crate_folder: &Path, path: &Path) {
     scenes_at(&[place], &place_words(path));
 }
 
-/// Implements [`assert_figure!`](crate::assert_figure). `name` is the base name of the references.
+/// Implements [`assert_figure!`](crate::assert_figure). `name` is the file name of the references without extension.
 ///
 /// # Panics
 /// If a reference does not match, or if the name leads out of the folder of references.
@@ -135,7 +134,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         .filter(|p| references.contains(&p.file))
         .collect();
     if may_write() {
-        // If the folder cannot be created, the code below reports the error when it writes the files.
+        // Ignore an error here: writing the files below then fails and reports it.
         let _ = std::fs::create_dir_all(&folder);
     }
     let lock = store::lock_folders([folder], access());
@@ -167,8 +166,9 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// Joins the folder of the crate and a path relative to it. The folder in which the crate was compiled may not exist on
-/// the machine that runs the test. In this case, Cargo and nextest give the present folder in `CARGO_MANIFEST_DIR`.
+/// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time, which may not
+/// exist on the machine that runs the test. In this case, the function uses the environment variable
+/// `CARGO_MANIFEST_DIR`, which Cargo and nextest set.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     match now {
@@ -205,7 +205,7 @@ fn scenes_at(places: &[PathBuf], what: &str) {
         ),
     };
     if found.jobs.is_empty() && found.faults.is_empty() {
-        fail(&[format!("there is no scene at {what}")]);
+        fail(&[format!("there is no scene file at {what}")]);
     }
     let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
     let lock = store::lock_folders(folders(files), access());
@@ -246,7 +246,7 @@ fn finish(mut report: CheckOutcome, what: &str) {
     lines.extend(report.lines());
     lines.extend(unwritten);
     if !may_write() {
-        lines.push("CI is set, so nothing was written. Run the test on your own machine to see the difference.".into());
+        lines.push("The environment variable CI is set, so nothing was written. Run the test on your own machine to see the difference.".into());
     } else {
         let picture = failing.iter().find(|f| store::difference_file(f).exists());
         let other = failing.iter().find(|f| store::new_file(f).exists());

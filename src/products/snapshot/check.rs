@@ -62,7 +62,7 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
 fn check_scene(job: &Job) -> Vec<Finding> {
     let analysis = Analysis::new(Arc::clone(&job.scene));
     let mut findings = Vec::new();
-    // Keep the SVG text of the last figure: the SVG layer and all widths of the pixel layer use the same text.
+    // Keep the SVG text of the last figure, because the SVG layer and all widths of the pixel layer use the same text.
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {
         if part.layer == Layer::Facts {
@@ -113,18 +113,19 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// Returns the bytes of a reference. If they cannot be read, returns the state of the reference and the reason.
+/// Returns the bytes of a reference file. If there is no file or it cannot be read, returns the state of the reference
+/// and the reason in words.
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err((State::Missing, "there is no reference yet".into())),
+        Ok(None) => Err((State::Missing, "this reference file does not exist yet".into())),
         Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
 }
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
-        // Numbers are rounded both in the reference, when it was written, and in `facts`, when they were made.
+        // Both sides have rounded numbers: the reference since it was written, and `facts` since they were made.
         let changes = Facts::read(text)
             .map_err(|error| error.to_string())?
             .changes(facts);
@@ -138,8 +139,9 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     })
 }
 
-/// Compares a text with its reference. `changes` gets the text of the reference. It returns the changes in words, or
-/// the reason why the reference cannot be read. Returns `None` if there is no change.
+/// Compares the new text `fresh` with its reference. Returns `None` if there is no change. The function `changes` is
+/// called with the text of the reference. It returns the changes in words, or the reason why the reference cannot be
+/// read.
 fn text_finding(
     part: &Part,
     fresh: String,

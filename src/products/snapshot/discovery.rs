@@ -69,7 +69,8 @@ pub struct Discovered {
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// Finds all scenes in the given folders and scene files, and all references without a scene.
+/// Finds all scenes in the given folders and scene files, and all orphaned references: those without a scene, or not
+/// included in the settings.
 ///
 /// A scene is a `.json` file with the key `"drystone"`. A file that is not valid JSON counts as a damaged scene, and
 /// is reported, if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`. Hidden folders and
@@ -99,7 +100,8 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         let Some(bytes) = search.scene_bytes(&path, &base, &settings, &parts) else {
             continue;
         };
-        // Register the references of all scenes, so that references of unselected scenes do not count as orphans.
+        // Register the references of all scenes, also of scenes that the filter does not select. Otherwise they would
+        // count as orphans.
         for part in &parts {
             search.register(&path, &part.file, &mut expected);
         }
@@ -151,7 +153,7 @@ struct Search {
 }
 
 impl Search {
-    /// Adds scene files, and all scenes in folders.
+    /// Adds the given scene files, and all scene files in the given folders, to the candidates.
     fn add_places(&mut self, places: &[PathBuf]) {
         for place in places {
             match fs::metadata(place) {
@@ -184,7 +186,7 @@ impl Search {
         for entry in entries {
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
-            // `file_type` does not follow symbolic links. Such links may form a cycle.
+            // `file_type` does not follow symbolic links, which may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
             match path
                 .extension()
@@ -203,7 +205,7 @@ impl Search {
         }
     }
 
-    /// Adds the scenes that the settings file of a folder lists in `scenes`.
+    /// Adds the scenes that the settings file in a folder lists under the key `scenes`.
     fn add_listed_scenes(&mut self, folder: &Path) {
         let Some(settings) = self.settings_of(folder) else {
             return;
@@ -233,7 +235,8 @@ impl Search {
         self.candidates.push((path, base));
     }
 
-    /// Returns the settings for a folder; `None` if they are not valid. Errors are added to `errors`.
+    /// Returns the settings for a folder; `None` if the settings file cannot be read or is not valid. Adds its errors
+    /// to `errors`.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
@@ -270,8 +273,8 @@ impl Search {
         settings
     }
 
-    /// Registers a reference. Adds an error if two scenes have the same reference. Paths are compared in lower case,
-    /// because some file systems ignore case.
+    /// Registers a reference file of a scene in `expected`. Adds an error if another scene has the same reference file.
+    /// Paths are compared in lower case, because some file systems ignore case.
     fn register(&mut self, scene: &Path, file: &Path, expected: &mut BTreeMap<PathBuf, PathBuf>) {
         let folded = PathBuf::from(file.to_string_lossy().to_lowercase());
         if let Some(other) = expected.insert(folded, scene.to_owned())
@@ -286,8 +289,8 @@ impl Search {
         }
     }
 
-    /// Returns the bytes of a file; `None` if it is not a drystone scene, is ignored by the settings, or cannot be
-    /// read.
+    /// Returns the bytes of a scene file; `None` if the file is not a drystone scene, the settings ignore it, or it
+    /// cannot be read.
     fn scene_bytes(
         &mut self,
         path: &Path,
@@ -320,7 +323,7 @@ impl Search {
         (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
 
-    /// Returns orphaned reference files, each with the reason and remedy. `expected` are the references of all
+    /// Returns the orphaned reference files, each with the reason and the remedy. `expected` has the references of all
     /// scenes.
     fn orphans(&self, expected: &BTreeMap<PathBuf, PathBuf>) -> Vec<(PathBuf, String)> {
         let fold = |path: &Path| PathBuf::from(path.to_string_lossy().to_lowercase());
@@ -328,8 +331,8 @@ impl Search {
         for file in expected.keys() {
             stems.insert(file.with_extension(""));
         }
-        // Facts and pictures contain a mark that identifies them as references. Files with the same stem belong to
-        // them.
+        // Facts and pictures contain a mark that identifies them as references. Files with the same name but another
+        // extension belong to them.
         let marked: Vec<&PathBuf> = self
             .others
             .iter()
@@ -387,7 +390,7 @@ fn looks_like_scene(bytes: &[u8]) -> bool {
     }
 }
 
-/// True if the first 4 KiB of a file contain the mark of a reference of a scene.
+/// True if the first 4 KiB of a file contain a mark that identifies it as a reference of a scene.
 fn has_reference_mark(path: &Path) -> bool {
     use std::io::Read;
     let mut head = Vec::new();

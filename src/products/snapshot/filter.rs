@@ -15,8 +15,8 @@ pub(super) enum Filter<'f> {
 }
 
 impl<'f> Filter<'f> {
-    /// Makes the filter for the text of `only`. If the text equals one of the `names`, the filter selects one scene.
-    /// Otherwise the text is a pattern or a part of names.
+    /// Makes the filter for the text `only`. If the text equals one of the scene `names`, the filter selects only this
+    /// scene. Otherwise a text with `*` is a pattern for names, and any other text is a part of names.
     pub(super) fn new(
         only: Option<&'f str>,
         mut names: impl Iterator<Item = String>,
@@ -33,7 +33,7 @@ impl<'f> Filter<'f> {
     pub(super) fn selects(&self, name: &str) -> bool {
         match self {
             Filter::All => true,
-            // Names of references begin with the name of the scene and a dot.
+            // The name may be that of a reference: it then begins with the name of the scene and a dot.
             Filter::Exactly(scene) => name
                 .strip_prefix(scene)
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),

@@ -1,4 +1,4 @@
-//! [`Layer`]: the layers of a comparison.
+//! [`Layer`]: the three layers in which a snapshot is compared with its references: facts, SVG and pixels.
 
 /// A layer of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

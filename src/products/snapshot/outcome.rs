@@ -106,7 +106,7 @@ impl Snapshot {
         folders(&self.references)
     }
 
-    /// Describes the findings; each finding has one or more lines.
+    /// Describes the findings of this snapshot, each in one or more lines.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for finding in &self.findings {
@@ -139,7 +139,7 @@ impl Snapshot {
         lines
     }
 
-    /// Returns the files that can be written as references, with their new contents.
+    /// Returns the reference files that can be accepted, with their new contents.
     fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
@@ -183,7 +183,8 @@ impl CheckOutcome {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }
 
-    /// Iterates over references without a scene and scenes on which the program failed, each with a message.
+    /// Iterates over the references without a scene, and the scenes on which the program failed. Each path has a
+    /// message.
     pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
         let orphans = self.orphans.iter().map(|(path, words)| {
             let words = format!("a reference without a scene: {words}");
@@ -215,7 +216,7 @@ impl CheckOutcome {
         lines
     }
 
-    /// Returns the counts in one line: `12 snapshots: 10 hold, 1 changed, 1 new`.
+    /// Returns the numbers of matching and other snapshots in one line: `12 snapshots: 10 hold, 1 changed, 1 new`.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
@@ -245,7 +246,7 @@ impl CheckOutcome {
         words
     }
 
-    /// Calls [`Snapshot::store`] for all snapshots. An error in one does not stop the others.
+    /// Calls [`Snapshot::store`] for all snapshots. If it fails for one snapshot, the others are still stored.
     ///
     /// # Errors
     /// All files that could not be written.

@@ -21,8 +21,8 @@ pub struct Part {
     pub width: Option<u32>,
 }
 
-/// Lists the references of a scene or figure. Their paths are `base` with a suffix for each layer, kind, theme and
-/// width of the settings.
+/// Lists the reference files of a scene or figure, one for each combination of layer, kind, theme and width that the
+/// settings require. Their paths are `base` with suffixes for this combination.
 pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);
@@ -38,7 +38,7 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
         parts.push(part(Layer::Facts, &[], Kind::Forces, &first_theme, None));
     }
     for (k, kind) in settings.kinds.iter().enumerate() {
-        // The first kind, theme and width have no suffix.
+        // The first kind, theme and width have no suffix in the file name.
         let kind_mark = (k > 0).then(|| kind.name().to_owned());
         if has(Layer::Svg) {
             let marks: Vec<String> = kind_mark.iter().cloned().collect();
@@ -60,8 +60,8 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     parts
 }
 
-/// Returns the widths of the settings. If the settings have no widths, returns only `None`, which is the natural width
-/// of the drawing.
+/// Returns the picture widths in the settings, in pixels. If the settings have no widths, returns only `None`, which
+/// stands for the natural width of the drawing.
 fn widths(settings: &Settings) -> Vec<Option<u32>> {
     match settings.widths.as_slice() {
         [] => vec![None],

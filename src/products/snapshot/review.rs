@@ -22,8 +22,8 @@ const MAX_OPEN_CHANGES: usize = 12;
 /// Largest number of changes of one file that the page lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 60;
 
-/// Writes the review page of a check. `folders` are the arguments of the command line; the commands on the page
-/// repeat them.
+/// Writes the review page of a check as HTML. `folders` are the folders on the command line, which the commands on the
+/// page repeat.
 ///
 /// # Example
 /// ```
@@ -115,7 +115,8 @@ fn words(finding: &Finding) -> Markup {
 }
 
 fn pictures(finding: &Finding) -> Markup {
-    // Show the reference only if it can be read.
+    // Show the reference only if it can be read. In the state `Unreadable`, `expected` has bytes that are not a
+    // picture.
     let expected = finding
         .expected
         .as_deref()
@@ -140,7 +141,7 @@ fn pictures(finding: &Finding) -> Markup {
             div.onion {
                 div.controls {
                     span { "expected" }
-                    input type="range" min="0" max="100" value="50" aria-label="from the expected picture to the one found";
+                    input type="range" min="0" max="100" value="50" aria-label="blend from the expected picture to the found picture";
                     span { "found" }
                     button type="button" aria-pressed="false" { "Blink" }
                 }

@@ -104,7 +104,7 @@ impl Settings {
         for (key, value) in table.get_ref() {
             reading.key(key, value);
         }
-        // Sort the problems by their position in the file, because the table has another order.
+        // Sort the problems by their position in the file, because the TOML table has another order.
         reading.problems.sort();
         if reading.problems.is_empty() {
             return Ok(reading.settings);
@@ -116,7 +116,7 @@ impl Settings {
     }
 }
 
-/// Returns the line and column of a byte offset, counted from 1: `2:1`.
+/// Returns the line and column at a byte offset, both counted from 1, as `2:1`.
 fn place_in(text: &str, at: usize) -> String {
     let before = text.get(..at).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -223,8 +223,8 @@ impl Reading<'_> {
         texts
     }
 
-    /// Reads a list of known names. `known` returns the value of a name, and `None` for an unknown name. Reports an
-    /// empty list, unknown names and duplicates.
+    /// Reads a list of names, and returns their values. `known` gives the value of a name, or `None` for an unknown
+    /// name. Reports an empty list, unknown names and duplicates as problems.
     fn named<T: PartialEq + Clone>(
         &mut self,
         key: &str,
@@ -307,8 +307,8 @@ impl Reading<'_> {
     }
 }
 
-/// Finds the settings file for a folder, in the folder itself or in the nearest folder above it. The search stops at a
-/// folder with `.git`. Returns `None` if there is no such file.
+/// Finds the settings file for a folder: in the folder itself, or in the nearest folder above it. The search does not
+/// go above a folder that contains `.git`. Returns `None` if there is no settings file.
 pub fn nearest(folder: &Path) -> Option<PathBuf> {
     let start = std::path::absolute(folder).ok()?;
     for above in start.ancestors() {
@@ -323,7 +323,7 @@ pub fn nearest(folder: &Path) -> Option<PathBuf> {
     None
 }
 
-/// True if a name matches a pattern in which `*` stands for any number of any characters.
+/// True if a name matches a pattern. In the pattern, `*` stands for any text, including none.
 pub fn matches_pattern(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();

@@ -12,14 +12,14 @@ use std::path::{Path, PathBuf};
 
 use crate::output::file::{Existing, WriteError, write_whole};
 
-/// True in continuous integration, where nobody can review a new reference. This is so if the environment variable `CI`
-/// is set to a value other than `false`, `no`, 0 or the empty text.
+/// True if the program runs in continuous integration, where nobody can review a new reference: the environment
+/// variable `CI` has a value other than `false`, `no`, `0` or the empty text.
 pub fn in_ci() -> bool {
     is_set("CI")
 }
 
-/// True if the user requests that references are written. This is so if the environment variable `UPDATE_SNAPSHOTS` is
-/// set to a value other than `false`, `no`, 0 or the empty text.
+/// True if the user requests that references are replaced: the environment variable `UPDATE_SNAPSHOTS` has a value
+/// other than `false`, `no`, `0` or the empty text.
 pub fn update_requested() -> bool {
     is_set("UPDATE_SNAPSHOTS")
 }
@@ -51,7 +51,7 @@ fn with_mark(reference: &Path, mark: &str) -> PathBuf {
     reference.with_extension(format!("{mark}.{ending}"))
 }
 
-/// True if a file name belongs to a `.new.*` or `.diff.png` file.
+/// True if this is the name of a `.new.*` or `.diff.png` file.
 pub(super) fn is_result_file(name: &str) -> bool {
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     stem.ends_with(".new") || name.ends_with(".diff.png")
@@ -72,13 +72,14 @@ pub enum Access {
     Write,
 }
 
-/// Locks folders. Waits for runs that write there; to get write access, waits for all runs that use them.
+/// Locks folders for this run of the program. For read access, waits until no other run writes there. For write access,
+/// waits until no other run uses the folders.
 ///
 /// On a file system without locks, the run continues without a lock. Even then, each file is written completely or not
 /// at all.
 pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
-    // All runs lock in the same order, so that two runs never wait for each other (no deadlock).
+    // Lock the folders in sorted order. All runs do so, and therefore two runs never wait for each other (no deadlock).
     let sorted: BTreeSet<PathBuf> = real.collect();
     let mut held = Vec::new();
     for folder in sorted {

@@ -1,4 +1,4 @@
-//! [`Double`]: double-double arithmetic with about 32 digits. A number is the unevaluated sum of two f64.
+//! [`Double`]: double-double arithmetic with about 32 digits. Each number is stored as the sum of two f64.
 //!
 //! References: Dekker (1971), A floating-point technique for extending the available precision; Knuth's two-sum. Products
 //! use the fused multiply-add, which is exact on every machine, in hardware or in software.
@@ -19,7 +19,7 @@ impl Double {
         low: 0.0,
     };
 
-    /// Returns the nearest `f64` to this number.
+    /// Returns the `f64` that is nearest to this number.
     pub fn near(self) -> f64 {
         self.high
     }
@@ -29,7 +29,7 @@ impl Double {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// Adds two f64 exactly, by Knuth's two-sum.
+    /// Adds two f64 by Knuth's two-sum. The result has the rounded sum and its rounding error, so it is exact.
     fn sum(a: f64, b: f64) -> Double {
         let high = a + b;
         let other = high - a;

@@ -1,8 +1,8 @@
-//! Computes the optimum with the least Σ force² in extended precision. This optimum is the reference for the largest
-//! single force.
+//! Computes, in extended precision, the optimal forces with the least sum of squares. They are unique, and give the
+//! reference value for the largest single force.
 //!
-//! Among all optima of a program, the one with the least sum of squares is unique. The unknowns are N1, N2, T of each
-//! contact and three components of each grip.
+//! A program may have many optima, but only one of them has the least sum of squared forces. The unknowns are N1, N2
+//! and T of each contact, and three components of each grip.
 //!
 //! 1. A quadratic program on the optimal face, solved in f64, suggests the faces of the friction cones that contain the
 //!    forces.
@@ -29,8 +29,8 @@ struct Axis {
     square: Double,
 }
 
-/// Returns the norm of the largest resultant of the unique forces, in scaled numbers. Returns `None` if the forces
-/// cannot be certified, or if a robot is at its limit.
+/// Returns the largest resultant, at a contact or grip, of the optimal forces with the least sum of squares. It is in
+/// the scaled units of the program. Returns `None` if the forces cannot be certified, or if a robot is at its limit.
 pub(super) fn largest_of_unique(
     program: &Program,
     columns: &[Column],
@@ -46,7 +46,8 @@ pub(super) fn largest_of_unique(
         if answer.status != Status::Solved {
             continue;
         }
-        // Read the multipliers of −x ≤ 0. Each column has one row for them; a column with a limit has a second row.
+        // Read the multipliers of the constraints −x ≤ 0. Each column has one such row; a column with a limit has a
+        // second row.
         let mut row = program.loads.len();
         let mut multiplier = Vec::with_capacity(face.len());
         for column in &face {
@@ -89,7 +90,7 @@ fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
             vector[component] = sign.into();
             (program.contacts.len() + grip, vector)
         }
-        // Adhesion does not occur in a stable program.
+        // This case never occurs: a stable program has no columns of adhesion.
         _ => (usize::MAX, vector),
     }
 }
@@ -98,8 +99,8 @@ fn dot(a: &[Double; 3], b: &[Double; 3]) -> Double {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Orthogonalises the used columns of each contact or grip by Gram-Schmidt. Columns of the same contact or grip must be
-/// consecutive.
+/// Makes the force directions of the used columns at each contact or grip orthogonal, by Gram-Schmidt. The columns of
+/// one contact or grip must be consecutive.
 fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Axis> {
     let mut axes: Vec<Axis> = Vec::new();
     for column in used {
@@ -117,8 +118,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
             }
         }
         let square = dot(&direction, &direction);
-        // Directions are rounded to 1e-16. The rest of a dependent direction therefore has a squared length of about
-        // 1e-32 of the original. The threshold 1e-20 separates dependent from independent directions.
+        // Leave out directions that depend on the earlier ones. Directions are rounded to 1e-16, so the remainder of a
+        // dependent direction has about 1e-32 of its squared length. The threshold 1e-20 lies far above this.
         if square.near() > 1e-20 * whole {
             axes.push(Axis {
                 place,
@@ -131,8 +132,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
     axes
 }
 
-/// Solves for the forces along the axes. Returns the largest resultant; `None` if the certificate does not hold.
-/// `total` is the certified optimum.
+/// Solves for the forces along the axes. Returns the largest resultant, or `None` if the forces do not pass the checks
+/// of step 3. `total` is the certified optimum of the sum of forces.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes

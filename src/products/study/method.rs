@@ -1,4 +1,5 @@
-//! [`Method`]: the solution methods of the study. The time of a method includes the construction of its program.
+//! [`Method`]: the solution methods that the study compares. The measured time of a method includes setting up its
+//! linear program.
 
 use super::Task;
 use super::outcome::Outcome;
@@ -58,7 +59,7 @@ impl Method {
         }
     }
 
-    /// Solves a frame. `tolerance` is the tolerance of the solver.
+    /// Solves a frame with this method. `tolerance` is the tolerance of the solver.
     pub(super) fn solve(self, task: &Task, tolerance: f64) -> Outcome {
         if let Method::Level(accuracy) = self {
             return level(task, accuracy, tolerance);
@@ -79,8 +80,8 @@ impl Method {
     }
 }
 
-/// Returns the amount of adhesion, in scaled numbers, above which the frame counts as falling. This amount is the
-/// tolerance of the proofs, but at least ten times the tolerance of the solver.
+/// Returns the amount of adhesion above which a frame counts as falling, in the scaled units of the program. Relative
+/// to the heaviest load, it is the tolerance of the proofs, but at least ten times the tolerance of the solver.
 fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
@@ -92,7 +93,8 @@ fn effort(iterations: usize) -> Effort {
     }
 }
 
-/// Returns the largest component of the loads that the forces do not balance.
+/// Returns the largest component of the unbalanced load: the loads minus the forces of all columns, multiplied by their
+/// amounts.
 fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
@@ -101,7 +103,8 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
-/// Solves the program of the source. The frame stands if no adhesion is needed.
+/// Solves the program of the source publication, with the cost `beta` per unit of adhesion. The frame stands if the
+/// solution needs no adhesion.
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
@@ -137,7 +140,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
         }
     }
     let mut rest = conic.bound[..conic.equalities].to_vec();
-    // The forces must balance without the adhesion.
+    // Compute the imbalance without the adhesion, because the forces alone must balance the loads.
     for (row, column, value) in &conic.matrix {
         if *row < conic.equalities && *column < n {
             rest[*row] -= value * answer.x[*column];
@@ -155,8 +158,8 @@ fn adhesion_cost(column: &Column) -> f64 {
     f64::from(u8::from(column.force.is_adhesion()))
 }
 
-/// Solves for the forces without a penalty. The first program has no adhesion. If it has no solution, further programs
-/// find the least adhesion, and then the least force.
+/// Solves primal programs, whose unknowns are forces, without a penalty. The first program has no adhesion. If it has
+/// no solution, the second program finds the least adhesion, and the third the least force with this adhesion.
 fn force(program: &Program, tolerance: f64) -> Outcome {
     let loads = &program.loads;
     let admissible = columns(program);
@@ -229,8 +232,8 @@ fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
     }
 }
 
-/// Solves only the dual program. The first program has no adhesion. If it has no solution, a second program finds the
-/// least adhesion.
+/// Solves dual programs, whose unknowns are velocities. The first program has no adhesion. If it has no solution, a
+/// second program finds the least adhesion.
 fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
@@ -268,7 +271,8 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// Solves the dual program, then for the unique forces, like `check` but without proofs.
+/// Solves the dual program, and then computes the unique forces on its optimal face. `check` does the same, and adds
+/// proofs.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Unique);
     let hard = balance_in(program, settings);
@@ -306,7 +310,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// Runs the complete analysis at a level. Its time begins after the interfaces are found.
+/// Runs the complete analysis at an accuracy level. The measured time begins after the interfaces have been found.
 fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
     let options = Options {
         accuracy,

@@ -1,4 +1,4 @@
-//! [`Study`]: measures the time and the error of solution methods.
+//! [`Study`]: an accuracy study, which measures the time and the error of solution methods.
 //!
 //! Every [`Method`] solves every frame at every tolerance several times. The results are compared with a certified
 //! [`Reference`] in extended precision. Times are wall times on this machine, so only their ratios are meaningful. All other
@@ -138,7 +138,7 @@ fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
 }
 
 impl Task {
-    /// Builds the programs of a frame in the same way as `Analysis`.
+    /// Builds the linear programs of a frame, one for each independent part with loads, in the same way as `Analysis`.
     fn new(scene: &Scene, frame: &Frame) -> Task {
         let mut scene = scene.clone();
         scene.frames = vec![frame.clone()];
@@ -159,7 +159,7 @@ impl Task {
     }
 }
 
-/// Combines the references of the independent parts of a frame.
+/// Computes the reference of each independent part of a frame, and combines them to the reference of the frame.
 fn truth(programs: &[Program]) -> Truth {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();

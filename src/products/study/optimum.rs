@@ -49,7 +49,7 @@ const AT_LIMIT: f64 = 1e-6;
 /// The smallest weight of a column in the refinement, relative to the largest amount.
 const MIN_WEIGHT: f64 = 1e-12;
 
-/// Returns the certified optimum of a program; `None` if no guess leads to it.
+/// Returns the certified optimum of a linear program; `None` if no guess at the optimal face passes the checks.
 pub(super) fn optimum(
     loads: &[f64],
     columns: &[Column],
@@ -114,11 +114,11 @@ impl Guess<'_> {
         self.checked(self.refined())
     }
 
-    /// Solves for amounts and velocities on the face.
+    /// Refines the amounts and the velocities on the guessed optimal face.
     ///
-    /// With the columns A and weights W of the face, both corrections solve the same matrix A W Aᵀ: the amounts change by
-    /// W Aᵀ w with A W Aᵀ w = rest, the velocities by d with A W Aᵀ d = A W · (reduced costs). The weights are the amounts,
-    /// so that a small amount changes little and stays positive.
+    /// With the columns A and weights W of the face, both corrections solve systems with the same matrix A W Aᵀ: the
+    /// amounts change by W Aᵀ w with A W Aᵀ w = rest, the velocities by d with A W Aᵀ d = A W · (reduced costs). The
+    /// weights are the amounts, so that a small amount changes little and stays positive.
     fn refined(&self) -> Refined {
         let at_limit = |j: usize| {
             self.columns[j].limit.is_finite()
@@ -176,7 +176,8 @@ impl Guess<'_> {
         }
     }
 
-    /// Returns the loads minus the forces of the columns at their limit. These forces act like loads.
+    /// Returns the loads minus the forces of the columns at their limit. These forces are known, so they act like
+    /// loads.
     fn loads_with(&self, limited: &[usize]) -> Vec<Double> {
         let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
         for j in limited {
@@ -188,7 +189,8 @@ impl Guess<'_> {
         loads
     }
 
-    /// Checks feasibility and the duality gap of a refined solution; `None` if the check fails.
+    /// Checks a refined solution for primal and dual feasibility and for its duality gap. Returns `None` if a check
+    /// fails.
     fn checked(&self, refined: Refined) -> Option<Optimum> {
         let Refined {
             limited,
@@ -198,8 +200,8 @@ impl Guess<'_> {
             rest,
             largest,
         } = refined;
-        // Compute both objective values: Σ cost·amount, and the power of the loads plus the limits times their
-        // multipliers.
+        // Compute the primal objective value, Σ cost·amount, and the dual objective value, the power of the loads plus
+        // Σ limit·multiplier.
         let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
             sum + Double::from(self.costs[*j]) * *x
         });
@@ -220,7 +222,7 @@ impl Guess<'_> {
             (x.near() >= -EXACT * largest || self.may_be_negative(*j, &face))
                 && x.near() <= self.columns[*j].limit
         });
-        // Check dual feasibility: no other column has a negative reduced cost.
+        // Check dual feasibility: no column below its limit has a negative reduced cost.
         let free = || (0..self.columns.len()).filter(|j| !limited.contains(j));
         let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -EXACT * speed);
         let scale = forces
@@ -228,8 +230,8 @@ impl Guess<'_> {
             .abs()
             .max(bound.near().abs())
             .max(EXACT * largest * speed);
-        // By weak duality, the error of the value is at most the gap, plus the largest dual violation times the sum
-        // of all amounts, plus the unbalanced forces times the velocities.
+        // Bound the error by weak duality: it is at most the difference of both objective values, plus the largest dual
+        // violation times the sum of all amounts, plus the unbalanced forces times the velocities.
         let violation = free()
             .map(|j| -self.reduced_cost(j, &y).near())
             .fold(0.0, f64::max);
@@ -249,13 +251,13 @@ impl Guess<'_> {
         })
     }
 
-    /// Returns the reduced cost of a column: its cost minus the power of its unit force along the velocities.
+    /// Returns the reduced cost of column `j`: its cost minus the power of its unit force at the velocities `y`.
     fn reduced_cost(&self, j: usize, y: &[Double]) -> Double {
         Double::from(self.costs[j]) - product(&self.sparse[j], y)
     }
 
-    /// True if a column without cost may have a negative amount. This holds if the opposite column is also on the face,
-    /// because only their difference matters. Grips without limits have such columns.
+    /// True if column `j` may have a negative amount. This holds for a grip without cost if the opposite column is on
+    /// the face and has no limit, because only the difference of their amounts matters.
     fn may_be_negative(&self, j: usize, face: &[usize]) -> bool {
         let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
         let partner = |k: &usize| {
@@ -270,7 +272,7 @@ impl Guess<'_> {
     }
 }
 
-/// Returns the entries of a column in extended precision: row and value.
+/// Returns the nonzero entries of a column as pairs of row and value, in extended precision.
 pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
     column
         .entries()
@@ -292,7 +294,7 @@ pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Doubl
     }
 }
 
-/// Returns the power of the loads along velocities.
+/// Returns the power of the loads at the velocities `y`: their dot product.
 pub(super) fn power(loads: &[f64], y: &[Double]) -> Double {
     loads
         .iter()

@@ -1,4 +1,4 @@
-//! [`Outcome`]: the result of a method for a whole frame.
+//! [`Outcome`]: the result of a solution method for a whole frame.
 
 use crate::analysis::Verdict;
 use crate::program::Scale;
@@ -27,7 +27,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Returns the result for a frame without loads, which stands.
+    /// Returns the outcome for a frame without loads: it stands, and all forces are zero.
     pub(super) fn empty() -> Outcome {
         Outcome {
             verdict: Verdict::Stable,
@@ -79,8 +79,8 @@ impl Outcome {
         }
     }
 
-    /// Combines the outcomes of two independent parts of a frame. If their verdicts differ, the totals are those of the
-    /// worse part.
+    /// Combines the outcomes of two independent parts of a frame. If their verdicts differ, the combined outcome is
+    /// that of the worse part, with the iterations of both parts.
     pub(super) fn and(self, other: Outcome) -> Outcome {
         let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
             a.zip(b).map(|(a, b)| join(a, b))
@@ -109,7 +109,7 @@ impl Outcome {
     }
 }
 
-/// Returns the largest resultant of a contact or grip, in scaled numbers.
+/// Returns the magnitude of the largest resultant at a contact or grip, in the scaled units of the program.
 fn largest(amounts: &Amounts) -> f64 {
     let contacts = amounts
         .normal

@@ -38,7 +38,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Computes the true solution of a program.
+    /// Computes the true verdict, total and largest force of a program, with a bound on the error of the total.
     pub fn new(program: &Program) -> Reference {
         let unknown = Reference {
             verdict: Verdict::Undecided,
@@ -64,7 +64,8 @@ impl Reference {
             let least = optimum.value.near();
             return match least > EXACT * largest {
                 // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of 2.
-                // If the total is small and the forces are large, the total may not be known to twelve digits.
+                // The total is reported only if it is known to twelve digits, which may fail if it is small and the
+                // forces are large.
                 true if optimum.gap < 0.5 => Reference {
                     verdict: Verdict::Unstable,
                     total: (optimum.gap <= MAX_GAP).then_some(least),
@@ -90,7 +91,7 @@ impl Reference {
     }
 }
 
-/// True if the solver finds a motion that even adhesion does not resist.
+/// True if the solver finds a motion along which the loads have power, and which not even adhesion resists.
 fn falls_despite_adhesion(loads: &[f64], all: &[Column]) -> bool {
     let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
     let solved = dual(

@@ -22,7 +22,8 @@ pub(super) struct Skyline {
 }
 
 impl Skyline {
-    /// Factorises the matrix Σ weight · v vᵀ over sparse vectors v. `size` is its number of rows.
+    /// Factorises the matrix Σ weight · v vᵀ. `terms` has the weights and the sparse vectors v; `size` is the number of
+    /// rows.
     pub(super) fn new<'a>(
         size: usize,
         terms: impl Iterator<Item = (Double, &'a [(usize, Double)])> + Clone,
@@ -60,7 +61,8 @@ impl Skyline {
             let row = &mut rest[0];
             let start = self.first[i];
             let whole = row[i - start].abs().near();
-            // Compute row i of L·D from the rows above, which are finished. Then divide row i by D.
+            // Compute row i of L·D from the finished rows above it. Then divide its entries by the pivots D to get row
+            // i of L.
             for j in start..i {
                 let from = start.max(self.first[j]);
                 let mut sum = row[j - start];
@@ -86,7 +88,7 @@ impl Skyline {
         }
     }
 
-    /// Solves M w = `right`. If M is singular, `right` must be in its range.
+    /// Solves M w = `right` for the factorised matrix M. If M is singular, `right` must be in its range.
     pub(super) fn solve(&self, right: &[Double]) -> Vec<Double> {
         // Forward substitution with L, division by D, backward substitution with Lᵀ.
         let mut w = right.to_vec();

@@ -1,4 +1,4 @@
-//! [`Summary`]: summarises a study over all frames, by method and tolerance.
+//! [`Summary`]: the errors, times and wrong verdicts of one method at one tolerance, over all frames of a study.
 
 use super::{Mark, Method, Run, Study};
 use crate::analysis::Accuracy;
@@ -37,7 +37,8 @@ fn median(mut list: Vec<f64>) -> Option<f64> {
     list.get(list.len() / 2).copied()
 }
 
-/// Summarises a study. Returns one entry for each method and tolerance, in their order.
+/// Summarises a study over all its frames. Returns one entry for each combination of method and tolerance, in the order
+/// of the runs.
 ///
 /// The time of a frame is divided by the time of `standard` on the same frame, at the tolerance nearest to the
 /// default. Large frames therefore do not dominate small ones.

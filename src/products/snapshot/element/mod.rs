@@ -55,7 +55,7 @@ pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, SvgParseError
     Ok(described(events))
 }
 
-/// Describes the changes. If many elements have the same change, it is reported once.
+/// Describes the changes in words. A change that at least [`MIN_GROUPED`] elements share is reported once.
 fn described(events: Vec<Event>) -> Vec<String> {
     let mut described: Vec<String> = Vec::new();
     let mut done: Vec<&str> = Vec::new();
@@ -79,7 +79,8 @@ fn described(events: Vec<Event>) -> Vec<String> {
     described
 }
 
-/// Compares a pair of elements and their children. `within` describes the element around them.
+/// Compares a pair of elements and their children, and adds the changes to `events`. `within` describes the parent
+/// element, for messages.
 fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) {
     let element = new.called(within);
     let mut report = |change: String| {
@@ -137,7 +138,8 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
     }
 }
 
-/// True if two attribute values are equal, except for rounding.
+/// True if two attribute values are equal, apart from rounding: by at most 1 in a colour channel, and by at most
+/// [`POSITION_TOL`] in a number.
 fn same_value(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -155,8 +157,8 @@ fn same_value(a: &str, b: &str) -> bool {
             })
 }
 
-/// True if two texts are equal, except for the last digit of rounded numbers. A number counts as rounded if it has a
-/// decimal point, or if ° or % follows. The facts layer compares the same numbers more precisely.
+/// True if two texts are equal, apart from one unit in the last digit of rounded numbers. A number counts as rounded if
+/// it has a decimal point, or if ° or % follows it. The facts layer compares the same numbers more precisely.
 fn same_words(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -174,7 +176,7 @@ fn same_words(a: &str, b: &str) -> bool {
         })
 }
 
-/// Returns the value of a unit in the last digit of a number: 0.01 for `1.23`.
+/// Returns the place value of the last digit of a number: 0.01 for `1.23`.
 fn unit(number: &str) -> f64 {
     let decimals = number.split_once('.').map_or(0, |(_, d)| d.len());
     format!("1e-{decimals}").parse().unwrap_or(1.0)
@@ -200,7 +202,7 @@ fn pieces(text: &str) -> Vec<&str> {
         }
     }
     pieces.push(&text[begin..]);
-    // A full stop after a number ends the sentence; it is not a decimal point.
+    // Remove a full stop after a number: it ends the sentence, and is not a decimal point.
     pieces.iter_mut().for_each(|p| {
         if p.len() > 1 {
             *p = p.trim_end_matches('.');

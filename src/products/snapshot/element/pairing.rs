@@ -6,7 +6,7 @@
 //! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path points.
 //! 3. Between those, pair elements with the same tag, class and label.
 //!
-//! The other elements are paired by kind, if both lists have equally many elements of this kind.
+//! The other elements are paired by tag and class, if both lists have equally many elements of this kind.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -17,14 +17,14 @@ const MAX_TABLE_ENTRIES: usize = 4_000_000;
 
 type Pair<'e> = (Option<&'e Element>, Option<&'e Element>);
 
-/// Pairs the elements of an old and a new list. An element without a partner is paired with `None`.
+/// Pairs the elements of an old list with those of a new list. An element without a partner is paired with `None`.
 pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>> {
     let mut pairs = Vec::new();
     between(old, new, 0, &mut pairs);
     pairs
 }
 
-/// Returns a hash of the properties that two elements must share to be paired at this stage.
+/// Returns a hash of the properties that an element must share with its partner at this stage of the pairing.
 fn key(element: &Element, stage: usize) -> u64 {
     // The hash may differ between versions of Rust. This has no effect, because it is not stored or printed.
     let mut hasher = DefaultHasher::new();
@@ -48,7 +48,7 @@ fn key(element: &Element, stage: usize) -> u64 {
     hasher.finish()
 }
 
-/// Pairs elements with the same key of this stage. The elements between two such pairs are paired by the next stage.
+/// Pairs elements with the same key at this stage. The elements between two such pairs are left to the next stage.
 fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut Vec<Pair<'e>>) {
     if stage == 3 || old.is_empty() || new.is_empty() {
         pair_rest(old, new, pairs);
@@ -64,8 +64,8 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
     between(&old[a..], &new[b..], stage + 1, pairs);
 }
 
-/// Pairs the elements of a kind in order, if both lists have the same number of them. Otherwise each of these elements
-/// is paired with `None`, because it has appeared or vanished.
+/// Pairs elements of the same tag and class in their order, if both lists have equally many of them. Otherwise pairs
+/// each of them with `None`, as an element that vanished or appeared.
 fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
@@ -85,8 +85,8 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
     }
 }
 
-/// Finds a longest common subsequence of two lists of keys. Returns it as pairs of indices. Common beginnings and ends
-/// are paired first.
+/// Finds a longest common subsequence of two lists of keys, and returns it as pairs of indices. A common prefix and a
+/// common suffix are paired first. For very long lists, the subsequence may not be the longest.
 fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
@@ -109,8 +109,8 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Finds the longest common subsequence by dynamic programming. The table contains its length for all pairs of
-/// suffixes. Returns pairs of indices.
+/// Finds the longest common subsequence by dynamic programming, and returns it as pairs of indices. The table contains
+/// the length of the subsequence for all pairs of suffixes.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];

@@ -14,14 +14,14 @@ pub(super) enum Movement {
     Moved(f64, f64),
     /// A rotation in degrees anticlockwise, perhaps with a translation.
     Turned(f64),
-    /// Another outline with the same number of points: the largest distance of a point from its old position, in pixels.
+    /// Another outline with the same number of points: the largest change of a coordinate, in pixels.
     Reshaped(f64),
     /// An outline with other segments.
     Redrawn,
 }
 
 impl Movement {
-    /// Describes the movement in words; empty if there is no change.
+    /// Describes the movement in words, such as `moved by 1 px to the right`; empty if there is no change.
     pub(super) fn words(self) -> String {
         let short = |value: f64| {
             let text = format!("{:.2}", value.abs());
@@ -46,14 +46,14 @@ impl Movement {
                 };
                 format!("turned by {}° {way}", short(degrees))
             }
-            Movement::Reshaped(far) => format!("changed its outline by up to {} px", short(far)),
-            Movement::Redrawn => "changed its outline".into(),
+            Movement::Reshaped(far) => format!("its outline changed by up to {} px", short(far)),
+            Movement::Redrawn => "its outline changed".into(),
         }
     }
 }
 
-/// Finds the change of an element's shape. The simplest explanation is tried first: no change, translation, rotation,
-/// other shape.
+/// Finds the change of an element's shape. The simplest explanation is tried first: no change, then a translation, a
+/// rotation, and another shape.
 pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     if old.shape == new.shape || old.tag == "svg" {
         return Movement::None;
@@ -96,7 +96,8 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         ]
     };
     if far(&b, &turned) <= 2.0 * POSITION_TOL {
-        // The y axis of the page points down, so the angle changes its sign.
+        // The y axis of the page points down, so a positive angle is clockwise. Report the opposite sign, positive
+        // anticlockwise.
         return Movement::Turned(-angle.to_degrees());
     }
     Movement::Reshaped(stayed)
@@ -111,9 +112,9 @@ fn rounded(by: f64) -> f64 {
     }
 }
 
-/// Returns the angle, in radians, of the rotation that fits the points `a` best to the points `b`. The points `a` are
-/// relative to `from`, the points `b` relative to `to`. The least-squares (Procrustes) solution in the plane is atan2(Σ
-/// p × q, Σ p · q).
+/// Returns the angle, in radians, of the rotation that fits the points `a` best to the points `b`. `from` and `to` are
+/// the centroids of `a` and `b`. With p and q relative to them, the least-squares (Procrustes) solution in the plane is
+/// atan2(Σ p × q, Σ p · q).
 fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -135,7 +136,8 @@ fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     [sum[0] / count, sum[1] / count]
 }
 
-/// Returns the points of an element, and the letters of its path commands. Returns `None` if a number cannot be read.
+/// Returns the points that define the shape of an element, and the letters of its path commands. Returns `None` if a
+/// number cannot be read.
 fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
     let mut points = Vec::new();
     let mut letters = String::new();

@@ -51,13 +51,14 @@ const SHAPE: [&str; 13] = [
 const IGNORED: [&str; 2] = ["id", "aria-labelledby"];
 
 impl Element {
-    /// Returns the value of an attribute other than position and size.
+    /// Returns the value of an attribute that does not describe position or size; `None` if the element does not have
+    /// it.
     pub(super) fn attribute(&self, name: &str) -> Option<&str> {
         let found = self.attributes.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// Returns the value of an attribute for position or size.
+    /// Returns the value of an attribute that describes position or size; `None` if the element does not have it.
     pub(super) fn place_of(&self, name: &str) -> Option<&str> {
         let found = self.shape.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
@@ -74,7 +75,8 @@ impl Element {
         self.title.split(": ").next().unwrap_or_default()
     }
 
-    /// Returns a name of the element for messages. `within` describes the element around it.
+    /// Returns a name of the element for messages, such as `text "word 0"` or `path in the page`. `within` describes
+    /// its parent element.
     pub(super) fn called(&self, within: &str) -> String {
         let what = if self.class.is_empty() {
             &self.tag
@@ -92,7 +94,8 @@ impl Element {
         }
     }
 
-    /// Describes the position of the element's children for messages.
+    /// Returns the name that messages use for the place of this element's children. `within` describes the place of the
+    /// element itself.
     pub(super) fn place(&self, within: &str) -> String {
         if self.tag == "svg" || !self.title.is_empty() {
             self.called(within)
@@ -126,7 +129,7 @@ pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
 fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
     if depth > MAX_DEPTH {
         return Err(SvgParseError::Xml(format!(
-            "its elements are nested more than {MAX_DEPTH} levels deep"
+            "elements are nested more than {MAX_DEPTH} levels deep"
         )));
     }
     let mut found = Element {
@@ -140,8 +143,8 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
             "aria-label" => found.title = value,
             _ if IGNORED.contains(&name) => {}
             _ if SHAPE.contains(&name) => found.shape.push((name.to_owned(), value)),
-            // The name after `#` depends on the content of the drawing, so this name is ignored. The element with this
-            // name is compared separately.
+            // Ignore the id after `#`, because it depends on the content of the whole drawing. The element with this id
+            // is compared separately.
             _ if value.starts_with("url(#") => {
                 found.attributes.push((name.to_owned(), "url".into()))
             }

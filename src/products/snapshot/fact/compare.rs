@@ -18,14 +18,14 @@ pub struct Change {
 
 /// The kind of a fact that says that a block falls.
 const FALLING: &str = "falling";
-/// If more blocks begin or stop to fall, they share one line.
+/// If more blocks than this begin to fall, or no longer fall, they share one line.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
 /// Added to the weight of a change of the scene: a block, gravity, the kernel, the title.
 const CAUSE_WEIGHT: f64 = 5e9;
 /// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these classes.
 const VERDICT_WEIGHT: f64 = 4e9;
-/// Weight of a block that begins or stops to fall.
+/// Weight of a block that begins to fall, or no longer falls.
 const FALL_WEIGHT: f64 = 3e9;
 /// Weight of an object that appears or vanishes.
 const PRESENCE_WEIGHT: f64 = 2e9;
@@ -56,7 +56,7 @@ pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
 
 type Pair<'f> = (Option<&'f Section>, Option<&'f Section>);
 
-/// Pairs the sections of both lists: by position if both lists have the same length, otherwise by title.
+/// Pairs the sections of two lists of facts: by position if the lists have the same length, otherwise by title.
 fn pairs<'f>(expected: &'f [Section], found: &'f [Section]) -> Vec<Pair<'f>> {
     if expected.len() == found.len() {
         return expected
@@ -92,7 +92,7 @@ fn heading(section: &Section) -> String {
     }
 }
 
-/// Compares the facts of two paired sections.
+/// Compares the facts of two paired sections, and adds the differences to `changes`.
 fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change>) {
     let is_frame = new.head.kind.starts_with("frame ");
     let place = if several && is_frame {
@@ -127,7 +127,7 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
     }
 }
 
-/// Compares the headings of two sections: the title, and the verdict of a frame.
+/// Compares the headings of two sections: their titles, and the verdicts if they are frames.
 fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>) {
     let what = if is_frame {
         heading(new)
@@ -138,7 +138,7 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
         let title = |s: &Section| s.head.names.first().cloned().unwrap_or_default();
         changes.push(Change {
             words: format!(
-                "{what}: the title was \"{}\", it is \"{}\"",
+                "{what}: the title was \"{}\", and is now \"{}\"",
                 title(old),
                 title(new)
             ),
@@ -153,7 +153,7 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
     }
 }
 
-/// Returns the keys of both lists, in the order of the new facts. Keys of old facts only are at the end.
+/// Returns the keys of old and new facts, in the order of the new facts. Keys that only old facts have come last.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
         let kind = if key.0 == FALLING { "block" } else { &key.0 };
@@ -167,7 +167,8 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
     names
 }
 
-/// Removes from `names` the keys of blocks that begin or stop to fall, if there are many. Reports them in one line.
+/// If many blocks begin to fall, reports all of them in one line, and removes their keys from `names`. Does the same
+/// for blocks that no longer fall.
 fn group_falling(
     was: &ByName<'_>,
     is: &ByName<'_>,
@@ -213,7 +214,7 @@ fn by_name(facts: &[Fact]) -> ByName<'_> {
     known
 }
 
-/// Names the object of a fact: `interface a–ground`, `block c`.
+/// Returns the name of the object of a fact for messages: `interface a–ground`, `block c`.
 fn called((kind, names, number): &Key) -> String {
     let number = match number {
         0 => String::new(),
@@ -270,7 +271,8 @@ fn described(value: &Value) -> String {
     parts.join(" ")
 }
 
-/// Describes the changed values, and returns the weight of the largest change. Returns `None` if no value changed.
+/// Returns a description of all changed values, and the weight of the largest change. Returns `None` if no value
+/// changed.
 fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     let mut words = Vec::new();
     let mut weight: f64 = 0.0;
@@ -323,8 +325,9 @@ fn change(old: &Value, new: &Value) -> String {
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
-/// Returns the difference of two values, divided by the unit of their last digit. Returns `None` if rounding can
-/// explain the difference. Values with different units or lengths differ by 1e6.
+/// Returns the largest difference between two values, in units of their last digit. Returns `None` if rounding can
+/// explain the difference. Returns 1e6 if the values differ in their unit, in the number of their numbers, or in a
+/// word.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
     if !shape {
@@ -334,8 +337,8 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
     for (a, b) in old.numbers.iter().zip(&new.numbers) {
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => {
-                // Numbers without a unit are counts and coefficients. They have no rounding error of the solver, so
-                // their step is a constant.
+                // Numbers without a unit are counts and coefficients, which the solver does not compute. They are
+                // compared in units of a constant.
                 let rounded = last_digit(a).max(last_digit(b));
                 let digit = if new.unit.is_empty() {
                     UNITLESS_STEP
@@ -348,6 +351,7 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
             _ => most = 1e6,
         }
     }
-    // A rounding error of the solver may change the last digit by 1 unit. The limit 1.5 separates 1 from 2.
+    // A rounding error of the solver may change the last digit by 1 unit. A change by 2 units is reported, so the limit
+    // is 1.5.
     (most > 1.5).then_some(most)
 }

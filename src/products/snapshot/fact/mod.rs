@@ -65,8 +65,8 @@ struct Value {
 }
 
 impl Facts {
-    /// Collects the facts of an analysis. The largest load has `digits` significant digits, usually [`DIGITS`]; other
-    /// forces have the same decimals.
+    /// Collects the facts of an analysis. Forces are rounded so that the largest load has `digits` significant digits,
+    /// usually [`DIGITS`]. All other forces have the same number of decimals.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
@@ -86,21 +86,20 @@ impl Facts {
         write::from_analysis(analysis, digits)
     }
 
-    /// Writes the facts as text to store.
+    /// Returns the facts as text, in the format of reference files.
     pub fn text(&self) -> String {
         write::text(self)
     }
 
-    /// Reads a stored text.
+    /// Reads facts from the text of a reference file.
     ///
-    /// # Errors
-    /// [`FactsError`] with the first line that is not a fact.
+    /// # Errors [`FactsError`] if the text is not a list of facts. It names the first line that is not a fact.
     pub fn read(text: &str) -> Result<Facts, FactsError> {
         read::facts(text)
     }
 
-    /// Describes how `found` differs from these facts. Changes of the scene come first, then their effects, the most
-    /// important first. Empty if there is no difference.
+    /// Describes how the facts `found` differ from these facts. Changes of the scene come first. Then come changes of
+    /// the results, the most important first. Empty if there is no difference.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }

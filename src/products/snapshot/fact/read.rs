@@ -1,4 +1,4 @@
-//! Reads stored facts.
+//! Reads facts from the text of a reference file.
 
 use super::write::HEAD;
 use super::{Fact, Facts, Section, Value};
@@ -16,7 +16,7 @@ pub enum FactsError {
     #[error("line {0} is a mark of a merge conflict; resolve it, or accept the facts again")]
     Conflict(usize),
     /// The first line is missing.
-    #[error("it does not begin with \"{HEAD}\"")]
+    #[error("its first line is not \"{HEAD}\"")]
     Foreign,
     /// A line that cannot be read.
     #[error("line {line} is not a fact: {text}")]
@@ -90,8 +90,8 @@ fn fact(line: &str) -> Option<Fact> {
     })
 }
 
-/// Returns the name before the closing quotation mark, without escapes, and the text after this mark. Returns `None` if
-/// there is no closing quotation mark.
+/// Reads a quoted name; `text` begins after the opening quotation mark. Returns the name without escapes, and the text
+/// after the closing quotation mark. Returns `None` if there is no closing quotation mark.
 fn unquoted(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut escaped = false;

@@ -13,8 +13,8 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is 0 or not finite,
-    /// the value 1 is used.
+    /// Chooses the decimal place at which the number `largest` has `digits` significant digits. If `largest` is not
+    /// positive and finite, 1 replaces it.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
@@ -38,7 +38,7 @@ impl Rounding {
         }
     }
 
-    /// Writes the rounded number, but never −0. Numbers that are not finite become `none`.
+    /// Writes the rounded number as text, never as −0. A number that is not finite becomes `none`.
     pub(super) fn write(self, value: f64) -> String {
         if !value.is_finite() {
             return "none".into();
@@ -65,7 +65,7 @@ impl Rounding {
     }
 }
 
-/// Returns the value of a unit in the last digit of a written number: 0.01 for `1.23`.
+/// Returns the place value of the last digit of a written number: 0.01 for `1.23`.
 pub(super) fn last_digit(written: &str) -> f64 {
     let (mantissa, exponent) = written.split_once('e').unwrap_or((written, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
@@ -75,7 +75,7 @@ pub(super) fn last_digit(written: &str) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// Removes trailing zeros from a written number.
+/// Shortens a written number for messages: removes trailing zeros, and replaces the hyphen by a minus sign.
 pub(super) fn short(written: &str) -> String {
     let (mantissa, exponent) = match written.split_once('e') {
         Some((mantissa, exponent)) => (mantissa, format!("e{exponent}")),

@@ -146,9 +146,9 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
     }
 }
 
-/// Returns the forces at two points, sorted by the positions of the points. The facts therefore do not depend on the
-/// order of the points in the result. The sort direction has an irrational slope (0.38…, from the golden ratio), so
-/// that two different points hardly ever have the same position along it.
+/// Returns the forces at two points, sorted by the positions of the points along a fixed direction. The facts therefore
+/// do not depend on the order of the points in the result. The direction has an irrational slope (0.38…, from the
+/// golden ratio), so that two different points hardly ever have the same position along it.
 fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;

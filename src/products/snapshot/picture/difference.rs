@@ -43,12 +43,12 @@ struct PixelPair<'p> {
 }
 
 impl PixelPair<'_> {
-    /// Returns the mark of the pixel, and the largest difference of a channel. Returns `None` if the tolerance allows
-    /// this difference.
+    /// Compares the two pixels. Returns the mark of the pixel, and the largest difference of a colour channel. Returns
+    /// `None` if the tolerance allows this difference.
     fn compare(&self, tolerance: PixelTolerance) -> Option<(Mark, u8)> {
         let (expected, found) = (self.expected, self.found);
         let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
-        // The palette of a reference may have rounded the colours.
+        // Allow for the palette of a reference, which may have rounded the colours.
         let rounding = expected.rounding_of(a).max(found.rounding_of(b));
         let by = visible_difference(a, b);
         if by <= tolerance.channel.saturating_add(rounding) {
@@ -127,7 +127,7 @@ impl Difference {
                 let begin = y as usize * p.width as usize;
                 begin..begin + width as usize
             };
-            // 1. Skip equal rows and equal pixels. Most rows and pixels of a picture are equal.
+            // 1. Skip equal rows and equal pixels, because most of them are equal.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;
@@ -149,7 +149,7 @@ impl Difference {
                 }
             }
         }
-        // 3. Keep the marks for the image of the difference.
+        // 3. Store the marks, which the image of the difference needs.
         if !difference.is_none() {
             difference.set_marks(&marked);
         }
@@ -174,7 +174,7 @@ impl Difference {
         });
     }
 
-    /// Stores the marks of all pixels. The marked area covers both pictures.
+    /// Stores the marks of all pixels, in an area that covers both pictures.
     fn set_marks(&mut self, marked: &[(u32, u32, Mark)]) {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (all_across, all_down) = (ew.max(fw), eh.max(fh));
@@ -189,12 +189,12 @@ impl Difference {
         }
     }
 
-    /// True if the pictures count as equal.
+    /// True if the pictures count as equal: they have the same size, and no pixel differs by more than the tolerance.
     pub fn is_none(&self) -> bool {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
     }
 
-    /// Describes the difference; empty if the pictures count as equal.
+    /// Describes the difference in words; empty if the pictures count as equal.
     pub fn words(&self) -> String {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let mut words = Vec::new();
@@ -240,8 +240,8 @@ impl Difference {
     }
 }
 
-/// Returns the largest visible difference of a channel. Before the comparison, colours are multiplied by alpha. Alpha
-/// counts as a channel.
+/// Returns the largest visible difference between two colours in a channel, from 0 to 255. Red, green and blue are
+/// multiplied by alpha first, and alpha counts as a channel.
 fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     if a[3] == 255 && b[3] == 255 {
         return max_channel_difference(a, b);
@@ -253,7 +253,7 @@ fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     max_channel_difference(premultiplied(a), premultiplied(b))
 }
 
-/// Converts a colour to one of 32 levels of pale grey, by its brightness. A picture with few colours is a small PNG.
+/// Converts a colour to one of 32 levels of pale grey, by its brightness. With few colours, the PNG is small.
 fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let grey = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
     let ink = (255 - grey) * u32::from(a) / 255;
@@ -261,7 +261,7 @@ fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     [pale as u8, pale as u8, pale as u8, 255]
 }
 
-/// Draws a rectangle at a distance of 3 pixels around a box.
+/// Draws a rectangle around a box (x, y, width, height), at a distance of 3 pixels.
 fn frame(picture: &mut Picture, [x, y, w, h]: [u32; 4]) {
     const OFF: u32 = 3;
     const LINE: [u8; 4] = [0xf0, 0x70, 0x80, 255];

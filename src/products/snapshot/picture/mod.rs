@@ -122,8 +122,7 @@ impl Picture {
 
     /// Decodes a PNG.
     ///
-    /// # Errors
-    /// [`PictureError`] for any other bytes.
+    /// # Errors [`PictureError`] if the bytes are not a PNG, or a PNG that is damaged, too large or animated.
     ///
     /// # Example
     /// ```
@@ -200,8 +199,8 @@ impl Picture {
         &self.rgba
     }
 
-    /// True if the record of rounded colours has probably been lost: the picture has 200 to 256 colours, but neither a
-    /// record of roundings nor a subject.
+    /// True if another program has probably removed the note on rounded colours from the file: the picture has 200 to
+    /// 256 colours, but neither this note nor a subject.
     pub(super) fn has_lost_rounding_note(&self) -> bool {
         let mut colours: Vec<[u8; 4]> = self
             .rgba
@@ -213,13 +212,13 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// Returns the largest amount by which a channel of this colour may have been rounded.
+    /// Returns the largest amount, of 255, by which a channel of this colour may have been rounded.
     fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }
 }
 
-/// Returns the error for bytes that do not begin like a PNG; `None` for bytes that do.
+/// Returns an error that says what the bytes are, if they do not begin like a PNG. Returns `None` if they do.
 fn foreign(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {

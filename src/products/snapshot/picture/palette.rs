@@ -85,14 +85,15 @@ impl Palette {
         palette
     }
 
-    /// Writes the roundings as text for the file; `None` if no colour was rounded.
+    /// Returns the roundings of all colours as text to store in the file; `None` if no colour was rounded.
     fn note(&self) -> Option<String> {
         let any = self.rounding.iter().any(|r| *r > 0);
         any.then(|| self.rounding.iter().map(|r| format!("{r:02x}")).collect())
     }
 }
 
-/// Reads the roundings of the colours of `table` from the stored text. A text whose length does not match is ignored.
+/// Reads the rounding of each colour of the palette `table` from the stored text. The text is ignored if it has not one
+/// number for each colour.
 pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     let digits: Vec<char> = note.chars().collect();
     let values = digits.chunks(2).map(|pair| {
@@ -113,7 +114,7 @@ pub(super) fn max_channel_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     channels.max().unwrap_or(0)
 }
 
-/// Finds the channel with the widest range. Returns its lowest value, its highest value and its index.
+/// Finds the colour channel with the widest range of values. Returns its lowest value, its highest value and its index.
 fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     let range = |channel: usize| {
         let values = members.iter().map(|m| m[channel]);
@@ -130,13 +131,14 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Sorts colours into at most `max` boxes : the widest box is repeatedly cut in the middle of its widest channel.
+/// Divides colours into at most `max` boxes of similar colours. The widest box is repeatedly cut in the middle of its
+/// widest channel.
 fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];
     while boxes.len() < max {
         let wide = |w: &(u8, u8, usize)| w.1.saturating_sub(w.0);
-        // If several boxes are equally wide, the first of them is cut.
+        // Find the widest box. If several boxes are equally wide, take the first of them.
         let mut at = 0;
         for (place, width) in widths.iter().enumerate() {
             if wide(width) > wide(&widths[at]) {
@@ -158,8 +160,8 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     boxes
 }
 
-/// Returns the colour of a box that is nearest to its centre. No other box contains this colour, so all colours of a
-/// palette differ.
+/// Returns the member of a box that is nearest to the centre of the box. The palette thus has no colour twice, because
+/// no other box contains this colour.
 fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     let mut centre = [0; 4];
     for (channel, value) in centre.iter_mut().enumerate() {
@@ -196,8 +198,8 @@ pub(super) fn encode(
         }
         Some(palette) => {
             encoder.set_color(png::ColorType::Indexed);
-            // PNG filters store differences of neighbouring bytes. For indices of a palette, these differences do not
-            // compress better.
+            // Do not use PNG filters, which store differences of neighbouring bytes. The bytes are palette indices,
+            // whose differences do not compress better.
             encoder.set_filter(png::Filter::NoFilter);
             let opaque = palette.colours.iter().flat_map(|c| [c[0], c[1], c[2]]);
             encoder.set_palette(opaque.collect::<Vec<u8>>());

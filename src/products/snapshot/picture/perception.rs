@@ -19,7 +19,8 @@ fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.298_895_31 * r + 0.586_622_47 * g + 0.114_482_23 * b
 }
 
-/// True if two colours look different. The threshold is from 0 (any difference) to 1 (black and white).
+/// True if two colours look different. The threshold ranges from 0 (any difference counts) to 1 (the difference of
+/// black and white).
 pub(super) fn differ(a: [u8; 4], b: [u8; 4], threshold: f64) -> bool {
     distance(a, b) > MAX_DISTANCE * threshold * threshold
 }
@@ -36,7 +37,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// Returns the neighbours of a pixel, and true if the pixel lies at the border of the picture.
+/// Returns the up to eight neighbours of a pixel. The flag is true if the pixel lies at the border of the picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
     let (right, bottom) = (
@@ -50,8 +51,8 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
 
 /// True if a pixel of `picture` is part of an antialiased edge that `other` also has.
 pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
-    // Find the darkest and the brightest neighbour. A pixel with more than two equal neighbours is inside an area and
-    // not at an edge.
+    // Find the darkest and the brightest neighbour. A pixel with more than two neighbours of its own colour lies inside
+    // an area and not at an edge.
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);
     let mut equal = usize::from(edge);
