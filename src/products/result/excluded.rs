@@ -46,7 +46,8 @@ struct Reason<'a> {
 }
 
 impl<'a> Excluded<'a> {
-    /// Collects these motions from the intervals of all parameters. Returns `None` if no interval is empty.
+    /// Collects, for each parameter with an empty interval, the motions that exclude all its values. Returns `None` if
+    /// no interval is empty.
     pub(super) fn new(scene: &'a Scene, found: &Intervals) -> Option<Excluded<'a>> {
         let of = |interval: &Option<Interval>| reasons(scene, interval.as_ref()?);
         let robots = found.robots.iter().filter_map(|robot| {

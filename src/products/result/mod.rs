@@ -254,7 +254,7 @@ impl<'a> Result<'a> {
         }
     }
 
-    /// Adds the placed blocks of each frame.
+    /// Adds the placed blocks of each frame to the result.
     fn with_blocks(mut self, scene: &'a Scene) -> Result<'a> {
         for (step, frame) in scene.frames.iter().zip(&mut self.frames) {
             let blocks = step.placed.iter().map(|id| Block::new(scene, *id));

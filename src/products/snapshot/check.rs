@@ -125,7 +125,7 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
-        // Both sides have rounded numbers: the reference since it was written, and `facts` since they were made.
+        // The numbers in the reference and in `facts` are already rounded.
         let changes = Facts::read(text)
             .map_err(|error| error.to_string())?
             .changes(facts);

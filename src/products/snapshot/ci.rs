@@ -41,9 +41,9 @@ fn case(name: &str, lines: &[String]) -> String {
     )
 }
 
-/// Returns the findings as GitHub annotations, such as `::error file=scenes/arch.json,title=…::…`. There is one for
-/// each snapshot that does not match, each reference without a scene, and each scene on which the program failed.
-/// GitHub shows them at their files only if the paths start at the root of the repository.
+/// Returns the findings as GitHub annotations, such as `::error file=scenes/arch.json,title=…::…`. There is one
+/// annotation for each snapshot that does not match, each reference without a scene, and each scene on which the
+/// program failed. GitHub shows them at their files only if the paths start at the root of the repository.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let others = report.others();

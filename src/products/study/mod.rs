@@ -159,7 +159,7 @@ impl Task {
     }
 }
 
-/// Computes the reference of each independent part of a frame, and combines them to the reference of the frame.
+/// Computes the reference of each independent part of a frame, and combines them into the reference of the frame.
 fn truth(programs: &[Program]) -> Truth {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();

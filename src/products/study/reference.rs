@@ -64,8 +64,8 @@ impl Reference {
             let least = optimum.value.near();
             return match least > EXACT * largest {
                 // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of 2.
-                // The total is reported only if it is known to twelve digits, which may fail if it is small and the
-                // forces are large.
+                // A small total among large forces may be known to fewer than twelve digits. Then only the verdict is
+                // reported.
                 true if optimum.gap < 0.5 => Reference {
                     verdict: Verdict::Unstable,
                     total: (optimum.gap <= MAX_GAP).then_some(least),

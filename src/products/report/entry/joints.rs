@@ -57,8 +57,8 @@ impl<'a> Ranking<'a> {
                 share,
             });
         }
-        // If shares are equal, the joint with the larger force governs. Shares are rounded to thousandths first, to
-        // remove rounding errors of the solver.
+        // Sort by utilisation, rounded to thousandths to remove rounding errors of the solver. If utilisations are
+        // equal, the joint with the larger force comes first.
         let key = |u: &Used| (1e3 * u.share).round();
         used.sort_by(|a, b| {
             let force = |u: &Used| size(&found.contacts[u.contact]);

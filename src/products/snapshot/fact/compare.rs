@@ -337,8 +337,8 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
     for (a, b) in old.numbers.iter().zip(&new.numbers) {
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => {
-                // Numbers without a unit are counts and coefficients, which the solver does not compute. They are
-                // compared in units of a constant.
+                // Numbers without a unit are counts and coefficients. They have no rounding error of the solver, so
+                // they are compared in a fixed small unit.
                 let rounded = last_digit(a).max(last_digit(b));
                 let digit = if new.unit.is_empty() {
                     UNITLESS_STEP

@@ -92,8 +92,8 @@ impl Palette {
     }
 }
 
-/// Reads the rounding of each colour of the palette `table` from the stored text. The text is ignored if it has not one
-/// number for each colour.
+/// Reads the rounding of each colour of the palette `table` from the stored text. A text that does not have one number
+/// for each colour is ignored.
 pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     let digits: Vec<char> = note.chars().collect();
     let values = digits.chunks(2).map(|pair| {

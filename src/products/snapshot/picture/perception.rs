@@ -51,8 +51,8 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
 
 /// True if a pixel of `picture` is part of an antialiased edge that `other` also has.
 pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
-    // Find the darkest and the brightest neighbour. A pixel with more than two neighbours of its own colour lies inside
-    // an area and not at an edge.
+    // Find the darkest and the brightest neighbour. A pixel with more than two neighbours of equal brightness lies
+    // inside an area and not at an edge.
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);
     let mut equal = usize::from(edge);

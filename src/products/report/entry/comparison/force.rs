@@ -56,8 +56,8 @@ impl<'a> SharedForces<'a> {
         }
     }
 
-    /// Iterates over the forces that changed: those that differ by more than 5 % of the larger force, without forces at
-    /// the level of rounding errors.
+    /// Iterates over the forces that changed by more than 5 % of the larger force. Forces at the level of rounding
+    /// errors are left out.
     pub fn changed(&self) -> impl Iterator<Item = &ForceChange<'a>> {
         self.all.iter().filter(|force| force.is_change(self.noise))
     }
