@@ -118,7 +118,10 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err((State::Missing, "this reference file does not exist yet".into())),
+        Ok(None) => Err((
+            State::Missing,
+            "this reference file does not exist yet".into(),
+        )),
         Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
 }

@@ -503,7 +503,10 @@ fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
             assert!(is_below, "{found}: {low}");
             frictions += 1;
         }
-        let Some((_, turned)) = told.page.split_once("The structure would fall if gravity turned by ") else {
+        let Some((_, turned)) = told
+            .page
+            .split_once("The structure would fall if gravity turned by ")
+        else {
             continue;
         };
         let turned = &turned[..turned.find(". ").unwrap_or(turned.len())];

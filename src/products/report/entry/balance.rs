@@ -199,7 +199,9 @@ fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Poin
         let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), (g, u)| (f + g, t + u));
         if force.norm() > 0.0 || torque != 0.0 {
             let what = match failure.robot() {
-                Some(robot) => format!("missing force of robot {}", line(&scene.robots[robot.0].id)),
+                Some(robot) => {
+                    format!("missing force of robot {}", line(&scene.robots[robot.0].id))
+                }
                 None => "missing force, as if the bodies stuck together".to_owned(),
             };
             forces.push(Force::new(what, failure.at(), force, torque, about));

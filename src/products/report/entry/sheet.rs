@@ -187,7 +187,8 @@ fn figures(
     match found.verdict {
         Verdict::Unstable => {
             if !found.mechanism.is_empty() {
-                let words = "How the structure begins to fall. Dashed: the blocks before they move.";
+                let words =
+                    "How the structure begins to fall. Dashed: the blocks before they move.";
                 add(words, drawn(Kind::Mechanism, same));
             }
             let words = match found.failures.is_empty() {

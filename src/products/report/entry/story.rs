@@ -60,7 +60,10 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
                 }
                 Toward::HorizontalLoad => {
                     let side = if value < 0.0 { "left" } else { "right" };
-                    format!("Under a horizontal load of {} times the weight to the {side}", three(value.abs()))
+                    format!(
+                        "Under a horizontal load of {} times the weight to the {side}",
+                        three(value.abs())
+                    )
                 }
             };
             let how = collapse(analysis, number, &mechanism)?;
@@ -156,30 +159,46 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
                 three_up(high),
                 three_down(low)
             ),
-            (_, Some(high)) => format!("The structure would fall at {} times its loads.", three_up(high)),
+            (_, Some(high)) => format!(
+                "The structure would fall at {} times its loads.",
+                three_up(high)
+            ),
             (Some(low), None) if low > 0.0 => {
-                format!("The structure would fall below {} times its loads.", three_down(low))
+                format!(
+                    "The structure would fall below {} times its loads.",
+                    three_down(low)
+                )
             }
             _ => "The structure stands at every multiple of its loads.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
             (Some(low), _) if low > 1.0 => {
-                format!("The structure would stand at {} times its loads.", three_up(low))
+                format!(
+                    "The structure would stand at {} times its loads.",
+                    three_up(low)
+                )
             }
-            (_, Some(high)) => format!("The structure would stand at {} times its loads.", three_down(high)),
+            (_, Some(high)) => format!(
+                "The structure would stand at {} times its loads.",
+                three_down(high)
+            ),
             _ => "The structure falls at every factor on its loads.".to_owned(),
         },
         (Parameter::Friction, Verdict::Stable, true) => match low {
             Some(low) if low > 0.0 => {
                 let low = three_down(low);
-                format!("The structure would fall with a friction coefficient below {low}; now {now}.")
+                format!(
+                    "The structure would fall with a friction coefficient below {low}; now {now}."
+                )
             }
             _ => "The structure needs no friction.".to_owned(),
         },
         (Parameter::Friction, Verdict::Unstable, false) => match low {
             Some(low) if low > 0.0 => {
                 let low = three_up(low);
-                format!("The structure would stand with a friction coefficient of {low}; now {now}.")
+                format!(
+                    "The structure would stand with a friction coefficient of {low}; now {now}."
+                )
             }
             _ => "More friction does not help.".to_owned(),
         },
@@ -191,7 +210,10 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
             let sides: Vec<String> = sides.into_iter().flatten().collect();
             match sides.is_empty() {
                 true => return None,
-                false => format!("The structure would fall if gravity turned by {}.", sides.join(" or ")),
+                false => format!(
+                    "The structure would fall if gravity turned by {}.",
+                    sides.join(" or ")
+                ),
             }
         }
         _ => return None,
