@@ -1,5 +1,5 @@
-//! Draws charts as SVG. [`scatter`] draws points and [`growth`] draws lines on two logarithmic axes. [`bars`] draws a
-//! histogram, and [`course`] draws values over the steps of a scene.
+//! Draws charts as SVG. [`scatter`] draws points on two logarithmic axes, and [`growth`] draws lines on such axes.
+//! [`bars`] draws a histogram, and [`course`] draws values over the steps of a scene.
 //!
 //! Only `plot` uses plotters. plotters rounds to whole pixels, and its labels can overlap. Therefore the picture is
 //! drawn ten times as large. Then the width and height of the SVG, but not its view box, are divided by ten. A
@@ -71,7 +71,7 @@ impl ChartError {
     }
 }
 
-/// Formats a power of ten: `10⁻³` for the exponent −3.
+/// Formats the power of ten with this exponent, for example `10⁻³` for −3.
 pub fn power_of_ten(exponent: i32) -> String {
     let plain = exponent.to_string();
     let digits = plain.chars().map(|c| match c {
@@ -84,10 +84,10 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", digits.collect::<String>())
 }
 
-/// Draws a scatter chart as an SVG document.
+/// Draws points on two logarithmic axes and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If plotters fails. It does not fail for finite, positive coordinates.
+/// If the plotters library reports an error. It reports none for finite, positive coordinates.
 ///
 /// # Example
 /// ```
@@ -136,11 +136,11 @@ pub struct Growing {
     pub points: Vec<Point>,
 }
 
-/// Draws a growth chart as an SVG document.
+/// Draws lines on two logarithmic axes and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If there are no lines, if a line has no points, or if plotters fails. It does not fail for finite, positive
-/// coordinates.
+/// If there are no lines, if a line has no points, or if the plotters library reports an error. The library reports
+/// none for finite, positive coordinates.
 pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
         return Err(ChartError::new("there is nothing to draw"));
@@ -166,9 +166,10 @@ pub struct Bars {
 }
 
 impl Bars {
-    /// Counts values in about ten bars with round edges. The first edge is 0. The last edge is at least `most`; if
-    /// `most` is `None`, it is at least the largest value. There are no bars if this end is not above 0. A value on the
-    /// edge between two bars belongs to the higher bar. Values at or above the last edge belong to the last bar.
+    /// Creates a histogram of the values, with about ten bars of equal width. The edges of the bars are round numbers
+    /// from 0 to at least `most`; `None` stands for the largest value. There are no bars if `most` is not positive and
+    /// finite. A value on the edge between two bars is counted in the upper bar. The last bar also counts all larger
+    /// values.
     ///
     /// ```
     /// use drystone::internals::chart::Bars;
@@ -200,10 +201,10 @@ impl Bars {
     }
 }
 
-/// Draws a histogram as an SVG document.
+/// Draws a histogram and returns it as an SVG document.
 ///
 /// # Errors
-/// If there are no bars, if the edges do not fit the counts, or if plotters fails.
+/// If there are no bars, if there is not one more edge than counts, or if the plotters library reports an error.
 pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
         return Err(ChartError::new("there is nothing to count"));
@@ -225,10 +226,10 @@ pub struct Course {
     pub lines: Vec<(String, [u8; 3], Vec<Option<f64>>)>,
 }
 
-/// Draws a course chart as an SVG document.
+/// Draws values over the steps of a scene and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If there are no steps or no values, if a value is not finite, or if plotters fails.
+/// If there are no steps or no values, if a value is not finite, or if the plotters library reports an error.
 pub fn course(chart: &Course) -> Result<String, ChartError> {
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
@@ -237,7 +238,8 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
     plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
 }
 
-/// Returns the smallest number 1·10ⁿ, 2·10ⁿ or 5·10ⁿ with whole n that is at least `value` (above 0).
+/// Returns the smallest number of the form 1·10ⁿ, 2·10ⁿ or 5·10ⁿ, with a whole n, that is at least `value`. `value`
+/// must be positive.
 pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
     let step = [1.0, 2.0, 5.0, 10.0]

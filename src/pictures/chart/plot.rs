@@ -1,4 +1,4 @@
-//! Draws charts with plotters. No other module uses plotters.
+//! Draws charts with the plotters library. No other module uses this library.
 
 mod course;
 mod growth;
@@ -26,8 +26,8 @@ const FONT: &str = "sans-serif";
 /// The result of drawing: the error of plotters if it fails.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-/// Returns an SVG document of this width and height in pixels. `draw` must draw it [`FINE`] times as large. `title` is
-/// for screen readers.
+/// Returns the SVG document that `draw` writes, scaled to this width and height in pixels. `draw` must draw the picture
+/// [`FINE`] times as large. `title` is for screen readers.
 pub(super) fn document(
     (width, height): (i32, i32),
     title: &str,
@@ -35,7 +35,7 @@ pub(super) fn document(
 ) -> Result<String, ChartError> {
     static FONTS: Once = Once::new();
     FONTS.call_once(|| {
-        // Registration fails only for a font file that cannot be read. In this case drawing reports the error.
+        // Ignore an error here: registration fails only if the font cannot be read, and then drawing fails too.
         let _ = register_font(FONT, FontStyle::Normal, Face::Sans.data());
         let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
     });
@@ -56,15 +56,15 @@ pub(super) fn document(
     ))
 }
 
-/// Returns the exponents of two powers of ten that enclose some positive numbers. The exponents differ by at least 2.
-/// Returns (−1, 1) if there are no numbers, or if a number is not positive and finite.
+/// Returns the exponents of two powers of ten, one below and one above all values. The exponents differ by at least 2.
+/// Returns (−1, 1) if there are no values, or if a value is not positive and finite.
 pub(super) fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let most = values.fold(0.0, f64::max);
     if !(least > 0.0 && most.is_finite() && least <= most) {
         return (-1, 1);
     }
-    // Leave some space, so that no mark lies on the frame.
+    // Leave some space, so that no point lies on the frame of the chart.
     let low = libm::floor(libm::log10(least) - 0.1) as i32;
     let high = libm::ceil(libm::log10(most) + 0.1) as i32;
     (low, high.max(low + 2))
@@ -79,29 +79,29 @@ type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Axes with a logarithmic scale in both directions.
 type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// Returns a text style; `size` is the font size in pixels.
+/// Returns the style of chart text with a font size of `size` pixels.
 fn font<'a>(size: i32) -> TextStyle<'a> {
     (FONT, size * FINE).into_font().color(&INK)
 }
 
-/// Returns the same style for text that begins at a point and is vertically centred on this point.
+/// Returns the same style, but its text begins at the given point and is vertically centred on it.
 fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
     style.pos(Pos::new(HPos::Left, VPos::Center))
 }
 
-/// Returns the empty page of a large chart, which is drawn into `svg`.
+/// Creates an empty page of the size [`SIZE`]. What is drawn on the page is written to `svg`.
 fn large(svg: &mut String) -> Page<'_> {
     let size = ((SIZE.0 * FINE) as u32, (SIZE.1 * FINE) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
-/// Returns the empty page of a small chart, which is drawn into `svg`.
+/// Creates an empty page of the size [`SMALL`]. What is drawn on the page is written to `svg`.
 fn small(svg: &mut String) -> Page<'_> {
     let size = ((SMALL.0 * FINE) as u32, (SMALL.1 * FINE) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
-/// Formats the number at a tick with four significant digits, without trailing zeros.
+/// Formats the number at an axis tick with four significant digits, without trailing zeros.
 fn tick(value: f64) -> String {
     let rounded = format!("{value:.3e}").parse().unwrap_or(value);
     if rounded == 0.0 {
@@ -113,7 +113,7 @@ fn tick(value: f64) -> String {
     }
 }
 
-/// Draws a histogram.
+/// Draws a histogram into `svg`.
 pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
     let area = small(svg);
     let (first, last) = (chart.edges[0], chart.edges[chart.edges.len() - 1]);

@@ -1,4 +1,4 @@
-//! [`advance`]: the advance widths of all characters of the built-in fonts.
+//! [`advance`] returns the advance width of a character in one of the built-in fonts.
 //!
 //! The widths are a table in `assets/fonts/advances.bin`, so that text can be measured without the fonts. A browser
 //! draws the text of figures itself, and the module for browsers would be twice as large with the fonts. A test
@@ -21,8 +21,8 @@ static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
     std::iter::from_fn(next).collect()
 });
 
-/// Returns the advance width of a character as a fraction of the font size. `face` is the number of the face. Returns
-/// `None` if this face has no glyph for the character.
+/// Returns the advance width of a character as a fraction of the font size. `face` is the index of the face in
+/// `Face::ALL`. Returns `None` if this face has no glyph for the character.
 pub(super) fn advance(face: usize, character: char) -> Option<f64> {
     TABLES.get(face)?.advance(character)
 }
@@ -40,7 +40,7 @@ struct Run {
 }
 
 impl Table {
-    /// Reads the table of a face, and advances `bytes` to the end of the table.
+    /// Reads the table of one face from the beginning of `bytes`, and removes it from `bytes`.
     fn read(bytes: &mut &[u8]) -> Table {
         let units_per_em = u32::from(short(bytes));
         let heads = (0..short(bytes)).map(|_| {
@@ -66,7 +66,8 @@ impl Table {
         Some(self.rounded(units))
     }
 
-    /// Converts a width in font units to a fraction of the font size, rounded as skrifa and FreeType round it.
+    /// Converts a width in font units to a fraction of the font size. It is rounded as in the font libraries skrifa and
+    /// FreeType.
     fn rounded(&self, units: u16) -> f64 {
         let scale = ((64 << 16) + self.units_per_em / 2) / self.units_per_em;
         let bits = (scale * u32::from(units) + 32) / 64;
@@ -74,7 +75,7 @@ impl Table {
     }
 }
 
-/// Removes the first two bytes, and returns them as a number (little endian).
+/// Removes the first two bytes of `bytes`, and returns them as a little-endian number.
 fn short(bytes: &mut &[u8]) -> u16 {
     let (number, rest) = bytes
         .split_first_chunk::<2>()

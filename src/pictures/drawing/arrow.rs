@@ -13,16 +13,17 @@ pub const HEAD_WIDTH: f64 = 3.0;
 /// Length of a head in shaft widths.
 pub const HEAD_LENGTH: f64 = 4.5;
 
-/// Returns the length and the width of the head of an arrow. `length` is the length of the arrow, `width` the width of
-/// its shaft. All are in the same unit.
+/// Returns the length and the width of the head of an arrow. `length` is the length of the whole arrow, and `width` is
+/// the width of its shaft. All four have the same unit.
 pub fn head_size(length: f64, width: f64) -> (f64, f64) {
     let full = HEAD_LENGTH * width;
     let long = length.min(full);
     (long, HEAD_WIDTH / HEAD_LENGTH * long)
 }
 
-/// Returns the outline of a straight arrow from `from` to `from` + `along` (right and down, in pixels). The shaft is
-/// `width` pixels wide. The outline is empty for a zero vector.
+/// Returns the outline of a straight arrow with its tail at `from` and its tip at `from` + `along`. The vector `along`
+/// is in pixels, positive to the right and down. The shaft is `width` pixels wide. The outline is empty if `along` is
+/// zero.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
     if length.is_nan() || length <= 0.0 {
@@ -49,14 +50,14 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
 /// a stroke along it does not cross the arrow between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
-    // Corners 1 to 5 of the arrow go from one edge of the shaft around the tip to the other edge.
+    // Corners 1 to 5 of the arrow go from one side of the shaft around the tip to the other side.
     let corners = arrow.points().skip(1).take(5);
     Outline::line(corners)
 }
 
 /// Returns the outline of an arrow along a circle around `centre`. The arrow begins at the angle `start` and turns
-/// through the angle `sweep`. Angles are in radians, anticlockwise on the page from the right. The shaft is `width`
-/// pixels wide. The outline is empty if `sweep` is zero.
+/// through the angle `sweep`. Angles are in radians. They are 0 to the right of the centre and increase anticlockwise
+/// on the page. The shaft is `width` pixels wide. The outline is empty if `sweep` is zero.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();
@@ -93,8 +94,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     outline
 }
 
-/// Appends a circular arc, as cubic curves of at most an eighth of a turn each. The outline must end at the beginning
-/// of the arc.
+/// Appends a circular arc to the outline, as cubic curves of at most an eighth of a turn each. The outline must end at
+/// the point where the arc begins.
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;

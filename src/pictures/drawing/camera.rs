@@ -30,7 +30,7 @@ impl Camera {
         }
     }
 
-    /// Returns the same camera with its picture moved right by `x` and down by `y` pixels.
+    /// Returns a camera that shows the same picture moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> Camera {
         Camera {
             at: self.at.moved(x, y),
@@ -45,7 +45,7 @@ impl Camera {
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
-    /// Converts a position on the page to the point of the scene.
+    /// Converts a position on the page to the point of the scene that is shown there.
     pub fn back(&self, at: PagePoint) -> Point {
         let (right, down) = (at.x - self.at.x, at.y - self.at.y);
         self.corner + Vector::new(right, -down) / self.scale

@@ -24,7 +24,7 @@ pub enum Sight {
     Grey,
 }
 
-/// Returns the colour that a reader with `sight` perceives.
+/// Returns the colour as it looks to a reader with the colour vision `sight`.
 ///
 /// ```
 /// use drystone::drawing::{Colour, difference::{Sight, difference, seen}};
@@ -70,7 +70,7 @@ pub fn lightness(colour: Colour) -> f64 {
 /// assert!((contrast(Colour::hex(0x767676), Colour::WHITE) - 4.54).abs() < 0.01);
 /// ```
 pub fn contrast(a: Colour, b: Colour) -> f64 {
-    // These are the coefficients of sRGB, rounded as in WCAG.
+    // WCAG rounds the luminance coefficients of sRGB to four digits.
     let luminance = |c: Colour| dot([0.2126, 0.7152, 0.0722], linear(c)) + 0.05;
     let (a, b) = (luminance(a), luminance(b));
     if a > b { a / b } else { b / a }
@@ -88,7 +88,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Converts the three channels to linear light, from 0 to 1.
+/// Converts the three sRGB channels of a colour to linear light, from 0 to 1.
 fn linear(colour: Colour) -> [f64; 3] {
     colour.0.map(|channel| {
         let v = f64::from(channel) / 255.0;
@@ -100,7 +100,7 @@ fn linear(colour: Colour) -> [f64; 3] {
     })
 }
 
-/// Converts linear light to an sRGB channel. Values outside 0 to 1 are clamped.
+/// Converts linear light (0 to 1) to an sRGB channel (0 to 255). Values outside 0 to 1 are clamped.
 fn coded(light: f64) -> u8 {
     let v = if light <= 0.003_130_8 {
         12.92 * light
@@ -127,7 +127,8 @@ fn lab(colour: Colour) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Returns ΔE₀₀ of two colours in L*, a*, b*, computed as in [Sharma05](crate::doc::references).
+/// Returns the difference ΔE₀₀ of two colours, given as L*, a* and b*. It is computed as in
+/// [Sharma05](crate::doc::references).
 fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
     let seventh = |c: f64| {
         let c7 = libm::pow(c, 7.0);
@@ -142,7 +143,7 @@ fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
         if angle < 0.0 { angle + 2.0 * PI } else { angle }
     };
     let (h1, h2) = (hue(a1, b1), hue(a2, b2));
-    // Hues are angles. Grey has no hue, so the hue of the other colour is used.
+    // Hues are angles. The hue of a grey is set to 0, so the sum is the hue of the other colour.
     let (turn, middle) = if c1 * c2 == 0.0 {
         (0.0, h1 + h2)
     } else if (h1 - h2).abs() <= PI {

@@ -1,15 +1,15 @@
-//! [`hatch`]: fills an outline with parallel lines, as mechanical drawings show ground.
+//! [`hatch`] fills an outline with parallel lines, as engineering drawings show the ground.
 
 use super::{Outline, PagePoint, PageRect};
 
-/// Returns the parts of parallel 45° lines that lie inside the rings and inside `page`. `spacing` is their vertical
-/// distance in pixels. The even-odd rule applies, so holes stay empty.
+/// Returns the parts of parallel 45° lines that lie inside the rings and inside `page`. `spacing` is the vertical
+/// distance of two lines in pixels. The rings are filled by the even-odd rule, so holes stay empty.
 pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[PagePoint; 2]> {
     let mut lines = Vec::new();
     if !(spacing > 0.0) {
         return lines;
     }
-    // Lines go down to the right on the page: y − x is constant along each line.
+    // The lines run down to the right on the page. Along each line, y − x has the constant value `level`.
     let first = page.at.y - page.at.x - page.width;
     let count = ((page.width + page.height) / spacing).floor();
     for number in 0..=count as usize {
@@ -19,7 +19,8 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
             for i in 0..ring.len() {
                 let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
                 let (above, below) = (a.y - a.x - level, b.y - b.x - level);
-                // A corner on the line counts once: it belongs to the edge that begins on or above the line.
+                // A corner on the line counts as a corner below the line. The line then cuts each ring an even number
+                // of times.
                 if (above >= 0.0) != (below >= 0.0) {
                     cuts.push(a.x + (b.x - a.x) * above / (above - below));
                 }
@@ -39,7 +40,7 @@ pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[Pag
     lines
 }
 
-/// Joins these lines to one outline.
+/// Returns one outline that consists of these lines.
 pub fn lines(lines: &[[PagePoint; 2]]) -> Outline {
     let mut outline = Outline::default();
     for line in lines {

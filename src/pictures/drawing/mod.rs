@@ -1,4 +1,4 @@
-//! [`Drawing`]: shapes and text on a page.
+//! [`Drawing`]: a page with shapes and text.
 //!
 //! The origin of a page is its upper left corner; x points right and y points down, in pixels. Only [`Camera`] converts
 //! from the scene, where y points up. Later items lie on top of earlier items. This module does not use forces or file
@@ -60,7 +60,7 @@ pub struct PageRect {
 }
 
 impl PageRect {
-    /// Returns the part of a line segment inside the rectangle; `None` if the segment does not cross the rectangle.
+    /// Returns the part of a line segment that lies inside the rectangle, or `None` if there is no such part.
     pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let along = (to.x - from.x, to.y - from.y);
@@ -127,7 +127,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// Creates a filled shape without a line.
+    /// Creates a filled shape without a line along its outline.
     pub fn filled(outline: Outline, fill: Colour) -> Path {
         Path {
             outline,
@@ -138,7 +138,7 @@ impl Path {
         }
     }
 
-    /// Creates a line without a fill.
+    /// Creates a line along the outline, without a fill.
     pub fn stroked(outline: Outline, stroke: Stroke) -> Path {
         Path {
             outline,
@@ -149,7 +149,7 @@ impl Path {
         }
     }
 
-    /// Returns the same shape with a line along its edge. The line is drawn above the fill.
+    /// Returns the same shape with a line along its outline. The line is drawn above the fill.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
         Path {
             stroke: Some(stroke),
@@ -187,7 +187,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// Creates a continuous line with round corners; `width` is in pixels.
+    /// Creates the stroke of a continuous line with round corners and ends; `width` is in pixels.
     pub fn new(colour: Colour, width: f64) -> Stroke {
         Stroke {
             colour,
@@ -197,7 +197,7 @@ impl Stroke {
         }
     }
 
-    /// Returns the same line with dashes. `dash` has the lengths of dashes and gaps in turn, in pixels.
+    /// Returns the same stroke with dashes. `dash` has the lengths of dashes and gaps in turn, in pixels.
     pub fn dashed(self, dash: impl Into<Vec<f64>>) -> Stroke {
         Stroke {
             dash: dash.into(),
@@ -205,7 +205,7 @@ impl Stroke {
         }
     }
 
-    /// Returns the same line with sharp corners.
+    /// Returns the same stroke with sharp corners instead of round ones.
     pub fn mitred(self) -> Stroke {
         Stroke {
             join: Join::Miter,
@@ -245,7 +245,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// Creates an empty group with a class and without a title.
+    /// Creates an empty group without a title. `class` is its class for style sheets and scripts.
     pub fn with_class(class: &str) -> Group {
         Group {
             class: class.to_owned(),
@@ -253,7 +253,7 @@ impl Group {
         }
     }
 
-    /// Returns the same group with a title.
+    /// Returns the same group with a title, which is shown on mouse hover.
     pub fn titled(self, title: impl Into<String>) -> Group {
         Group {
             title: title.into(),
@@ -261,7 +261,7 @@ impl Group {
         }
     }
 
-    /// Returns the same group with one more item on top.
+    /// Returns the same group with one more item, drawn on top of the others.
     pub fn with(mut self, item: impl Into<Item>) -> Group {
         self.items.push(item.into());
         self

@@ -23,7 +23,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Creates a closed ring through some points.
+    /// Creates a closed polygon with these corners.
     pub fn ring(points: impl IntoIterator<Item = PagePoint>) -> Outline {
         let mut outline = Outline::line(points);
         if !outline.segments.is_empty() {
@@ -32,7 +32,7 @@ impl Outline {
         outline
     }
 
-    /// Creates an open line through some points.
+    /// Creates an open line with these corners.
     pub fn line(points: impl IntoIterator<Item = PagePoint>) -> Outline {
         let segments = points.into_iter().enumerate().map(|(i, p)| {
             if i == 0 {
@@ -46,8 +46,7 @@ impl Outline {
         }
     }
 
-    /// Creates a rectangle with sides parallel to the page. Its corners are rounded with the radius `radius`, in
-    /// pixels.
+    /// Creates an upright rectangle with rounded corners. `radius` is the radius of the corners in pixels.
     pub fn rounded(rect: PageRect, radius: f64) -> Outline {
         let r = radius.min(rect.width / 2.0).min(rect.height / 2.0);
         let corner = |x: f64, y: f64| rect.at.moved(x, y);
@@ -60,8 +59,8 @@ impl Outline {
                 corner(0.0, h),
             ]);
         }
-        // This is the distance of the control points from the corner for which the cubic curve is the best
-        // approximation of a quarter circle.
+        // The distance of the control points from the corner. With this distance, the cubic curve meets the quarter
+        // circle at both ends and in the middle.
         let c = r * (1.0 - QUARTER);
         Outline {
             segments: vec![
@@ -90,7 +89,7 @@ impl Outline {
             },
             radius,
         );
-        // The circle is a fully rounded square. Remove its straight sides, which have no length.
+        // The circle is a square with the largest possible corner radius. Remove its straight sides of length 0.
         circle.segments.retain(|s| !matches!(s, Segment::Line(_)));
         circle
     }
@@ -100,7 +99,7 @@ impl Outline {
         self.segments.extend(other.segments);
     }
 
-    /// Returns all end points and control points. The outline lies inside their convex hull.
+    /// Returns the end points and control points of all segments. The outline lies inside their convex hull.
     pub fn points(&self) -> impl Iterator<Item = PagePoint> + '_ {
         self.segments.iter().flat_map(|segment| match *segment {
             Segment::Move(p) | Segment::Line(p) => vec![p],

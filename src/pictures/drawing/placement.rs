@@ -1,12 +1,13 @@
-//! [`place`]: finds positions for labels. Labels do not cover ink or other labels, and they lie inside the page.
+//! [`place`] finds positions for labels. Labels lie inside the page, and they do not cover drawn shapes (the ink) or
+//! other labels.
 //!
 //! The method is greedy, with one round of exchanges at the end. See Christensen, Marks and Shieber, *An empirical
 //! study of algorithms for point-feature label placement* (ACM Transactions on Graphics 14, 1995).
 //!
-//! 1. Labels are placed in the order given, the most important first.
-//! 2. Each takes the first of its preferred positions that is clear of ink.
-//! 3. If none is, positions on concentric rings about its anchor are tried, and the one of least cost is taken. The cost is
-//!    the distance plus penalties. A label away from its anchor gets a leader line.
+//! 1. Labels are placed in the order of the requests, the most important first.
+//! 2. Each label takes the first of its preferred positions that is clear of ink.
+//! 3. If no preferred position is clear, the label takes the position of least cost on concentric rings around its
+//!    anchor. The cost is the distance plus penalties. A label away from its anchor gets a leader line.
 //! 4. A label without a clear position is left out.
 //! 5. Labels whose leaders cross exchange their positions if that leaves fewer crossings
 //!    ([`untangle`](untangle::untangle)).
@@ -73,7 +74,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Creates a label in a rectangle, with a leader to the anchor.
+    /// Places a label in `rect`, with a leader line from the label to `anchor`.
     fn with_leader(rect: PageRect, anchor: PagePoint) -> Placed {
         Placed {
             avoided: false,
@@ -89,8 +90,8 @@ pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Op
     place_avoiding(ink, page, requests, &|_, _| false)
 }
 
-/// Like [`place`], with a function `avoid` that gets the index of a request and a rectangle. If it returns true, the
-/// rectangle is used only if no other free position is nearby, and then with a leader. `avoid` does not apply to
+/// Like [`place`], with a function `avoid` of the index of a request and a rectangle. A rectangle for which `avoid` is
+/// true is used only if no other free position is nearby, and then with a leader line. `avoid` does not apply to
 /// preferred positions.
 pub fn place_avoiding(
     ink: &mut Ink,
@@ -150,7 +151,8 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     })
 }
 
-/// Returns the position of least cost on rings around the anchor. Returns `None` if no position on the rings is free.
+/// Returns the free position of least cost on rings around the anchor. Returns `None` if no position on the rings is
+/// free.
 fn ring_position(
     ink: &Ink,
     page: PageRect,
@@ -163,7 +165,7 @@ fn ring_position(
     let mut best: Option<(f64, Placed)> = None;
     for ring in 0..MAX_RINGS {
         let radius = request.first_ring + ring_step * ring as f64;
-        // The cost of a position is at least its radius, so a larger ring cannot be better.
+        // The cost of a position is at least the radius of its ring, so larger rings have no cheaper position.
         if radius > farthest || best.is_some_and(|(cost, _)| radius > cost) {
             break;
         }
@@ -190,8 +192,8 @@ fn ring_position(
     best.map(|(_, placed)| placed)
 }
 
-/// Returns the penalties of a position, in pixels of distance, and the label at this position. The label has a leader
-/// if it needs one.
+/// Returns the sum of the penalties for a label in `rect`, in pixels of distance, and the placed label. The label has a
+/// leader line if `rect` is avoided or far from the anchor.
 fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -> (f64, Placed) {
     let anchor = request.anchor;
     let end = nearest(rect, anchor);
@@ -203,7 +205,7 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
         rect,
         leader: needs_leader.then_some([end, anchor]),
     };
-    // Do not count one piece of ink, because this piece is the item that the label names.
+    // One of the crossed pieces of ink has no penalty: it is the item that the label names.
     let penalty = if avoided { AVOIDED_COST } else { 0.0 }
         + INK_CROSSING_COST * others.saturating_sub(1) as f64
         + LABEL_CROSSING_COST * labels as f64;

@@ -1,4 +1,4 @@
-//! Colour ramps: [built-in ones](named), and ramps [interpolated between given colours](between).
+//! Colour ramps: [built-in ramps](named), and ramps that are [interpolated between some colours](between).
 
 mod cividis;
 mod plasma;
@@ -30,14 +30,14 @@ pub fn named(name: &str) -> Option<Vec<Colour>> {
     }
 }
 
-/// Returns 256 colours, interpolated linearly in each channel between evenly spaced stops. Returns an empty list if
-/// there are no stops.
+/// Returns a ramp of 256 colours. It is interpolated linearly in each channel between the colours `stops`, which are
+/// evenly spaced along the ramp. Returns an empty list if there are no stops.
 pub fn between(stops: &[Colour]) -> Vec<Colour> {
     let Some(last) = stops.len().checked_sub(1) else {
         return Vec::new();
     };
     let at = |entry: usize| {
-        // Compute the position in whole numbers, so that 256 stops are reproduced exactly.
+        // Compute the position with integers, so that 256 stops give exactly these 256 colours.
         let (stop, rest) = (entry * last / (LENGTH - 1), entry * last % (LENGTH - 1));
         let next = stops[(stop + 1).min(last)];
         stops[stop].mixed(next, rest as f64 / (LENGTH - 1) as f64)

@@ -142,20 +142,21 @@ impl Sizes {
 }
 
 impl Theme {
-    /// Returns the arrow colour of a block. `place` is the block's number in the order of placing, from 1. The colour
-    /// is entry `place` mod n of the n arrow colours. The first block therefore has the second colour, as in the
-    /// thesis.
+    /// Returns the colour of the force arrows of a block. `place` is the number of the block in the order of placing,
+    /// from 1. The colour is entry `place` mod n of the list of n arrow colours. The first block therefore has the second
+    /// colour, as in the thesis.
     pub fn arrow(&self, place: usize) -> Colour {
         entry(&self.arrows, place).unwrap_or(self.ink)
     }
 
-    /// Returns the colour of the robot with this index, from 0. After its last entry, the list of colours starts again.
+    /// Returns the colour of the robot with this index, from 0. If there are more robots than colours, the list of
+    /// colours starts again.
     pub fn robot(&self, number: usize) -> Colour {
         entry(&self.robots, number).unwrap_or(self.ink)
     }
 
-    /// Returns the colour of an amplitude. `share` is the amplitude divided by the largest amplitude. The colour is
-    /// entry ⌊256·share⌋ of 256; the index is clamped to 0 … 255.
+    /// Returns the colour of an amplitude. `share` is the amplitude divided by the largest amplitude. The colour is the
+    /// entry with the index ⌊256·share⌋ of the 256 colours; the index is clamped to 0 … 255.
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
@@ -169,8 +170,8 @@ impl Theme {
         self.amplitudes.get(entry).copied().unwrap_or(self.block)
     }
 
-    /// Returns the colour of the border that separates an arrow from its block. On a bright block, the border is a dark
-    /// shade of the arrow's colour, unless the arrow is much darker than the block. In all other cases the border is
+    /// Returns the colour of the border that separates an arrow from the block behind it. If the block is bright and the
+    /// arrow is not much darker, the border is a dark shade of the arrow's colour. Otherwise its colour is
     /// [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
         let lost =
@@ -182,9 +183,9 @@ impl Theme {
         }
     }
 
-    /// Returns the colour of the lines between the cells of a block: a mixture of the block's colour with another
-    /// colour. The other colour is the lighter of page and ink for a dark block, and the darker for a bright block.
-    /// `share` (0 to 1) is the share of the other colour.
+    /// Returns the colour of the lines between the cells of a block. The colour of a dark block is mixed with the
+    /// lighter of the page and ink colours, and the colour of a bright block with the darker. `share` (0 to 1) is the
+    /// share of the page or ink colour in the mixture.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
         let towards = if block.brightness() < 0.5 {
             self.lighter()
@@ -194,8 +195,8 @@ impl Theme {
         block.mixed(towards, share)
     }
 
-    /// Returns the colour of text on the background `below`. The colour is a shade of `of`; if `of` is `None`, it is a
-    /// shade of `below`. The [contrast] of text and background is at least 4.5.
+    /// Returns the colour of text on the background `below`. It is a shade of the colour `of`, or of `below` if `of` is
+    /// `None`. The [contrast] between text and background is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
         let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE
@@ -206,8 +207,8 @@ impl Theme {
             Some(colour) => (colour, 11),
             None => (below, 15),
         };
-        // Try shades in steps of 1/20 towards black or white, whichever has the higher contrast. Either black or white
-        // is readable on any colour.
+        // Mix the colour with black or white, whichever contrasts more with the background, until the text is readable.
+        // On any background, either black or white is readable.
         let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
         let legible = |colour: &Colour| contrast(*colour, below) >= MIN_CONTRAST;
         (least..=20).map(shade).find(legible).unwrap_or(ink)
@@ -232,7 +233,7 @@ impl Theme {
     }
 }
 
-/// Returns entry `number` mod n of a list of n colours; `None` for an empty list.
+/// Returns the entry with the index `number` mod n of a list of n colours, or `None` for an empty list.
 fn entry(list: &[Colour], number: usize) -> Option<Colour> {
     number
         .checked_rem(list.len())

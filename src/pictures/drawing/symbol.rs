@@ -1,4 +1,5 @@
-//! [`Symbol`]: a mathematical symbol. Its letters can have an arrow or a hat, a subscript and a superscript.
+//! [`Symbol`]: a mathematical symbol of one or more letters. A letter can have an arrow or a hat, a subscript and a
+//! superscript.
 
 use super::arrow::HEAD_WIDTH;
 use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
@@ -46,7 +47,7 @@ pub struct Symbol {
 }
 
 impl Symbol {
-    /// Creates a symbol that consists of one letter and the subscript `below`. Both may be empty.
+    /// Creates a symbol that consists of one letter with the subscript `below`. Letter and subscript may be empty.
     pub fn new(letter: &str, accent: Accent, below: &str) -> Symbol {
         let letter = Letter {
             letter: letter.to_owned(),
@@ -139,7 +140,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
     text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)
 }
 
-/// Splits a text into parts with one face each. Letters are italic, all other characters are upright.
+/// Splits a text into parts that are set in one face each. Letters are italic, all other characters are upright.
 fn runs(words: &str) -> Vec<(String, Face)> {
     let mut runs: Vec<(String, Face)> = Vec::new();
     for c in words.chars() {
@@ -156,8 +157,8 @@ fn runs(words: &str) -> Vec<(String, Face)> {
     runs
 }
 
-/// Returns the arrow or hat above a letter; `None` if the letter has no accent. `at` is the left end of the letter on
-/// its baseline. `size` is the font size in pixels.
+/// Returns the arrow or hat above a letter, or `None` if the letter has no accent. The left end of the letter's baseline
+/// lies at `at`. `size` is the font size in pixels.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
     let tall = letter
         .letter

@@ -37,7 +37,7 @@ impl Face {
         Face::SansBold,
     ];
 
-    /// Returns the bytes of the font file.
+    /// Returns the bytes of the font file of this face.
     pub fn data(self) -> &'static [u8] {
         match self {
             Face::Serif => include_bytes!("../../../assets/fonts/LibertinusSerif-Regular.otf"),
@@ -48,8 +48,8 @@ impl Face {
         }
     }
 
-    /// Returns the font families for CSS: first the built-in family, then replacements that the reader's system may
-    /// have.
+    /// Returns the list of font families for CSS: first the built-in font, then similar fonts that a reader may have
+    /// installed.
     pub fn families(self) -> &'static str {
         match self {
             Face::Serif | Face::SerifItalic | Face::SerifBold => {
@@ -59,7 +59,7 @@ impl Face {
         }
     }
 
-    /// Returns the font weight, from 100 to 900.
+    /// Returns the font weight for CSS: 400 is regular, 600 is semi-bold and 700 is bold.
     pub fn weight(self) -> u16 {
         match self {
             Face::Serif | Face::SerifItalic | Face::Sans => 400,
@@ -120,7 +120,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// Creates a text that begins at a point on its baseline. `size` is in pixels.
+    /// Creates a line of text. The left end of its baseline lies at `at`. `size` is the font size in pixels.
     pub fn new(
         at: PagePoint,
         words: impl Into<String>,
@@ -139,7 +139,7 @@ impl Text {
         }
     }
 
-    /// Returns the same text with another anchor at the same point.
+    /// Returns the same text, with its start, middle or end at its position.
     pub fn anchored(self, anchor: Anchor) -> Text {
         Text { anchor, ..self }
     }
@@ -156,7 +156,7 @@ impl Text {
 /// The no-break space. Lines are not broken at this space.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// True if the bytes are a font file or a collection of fonts that can be read.
+/// True if the bytes are a readable font file, or a font collection with at least one readable font.
 pub fn opens(data: &[u8]) -> bool {
     FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
 }
@@ -180,8 +180,8 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     words.chars().map(advance).sum::<f64>() * size
 }
 
-/// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. The width
-/// is 1 for scripts with square characters.
+/// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. Square
+/// characters, such as Chinese characters, have the width 1.
 fn elsewhere(c: char) -> f64 {
     match u32::from(c) {
         0x1100..=0x115F
@@ -195,7 +195,7 @@ fn elsewhere(c: char) -> f64 {
     }
 }
 
-/// Returns the advance widths of the first 128 characters as fractions of the font size. They are computed once,
+/// Returns the advance widths of the 128 ASCII characters as fractions of the font size. The widths are computed once,
 /// because line breaking needs them often.
 fn common_advances(face: Face) -> &'static [f64] {
     static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
@@ -206,8 +206,8 @@ fn common_advances(face: Face) -> &'static [f64] {
     })
 }
 
-/// Breaks text into lines of at most `room` pixels. A word that is wider than a line is split. Every sequence of white
-/// space counts as one space, except [`NO_BREAK`], which keeps its neighbours on one line. Empty text gives no lines.
+/// Breaks text into lines that are at most `room` pixels wide. A word that is wider than a line is split. A sequence of
+/// white space counts as one space. Lines are not broken at [`NO_BREAK`]. Empty text gives no lines.
 pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -240,8 +240,8 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// Breaks text into as few lines as possible, at most `most`, each at most `room` pixels wide. The lines have about the
-/// same length, so that the last line is not a single word.
+/// Breaks text into as few lines as possible. A line is at most `room` pixels wide, and text after line `most` is cut
+/// off. Text that is not cut off has lines of about the same length, so that the last line is not a single word.
 pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
     let count = lines.len();
@@ -260,8 +260,8 @@ pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> V
     lines
 }
 
-/// Returns the first `most` lines. If there are more, the last line returned is shortened to `room` pixels and ends in
-/// "…".
+/// Returns the first `most` lines. If this leaves out lines, the last returned line ends in "…" and is shortened to at
+/// most `room` pixels.
 pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
     if lines.len() > most {
         lines.truncate(most);

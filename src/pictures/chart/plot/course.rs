@@ -1,4 +1,4 @@
-//! Draws the course of values over the steps of a scene.
+//! Draws values over the steps of a scene as lines.
 
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -9,7 +9,7 @@ use crate::chart::{Course, SMALL, round_step};
 
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Draws a course chart.
+/// Draws values over the steps of a scene into `svg`.
 pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Drawn {
     let area = small(svg);
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
@@ -53,7 +53,7 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Draws the lines. Returns, for each line, the vertical position of its end on the page, and its name.
+/// Draws the lines. Returns the name of each line, and the vertical position on the page at which the line ends.
 fn draw_lines<'c>(
     axes: &mut Axes<'_, '_>,
     chart: &'c Course,
@@ -63,7 +63,7 @@ fn draw_lines<'c>(
         let colour = RGBColor(*r, *g, *b);
         let at = |i: usize| values.get(i).copied().flatten().map(|v| (i as f64, v));
         let points: Vec<(f64, f64)> = (0..values.len()).filter_map(at).collect();
-        // A step without a value interrupts the line.
+        // Connect only neighbouring steps, so that a step without a value interrupts the line.
         let pairs = (1..values.len()).filter_map(|i| Some([at(i - 1)?, at(i)?]));
         for pair in pairs {
             axes.draw_series(LineSeries::new(pair, colour.stroke_width(2 * FINE as u32)))?;
@@ -80,7 +80,7 @@ fn draw_lines<'c>(
     Ok(ends)
 }
 
-/// Draws the names at the ends of their lines. Names that would overlap are moved down.
+/// Draws the name of each line at the right end of the line. Names that would overlap are moved down.
 fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> Drawn {
     ends.sort();
     let mut free = i32::MIN;

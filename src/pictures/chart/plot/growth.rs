@@ -1,4 +1,4 @@
-//! Draws lines on two logarithmic axes. Each line has its name at its end.
+//! Draws lines on two logarithmic axes, with the name of each line at its right end.
 
 use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
@@ -23,7 +23,7 @@ struct LineEnd<'c> {
     line: &'c Growing,
 }
 
-/// Draws a growth chart.
+/// Draws lines on two logarithmic axes into `svg`.
 pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
     let area = large(svg);
     area.fill(&WHITE)?;
@@ -69,17 +69,17 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Returns the colour and the width in pixels of a line.
+/// Returns the colour and the width in pixels of a line. Our own lines (`ours`) are dark and thick.
 fn style(ours: bool) -> (RGBColor, i32) {
     if ours { (DARK, 3) } else { (PALE, 1) }
 }
 
-/// Returns the stroke of the crosses on wrong points.
+/// Returns the stroke of the crosses that mark wrong results.
 fn crossing_pen() -> ShapeStyle {
     INK.stroke_width(2 * FINE as u32)
 }
 
-/// Draws the lines, the important lines on top. Returns the ends of the lines.
+/// Draws our own lines above all other lines. Returns the right end of each line.
 fn draw_lines<'c>(
     axes: &mut LogAxes<'_, '_>,
     lines: &'c [Growing],
@@ -140,7 +140,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
         *height = (*height).max(free);
         free = *height + NAMES_APART;
     }
-    // From bottom to top: move names up again, so that no name is far from its line.
+    // From bottom to top: move names up again, so that no name is far below the end of its line.
     let mut below = (SIZE.1 - 66) * FINE;
     for (height, end) in heights.iter_mut().zip(ends).rev() {
         *height = (*height)
@@ -151,7 +151,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     heights
 }
 
-/// Formats a power of ten with a space before its last three zeros: `10 000`, `0.1`.
+/// Formats a power of ten, with a space before the last three zeros of a large number: `10 000`, `0.1`.
 fn grouped(value: f64) -> String {
     let text = tick(value);
     match text.strip_suffix("000").filter(|_| !text.contains('.')) {

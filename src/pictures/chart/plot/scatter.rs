@@ -1,4 +1,4 @@
-//! Draws a scatter chart.
+//! Draws points on two logarithmic axes, with a legend.
 
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -9,7 +9,7 @@ use crate::chart::{SIZE, Scatter, power_of_ten};
 /// The colour of the front.
 const GOLD: RGBColor = RGBColor(240, 190, 60);
 
-/// Draws a scatter chart.
+/// Draws points on two logarithmic axes into `svg`, with a legend.
 pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> Drawn {
     let area = large(svg);
     area.fill(&WHITE)?;
@@ -28,7 +28,7 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
             (ten(low)..ten(high)).log_scale(),
         )?;
     let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
-    // plotters draws at most this number of labels, including both ends.
+    // The greatest number of labels that plotters may draw on an axis, including the labels at both ends.
     let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
     axes.configure_mesh()
         .x_labels(every(left, right))
@@ -49,12 +49,12 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
     Ok(())
 }
 
-/// Returns the stroke of the crosses on wrong points.
+/// Returns the stroke of the crosses that mark wrong results.
 fn red() -> ShapeStyle {
     RGBColor(215, 20, 30).stroke_width(4 * FINE as u32)
 }
 
-/// Draws the front, then the series, and on top the crosses on wrong points.
+/// Draws the Pareto front, above it the series of points, and on top the crosses that mark wrong results.
 fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     let front = stair(&chart.front.1);
     axes.draw_series(LineSeries::new(front, GOLD.stroke_width(6 * FINE as u32)))?;
@@ -74,7 +74,8 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     Ok(())
 }
 
-/// Returns the corners of the front as a step line. y stays constant up to the x of the next point, and then jumps.
+/// Returns the corners of the Pareto front as a step line. From each point, y stays constant up to the x of the next
+/// point, where it jumps.
 fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut stair: Vec<(f64, f64)> = Vec::new();
     for (x, y) in front {
@@ -86,7 +87,7 @@ fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     stair
 }
 
-/// Draws the legend to the right of the picture, where there are no points.
+/// Draws the legend to the right of the axes.
 fn draw_legend(area: &Page<'_>, chart: &Scatter) -> Drawn {
     let (name, front) = &chart.front;
     let mut y = 60 * FINE;

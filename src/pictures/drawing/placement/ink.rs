@@ -1,5 +1,5 @@
-//! [`Ink`]: convex shapes that labels must not cover. The shapes are stored in a uniform grid, so that a test only
-//! checks nearby shapes.
+//! [`Ink`]: convex shapes that labels must not cover. The shapes are stored in a uniform grid, so that the test of a
+//! position only checks nearby shapes.
 //!
 //! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A
 //! figure tests hundreds of positions for each label. Therefore a test allocates no memory, and each side stores the
@@ -35,7 +35,7 @@ struct Piece {
 }
 
 impl Ink {
-    /// Adds a convex shape. `corners` has its corners in order. Two corners give a line of width 0.
+    /// Adds a convex shape. `corners` has the corners of the shape in order. Two corners give a line of width 0.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
         self.piece(corners, false);
     }
@@ -67,15 +67,15 @@ impl Ink {
         self.pieces.push(piece);
     }
 
-    /// Sorts the pieces into a grid, which makes the many tests of [`place`](super::place) fast.
+    /// Builds the grid of all shapes added so far. With the grid, [`place`](super::place) tests positions faster.
     pub fn index(&mut self) {
         if self.grid.is_none() {
             self.grid = Some(Grid::new(&self.pieces));
         }
     }
 
-    /// True if `matches` is true for a piece whose bounding box overlaps the box from `min` to `max`. `matches` is
-    /// called at most once for each of these pieces.
+    /// True if `matches` is true for any piece whose bounding box overlaps the box from `min` to `max`. The search stops
+    /// at the first such piece, and `matches` is called at most once for each piece.
     fn any_near(
         &self,
         min: PagePoint,
@@ -96,8 +96,8 @@ impl Ink {
         for y in cells.top..=cells.bottom {
             for x in cells.left..=cells.right {
                 for entry in &grid.lists[y * grid.columns + x] {
-                    // If a piece is in several cells, it is tested only in the first cell that the piece and the box
-                    // both touch.
+                    // A piece that is in several cells is tested only once: in the first cell that both the piece and
+                    // the box touch.
                     let first = x == cells.left.max(entry.left) && y == cells.top.max(entry.top);
                     if first && tested(&self.pieces[entry.number]) {
                         return true;
@@ -108,7 +108,7 @@ impl Ink {
         false
     }
 
-    /// Adds a line `width` pixels wide. A line of length 0 is ignored.
+    /// Adds a line that is `width` pixels wide. A line of length 0 is ignored.
     pub fn line(&mut self, from: PagePoint, to: PagePoint, width: f64) {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let length = libm::hypot(dx, dy);
@@ -124,7 +124,7 @@ impl Ink {
         ]);
     }
 
-    /// Adds a disc. It is stored as its circumscribed regular octagon.
+    /// Adds a disc. The disc is stored as the regular octagon around it.
     pub fn disc(&mut self, centre: PagePoint, radius: f64) {
         let reach = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
@@ -157,7 +157,8 @@ impl Ink {
         self.convex(corners(rect));
     }
 
-    /// Adds a label and its leader. Leaders of other labels should not cross them.
+    /// Adds a label and its leader line. Leader lines of other labels should cross neither of them. Does nothing for
+    /// `None`.
     pub(super) fn add_label(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
         self.piece(corners(placed.rect), true);
@@ -169,8 +170,8 @@ impl Ink {
     /// True if the rectangle does not overlap any ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // The bounding boxes overlap, so no side of the rectangle separates the piece from the rectangle. Only the
-        // sides of the piece must be tested.
+        // `any_near` only calls this for pieces whose bounding box overlaps the rectangle. No side of the rectangle
+        // separates these pieces from it, so only the sides of the piece must be tested.
         let meets = |piece: &Piece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))
@@ -178,7 +179,8 @@ impl Ink {
         !self.any_near(min, max, meets)
     }
 
-    /// Counts what a line touches: the number of labels and leaders, and the number of other pieces.
+    /// Returns the number of labels and leader lines that the line between two points crosses, and the number of other
+    /// pieces of ink that it crosses.
     pub(super) fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
         let (min, max) = (
             PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
@@ -255,7 +257,7 @@ impl Side {
 
     /// True if the line through this side separates its piece from the box from `min` to `max`.
     fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
-        // The signs of the side's direction determine the corners with the least and the greatest offset.
+        // Two corners of the box have the least and the greatest offset. The direction of the side determines which.
         let (below, above) = if self.along.0 >= 0.0 {
             (min.y, max.y)
         } else {
@@ -276,7 +278,7 @@ impl Side {
     }
 }
 
-/// True if a side of the convex `piece` separates it from the other points.
+/// True if the line through a side of the convex polygon `piece` separates the polygon from the points `others`.
 pub(super) fn separated(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
         let next = piece[(i + 1) % piece.len()];
@@ -317,7 +319,7 @@ struct Cells {
 
 impl Grid {
     fn new(pieces: &[Piece]) -> Grid {
-        // A page is a few thousand pixels wide. Pieces far outside the page share the outermost cells.
+        // A page is only a few thousand pixels wide. Limit the grid; pieces far outside the page share its outermost cells.
         let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
         let ends =
             |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
@@ -329,7 +331,7 @@ impl Grid {
             x = ends(x, piece.min.x, piece.max.x);
             y = ends(y, piece.min.y, piece.max.y);
         }
-        // If there are no pieces, the grid has one cell.
+        // Without pieces, the ranges are empty, and the grid has one cell.
         let count = |(first, last): (f64, f64)| ((last - first).max(0.0) as usize) + 1;
         let first = |(first, _): (f64, f64)| if first.is_finite() { first } else { 0.0 };
         let mut grid = Grid {
@@ -359,7 +361,8 @@ impl Grid {
         }
     }
 
-    /// Returns the cells that a box touches. Parts of the box outside the grid belong to the cells at its border.
+    /// Returns the cells that the box from `min` to `max` touches. A part of the box outside the grid belongs to the
+    /// nearest cells of the grid.
     fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
         let cell = |v: f64, first: f64, count: usize| {
             (((v / CELL).floor() - first).max(0.0) as usize).min(count - 1)

@@ -1,6 +1,6 @@
-//! [`untangle`]: exchanges the positions of two labels whose leaders cross if that leaves fewer crossings.
+//! [`untangle`] exchanges the positions of two labels whose leader lines cross, if there are fewer crossings afterwards.
 //!
-//! Labels are placed one after the other, so the last labels in a crowd may lie behind labels of their neighbours. The
+//! Labels are placed one after the other, so in a crowd a late label may only find a position behind other labels. The
 //! method is a local search over pairs (2-opt). It stops if no exchange reduces the number of crossings, or after a few
 //! rounds.
 
@@ -12,7 +12,8 @@ use crate::drawing::{PagePoint, PageRect};
 /// fast.
 const MAX_ROUNDS: usize = 4;
 
-/// Exchanges the positions of labels as long as this reduces the number of crossings. Returns whether any label moved.
+/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns whether any label
+/// moved.
 pub(super) fn untangle(
     ink_without_labels: &Ink,
     page: PageRect,
@@ -20,7 +21,7 @@ pub(super) fn untangle(
     placed: &mut [Option<Placed>],
     avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
-    // Moves the label of a request to the position of another label; `None` if the label does not fit there.
+    // Moves the label with this number to the centre of the rectangle `to`; `None` if the label does not fit there.
     let moved = |number: usize, to: PageRect| {
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
@@ -30,7 +31,7 @@ pub(super) fn untangle(
         let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
         free.then(|| Placed::with_leader(rect, request.anchor))
     };
-    // Thousands of labels may have no position. They cross nothing, so only labels with a position are compared.
+    // Only compare labels that have a position. In a crowded figure, thousands of labels have none.
     let numbers: Vec<usize> = (0..placed.len()).filter(|i| placed[*i].is_some()).collect();
     let mut present: Vec<Option<Placed>> = numbers.iter().map(|i| placed[*i]).collect();
     let moved = |number: usize, to: PageRect| moved(numbers[number], to);
@@ -53,8 +54,8 @@ pub(super) fn untangle(
     any_moved
 }
 
-/// Exchanges the positions of labels `i` and `j` if both have leaders, both fit, and there are then fewer crossings.
-/// Returns whether they were exchanged.
+/// Exchanges the positions of labels `i` and `j` if both labels have leader lines, both fit, and fewer leader lines
+/// cross afterwards. Returns whether the positions were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,
@@ -87,8 +88,8 @@ fn exchange(
     better
 }
 
-/// Returns the number of crossings of labels `i` and `j` with all other labels. A crossing is a leader that crosses
-/// another leader or a label.
+/// Returns the number of crossings in which label `i` or `j` takes part. A crossing is a leader line that crosses
+/// another leader line or a label.
 fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
     let mut count = 0;
     for own in [i, j] {

@@ -1,4 +1,5 @@
-//! Reads and writes style files: JSON or TOML files that describe a theme, or its differences from another theme.
+//! Reads and writes style files. A style file is a JSON or TOML file that describes a theme, or how a theme differs
+//! from another theme.
 //!
 //! The keys are the names of the fields of [`Theme`], and `theme` for the theme that the file changes. All keys are
 //! optional. All problems are reported at once.
@@ -42,9 +43,8 @@ pub struct StyleProblem {
 pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
-    /// Reads the theme that a style file describes. The values of the file replace those of the theme `base`. If `base`
-    /// is `None`, the file may name the theme whose values are replaced. Otherwise they replace those of the default
-    /// theme.
+    /// Reads the theme that a style file describes. Values that are not in the file come from the theme `base`. If `base`
+    /// is `None`, they come from the theme that the file names, or from the default theme if the file names none.
     ///
     /// # Errors
     /// All problems of the file.
@@ -198,10 +198,10 @@ const SIZES: [SizeField; 7] = [
 /// Least and largest font size. Smaller text cannot be read, and larger text leaves no space for the figure.
 const LETTERS: [f64; 2] = [8.0, 100.0];
 
-/// Returns the smallest number of evenly spaced colours from which the ramp can be interpolated. If no smaller list is
-/// possible, returns all 256 colours.
+/// Returns the shortest list of evenly spaced colours from which [`ramp::between`] gives exactly this ramp. Returns all
+/// 256 colours if no shorter list does.
 fn stops(ramp: &[Colour]) -> Vec<Colour> {
-    // With steps that divide 255, each stop is an entry of the ramp.
+    // Only steps that divide 255 are possible, because the last of the 256 entries must be a stop.
     for step in [255, 85, 51, 17, 15, 5, 3] {
         let stops: Vec<Colour> = ramp.iter().step_by(step).copied().collect();
         if ramp::between(&stops) == ramp {

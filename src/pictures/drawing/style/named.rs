@@ -53,8 +53,8 @@ impl Theme {
         }
     }
 
-    /// Returns a theme for print in colour or grey, in which items that may touch differ in lightness. Arrows of forces
-    /// are dark and blocks are light. Robots are lighter than failures, and failures are lighter than forces.
+    /// Returns a theme for print in colour or grey. Items that may touch differ in lightness: force arrows are dark and
+    /// blocks are light. Robots are lighter than failures, and failures are lighter than forces.
     pub fn paper() -> Theme {
         Theme {
             page: Colour::WHITE,
@@ -80,8 +80,8 @@ impl Theme {
         }
     }
 
-    /// Returns a theme with the colours of [Okabe08](crate::doc::references) on a white page, and amplitudes from
-    /// yellow to blue. It is suitable for all kinds of colour blindness.
+    /// Returns a theme with the colours of [Okabe08](crate::doc::references) on a white page. The colours of amplitudes
+    /// go from yellow to blue. The theme is suitable for all kinds of colour blindness.
     pub fn colourblind() -> Theme {
         Theme {
             page: Colour::WHITE,

@@ -13,7 +13,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Adds a problem.
+    /// Adds a problem to the list. `path` is the path to the value, and `help` says what is expected.
     pub(super) fn note(&mut self, path: &str, message: String, help: String) {
         self.problems.push(StyleProblem {
             path: path.to_owned(),
@@ -22,8 +22,8 @@ impl Reading {
         });
     }
 
-    /// Returns the theme that a file names. Returns `None` for an invalid name, which is reported later, when its key
-    /// is read.
+    /// Returns the theme that the key `theme` of a file names. Returns `None` if there is no such key or if the name is
+    /// unknown. [`Reading::theme`] reports an unknown name.
     pub(super) fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
         let named = |(key, value): &(String, Value)| match value {
             Value::Text(name) if key == "theme" => Theme::named(name),
@@ -32,7 +32,7 @@ impl Reading {
         entries.iter().find_map(named)
     }
 
-    /// Reads all keys into a theme.
+    /// Reads all keys of a file and replaces the values of `theme`. Collects the problems.
     pub(super) fn theme(&mut self, entries: &[(String, Value)], theme: &mut Theme) {
         for (number, (key, value)) in entries.iter().enumerate() {
             self.once(entries, number, key);
@@ -69,7 +69,7 @@ impl Reading {
         }
     }
 
-    /// Reports the key with this index if the same key already occurred before.
+    /// Reports a problem if an earlier entry has the same key as the entry with the index `number`.
     fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
         let key = &entries[number].0;
         if entries[..number].iter().any(|e| e.0 == *key) {
@@ -89,7 +89,8 @@ impl Reading {
         self.note(path, "unknown key".into(), help);
     }
 
-    /// Reports a problem if the value is not one of the known names.
+    /// Reports a problem if the value is not one of the known names. `sort` says in the message what is named, for
+    /// example "theme".
     fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
         let Value::Text(name) = value else {
             return self.note(
@@ -123,7 +124,8 @@ impl Reading {
         colour
     }
 
-    /// Reads a list of at least `least` colours. Returns `None` if the value is not a list or an entry is not a colour.
+    /// Reads a list of colours. Returns `None` if the value is not a list or an entry is not a colour. Reports a problem
+    /// in these cases and if there are fewer than `least` colours.
     fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
         let Value::List(list) = value else {
             let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
@@ -154,8 +156,8 @@ impl Reading {
         Some(ramp::between(&stops))
     }
 
-    /// Reads a table of numbers. `known` gives each key with its range and unit. Returns each number with the index of
-    /// its key in `known`.
+    /// Reads a table of numbers. `known` lists each possible key with the range and unit of its number. Returns each
+    /// number of the table with the index of its key in `known`.
     fn numbers(
         &mut self,
         path: &str,

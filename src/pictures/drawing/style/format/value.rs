@@ -19,7 +19,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// Returns a description of the value for messages.
+    /// Returns a short description of the value for messages, for example `the number 3`.
     pub(super) fn stated(&self) -> String {
         match self {
             Value::Number(number) => format!("the number {number}"),
@@ -32,7 +32,7 @@ impl Value {
     }
 }
 
-/// Reads a text as JSON.
+/// Parses a style file in JSON.
 pub(super) fn json(text: &str) -> Result<Value, StyleProblem> {
     serde_json::from_str(text).map_err(|error| StyleProblem {
         path: String::new(),
@@ -41,7 +41,7 @@ pub(super) fn json(text: &str) -> Result<Value, StyleProblem> {
     })
 }
 
-/// Reads a text as TOML.
+/// Parses a style file in TOML.
 #[cfg(feature = "toml")]
 pub(super) fn toml(text: &str) -> Result<Value, StyleProblem> {
     toml::from_str(text).map_err(|error| {
