@@ -1,4 +1,4 @@
-//! Draws pages of shapes and text, and writes them to files. This folder does not use the mechanics.
+//! Draws pages of shapes and text, and writes them to files. No file of this folder depends on the mechanics.
 
 pub mod drawing;
 

@@ -174,8 +174,8 @@ fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Pairs of the supplement to Sharma, Wu and Dalal (2005), chosen for the corners of the formula: blue, hues on either
-    /// side of 0, greys, large distances, and near black.
+    /// Pairs of the supplement to Sharma, Wu and Dalal (2005), chosen for the corners of the formula: blue, hues on
+    /// either side of 0, greys, large distances, and near black.
     #[test]
     fn differences_are_those_published() {
         let pairs = [

@@ -143,8 +143,8 @@ impl Sizes {
 
 impl Theme {
     /// Returns the colour of the force arrows of a block. `place` is the number of the block in the order of placing,
-    /// from 1. The colour is entry `place` mod n of the list of n arrow colours. The first block therefore has the second
-    /// colour, as in the thesis.
+    /// from 1. The colour is entry `place` mod n of the list of n arrow colours. The first block therefore has the
+    /// second colour, as in the thesis.
     pub fn arrow(&self, place: usize) -> Colour {
         entry(&self.arrows, place).unwrap_or(self.ink)
     }
@@ -170,8 +170,8 @@ impl Theme {
         self.amplitudes.get(entry).copied().unwrap_or(self.block)
     }
 
-    /// Returns the colour of the border that separates an arrow from the block behind it. If the block is bright and the
-    /// arrow is not much darker, the border is a dark shade of the arrow's colour. Otherwise its colour is
+    /// Returns the colour of the border that separates an arrow from the block behind it. If the block is bright and
+    /// the arrow is not much darker, the border is a dark shade of the arrow's colour. Otherwise its colour is
     /// [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
         let lost =

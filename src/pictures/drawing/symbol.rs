@@ -157,8 +157,8 @@ fn runs(words: &str) -> Vec<(String, Face)> {
     runs
 }
 
-/// Returns the arrow or hat above a letter, or `None` if the letter has no accent. The left end of the letter's baseline
-/// lies at `at`. `size` is the font size in pixels.
+/// Returns the arrow or hat above a letter, or `None` if the letter has no accent. The left end of the letter's
+/// baseline lies at `at`. `size` is the font size in pixels.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
     let tall = letter
         .letter

@@ -1,4 +1,4 @@
-//! Writes animated PNG and GIF files. Their pictures are shown one after the other, and the sequence repeats endlessly.
+//! Writes animated PNG and GIF files, which show pictures one after the other and repeat endlessly.
 //!
 //! A picture is stored as the part that differs from the previous picture. If every pixel is opaque, all pictures share
 //! one palette, and files of both formats have about the same size.
@@ -23,12 +23,12 @@ pub struct Step {
     pub seconds: f64,
 }
 
-/// Writes pictures of the same size as an animated PNG that repeats endlessly. A program that cannot show animated PNG
-/// shows the first picture.
+/// Writes pictures as an animated PNG that repeats endlessly. A program that cannot show animated PNG files shows the
+/// first picture.
 ///
 /// # Errors
 /// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render). [`PngError::Encode`] if there
-/// are no steps, if they differ in size, or if a time is outside 0.01 to 600 seconds.
+/// are no pictures, if they differ in size, or if a picture is shown for less than 0.01 or more than 600 seconds.
 pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let failed = |e: ::png::EncodingError| PngError::Encode(e.to_string());
@@ -53,8 +53,8 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
         .map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
     for (number, patch) in patches.iter().enumerate() {
-        // The encoder checks after each call that the frame lies on the page. Therefore move the frame to the corner
-        // before its size changes.
+        // The encoder checks after each call that the frame lies inside the picture. Therefore move the frame to the
+        // upper left corner before its size changes.
         writer.reset_frame_position().map_err(failed)?;
         writer
             .set_frame_dimension(patch.width, patch.height)
@@ -82,10 +82,11 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
     Ok(bytes)
 }
 
-/// Writes pictures of the same size as a GIF that repeats endlessly, with at most 255 colours.
+/// Writes pictures as a GIF that repeats endlessly. All pictures together have at most 255 colours; further colours are
+/// replaced by similar ones.
 ///
 /// # Errors
-/// As [`apng`]; also [`PngError::Encode`] for pictures with transparent pixels and for a side above 65 535 pixels.
+/// The errors of [`apng`]. Also [`PngError::Encode`] if a pixel is transparent or a side is longer than 65 535 pixels.
 pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let wrong = |why: &str| PngError::Encode(why.to_owned());
@@ -122,7 +123,8 @@ pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErro
     Ok(bytes)
 }
 
-/// Renders all steps. Returns their patches, and the width and height of the pictures in pixels.
+/// Renders all pictures of an animation. Returns the changed part of each picture, and the width and height of the
+/// pictures in pixels.
 fn film(steps: &[Step], size: Size, fonts: &Fonts) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
     let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
     if steps.is_empty() {

@@ -1,4 +1,4 @@
-//! [`write_whole`]: writes files. Each file is written completely or not at all.
+//! [`write_whole`] writes files. Each file is written completely or not at all.
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
 //! step. Therefore nobody ever sees an incomplete file, and a full disk leaves the old file unchanged. If the path is a
@@ -38,8 +38,8 @@ const MAX_LINKS: usize = 40;
 /// The temporary files that exist.
 static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Writes all files, or no file if one of them cannot be written. All files are first written under temporary names,
-/// and then renamed.
+/// Writes all files, or none of them if one cannot be written. All files are first written under temporary names, and
+/// then renamed.
 ///
 /// # Errors
 /// The first file that could not be written. In this case nothing has changed, unless the system refuses to rename a
@@ -73,8 +73,8 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
     Ok(())
 }
 
-/// Deletes all temporary files, and prevents new ones until the returned value is dropped. A process calls this
-/// function before it ends.
+/// Deletes all temporary files, and prevents new ones until the returned value is dropped. The command line calls this
+/// function before a signal ends the process.
 pub(crate) fn abandon() -> impl Drop {
     let mut beside = beside();
     for path in beside.drain(..) {
@@ -104,7 +104,7 @@ fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
 }
 
 fn beside() -> MutexGuard<'static, Vec<PathBuf>> {
-    // The list is valid even if a thread panicked while it held the lock.
+    // A poisoned lock is no problem: the list is valid even if a thread panicked while it held the lock.
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -189,25 +189,26 @@ impl Drop for Beside {
     }
 }
 
-/// Returns the error of the system, without the temporary name that tempfile adds to its text.
+/// Returns the same error without the name of the temporary file, which the tempfile library adds to the text.
 fn nameless(error: &io::Error) -> io::Error {
     let text = error.to_string();
     let reason = text.split(" at path ").next().unwrap_or_default();
     io::Error::new(error.kind(), reason.to_owned())
 }
 
-/// Copies the permissions of the replaced file and, if the system allows it, its owner.
+/// Gives the new file the permissions of the file that it replaces and, if the system allows it, the same owner.
 fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::{MetadataExt, fchown};
-        // Only the superuser may change the owner. Set the permissions last, because a change of owner resets some of them.
+        // Only the superuser may change the owner. Set the permissions last, because a change of owner resets some of
+        // them.
         let _ = fchown(file, Some(old.uid()), Some(old.gid()));
     }
     file.set_permissions(old.permissions())
 }
 
-/// Prepares the writing of a file: writes the temporary file, or opens the device or pipe.
+/// Prepares a file for writing. Writes `bytes` to a temporary file, or opens the path if it is a device or pipe.
 fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     let target = followed(path)?;
     let old = fs::metadata(&target).ok();
@@ -235,7 +236,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
     Ok(Ready::Beside(file))
 }
 
-/// Follows links and returns the path of their target, which need not exist.
+/// Follows symbolic links and returns the path to which they lead. A file need not exist at this path.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MAX_LINKS {

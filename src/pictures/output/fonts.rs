@@ -15,11 +15,11 @@ pub struct Fonts {
 }
 
 impl Fonts {
-    /// Adds font files or collections (.ttf, .otf, .ttc) to the built-in fonts. If the built-in fonts do not have a
-    /// character, it comes from the first file that has it.
+    /// Adds font files or font collections (.ttf, .otf, .ttc) to the built-in fonts. A character that the built-in
+    /// fonts do not have is drawn in the first added font that has it.
     ///
     /// # Errors
-    /// The index, from 0, of the first file that is not a font.
+    /// The index, from 0, of the first file that is not a readable font.
     ///
     /// # Example
     /// ```
@@ -42,7 +42,7 @@ impl Fonts {
         &self.more
     }
 
-    /// True if a font has the character. Always true for white space.
+    /// True if one of the fonts has the character. Always true for white space.
     pub fn has(&self, c: char) -> bool {
         (c.is_whitespace() && !c.is_control())
             || matches!(c, '\n' | '\t' | '\r')
@@ -50,8 +50,8 @@ impl Fonts {
             || self.more.iter().any(|data| text::covers(data, c))
     }
 
-    /// Returns the characters of a text that no font has. Each character is listed once, in the order of first
-    /// appearance.
+    /// Returns the characters of a text that none of the fonts has. Each character is listed once, in the order of
+    /// first appearance.
     pub fn lacking(&self, text: &str) -> Vec<char> {
         let mut lacking = Vec::new();
         for c in text
@@ -65,7 +65,7 @@ impl Fonts {
         lacking
     }
 
-    /// Replaces each character that no font has by its code point. Two different names therefore stay different.
+    /// Replaces each character that none of the fonts has by its code point. Different names therefore stay different.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

@@ -1,5 +1,5 @@
-//! [`Format`]: the formats in which the command line writes a drawing. Each format is declared here once, with its file
-//! ending, its help and its writer. The writers are in separate files.
+//! [`Format`]: the file formats in which the command line writes a drawing. This file declares the file ending, the
+//! help text and the writer of each format. The writers are in other files.
 
 use super::animation::{self, Step};
 use super::fonts::Fonts;
@@ -126,15 +126,15 @@ impl Format {
         self.declaration().ending
     }
 
-    /// Returns the format with this file ending; `None` if there is no such format. `ending` is in lower case without a
-    /// dot.
+    /// Returns the format with this file ending, or `None` if there is no such format. `ending` must be in lower case
+    /// and without a dot.
     pub(crate) fn from_ending(ending: &str) -> Option<Format> {
         Format::ALL
             .into_iter()
             .find(|format| format.ending() == ending)
     }
 
-    /// Returns one line of help.
+    /// Returns the description of the format in the help of the command line.
     pub(crate) fn help(self) -> &'static str {
         self.declaration().help
     }
@@ -153,13 +153,13 @@ impl Format {
         self.declaration().has_pixels
     }
 
-    /// True if the writer lays out the text of a drawing with the given fonts. False if the program that opens the file
-    /// lays out the text.
+    /// True if the writer of this format lays out text with [`Settings::fonts`]. False if the program that opens the
+    /// file lays out the text.
     pub(crate) fn lays_out_words(self, words: Words) -> bool {
         self.declaration().lays_out_words || (self == Format::Svg && words == Words::Outlines)
     }
 
-    /// Returns a message that explains why this format is not written to a terminal; `None` for a text format.
+    /// Returns an error message that says that this format cannot be shown on a terminal, or `None` for a text format.
     pub(crate) fn unreadable(self) -> Option<String> {
         let declaration = self.declaration();
         let name = declaration.ending.to_ascii_uppercase();

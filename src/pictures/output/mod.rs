@@ -1,4 +1,4 @@
-//! Writes a [`Drawing`](crate::drawing::Drawing) to a file: as SVG, as PNG, GIF or PDF (all made from the SVG), or as TikZ.
+//! Writes a [`Drawing`](crate::drawing::Drawing) in the format SVG, PNG, GIF, PDF or TikZ.
 //!
 //! PNG, GIF and PDF are made from the SVG with resvg, so all show the same picture. The same drawing gives the same
 //! bytes on every machine: files do not depend on the time, on paths or on installed fonts.
@@ -33,8 +33,8 @@ pub const PIXELS_PER_INCH: f64 = 96.0;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const IN_PRINT: f64 = 0.8;
 
-/// Converts the width of a figure in print, in millimetres, to the width of its layout in pixels. With this width, text
-/// is as large as a footnote in print, and names in blocks are slightly smaller.
+/// Converts the width of a printed figure, in millimetres, to the width of its layout in pixels. In a figure of this
+/// width, text has the size of printed footnotes, and names in blocks are slightly smaller.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn page_width(millimetres: f64) -> f64 {
     millimetres / MM_PER_INCH * PIXELS_PER_INCH / IN_PRINT

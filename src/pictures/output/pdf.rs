@@ -1,4 +1,4 @@
-//! [`write()`]: writes a drawing as a PDF page of its size, with vector graphics and searchable text.
+//! [`write()`] writes a drawing as a PDF page of the same size, with vector graphics and searchable text.
 //!
 //! The PDF is made from the SVG, as the PNG is, so all show the same picture. Only this file and its folder use krilla.
 //! The built-in fonts are embedded, reduced to the glyphs that are used. The file contains neither date nor machine:
@@ -55,8 +55,8 @@ pub const MAX_SIDE_MM: f64 = 5080.0;
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// Writes a drawing as a PDF of one page. `width_mm` is the width of the page in millimetres. For `None`, one pixel of
-/// the drawing is 1/96 inch.
+/// Writes a drawing as a PDF of one page. `width_mm` is the width of the page in millimetres. If it is `None`, one
+/// pixel of the drawing is 1/96 inch.
 ///
 /// # Errors
 /// [`PdfError::Size`] if a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`];
@@ -78,7 +78,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
 /// Like [`write()`], with additional fonts. A line of text that needs an additional font is drawn as outlines.
 ///
 /// # Errors
-/// As [`write()`].
+/// See [`write()`].
 pub fn write_in(
     drawing: &Drawing,
     width_mm: Option<f64>,
@@ -191,10 +191,10 @@ pub struct Heading<'t> {
     pub description: &'t str,
 }
 
-/// Writes a PDF of several pages. One pixel is 1/96 inch.
+/// Writes a PDF with several pages. One pixel is 1/96 inch. `heading` is the metadata of the document.
 ///
 /// # Errors
-/// As [`write()`], for any of its pages.
+/// See [`write()`]; each page is checked.
 pub fn write_sheets(
     sheets: &[Sheet<'_>],
     heading: &Heading<'_>,
@@ -204,14 +204,14 @@ pub fn write_sheets(
     document(sheets, natural, heading, bookmarks, &Fonts::default())
 }
 
-/// Returns the width and height in pixels of an SVG; `None` if the text is not SVG.
+/// Returns the width and height of an SVG in pixels, or `None` if the text is not a valid SVG.
 pub fn svg_size(text: &str) -> Option<(f64, f64)> {
     let tree = tree::read(text, &Fonts::default()).ok()?;
     let size = tree.size();
     Some((f64::from(size.width()), f64::from(size.height())))
 }
 
-/// Writes a document of several pages with `mm_per_pixel` millimetres per pixel.
+/// Writes a PDF with several pages. `mm_per_pixel` is the length of a pixel in millimetres.
 fn document(
     sheets: &[Sheet<'_>],
     mm_per_pixel: f64,
@@ -274,7 +274,7 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
     let PageRect { at, width, height } = link.place;
     let (x, y) = (scale * at.x as f32, scale * at.y as f32);
     let (wide, high) = (scale * width as f32, scale * height as f32);
-    // Each side is at least one point long, because an area must not be empty.
+    // Make each side of the link at least one point long, because krilla does not accept an empty rectangle.
     let area = Rect::from_xywh(x, y, wide.max(1.0), high.max(1.0));
     let top = XyzDestination::new(link.page, Point::from_xy(0.0, 0.0));
     let target = Target::Destination(Destination::Xyz(top));
@@ -287,7 +287,8 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
 /// The tagged contents of a document in reading order, each with its role if it has one.
 type Tags = Vec<(Option<Role>, Node)>;
 
-/// Draws one part of a page, and appends its tags to `tags`. `scale` is in points per pixel.
+/// Draws a drawing or chart on a page, and appends its tags for screen readers to `tags`. `scale` is in points per
+/// pixel.
 fn inset(
     surface: &mut Surface<'_>,
     part: &Inset<'_>,

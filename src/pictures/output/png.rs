@@ -1,4 +1,4 @@
-//! [`render`]: converts an SVG to a PNG with resvg.
+//! [`render`] converts an SVG to a PNG with the resvg library.
 
 mod pack;
 #[cfg(test)]
@@ -40,7 +40,7 @@ pub enum Compression {
 }
 
 impl Compression {
-    /// Returns the level of the deflate compression.
+    /// Returns the compression level for deflate.
     fn level(self) -> u8 {
         match self {
             Compression::Small => 6,
@@ -77,7 +77,7 @@ pub const MAX_PIXELS: u64 = 100_000_000;
 /// Largest number of pixels along a side.
 pub const MAX_SIDE: u32 = 32_000;
 
-/// Draws an SVG as PNG. The picture is transparent where the SVG is empty.
+/// Renders an SVG and returns the bytes of a PNG file. The picture is transparent where the SVG is empty.
 ///
 /// # Errors
 /// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no
@@ -108,7 +108,7 @@ pub fn render_in(
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
-/// Returns the resolution of a picture for print, in pixels per metre; `None` for other sizes.
+/// Returns the resolution of a picture for print, in pixels per metre. Returns `None` if the size is not for print.
 fn per_metre(size: Size) -> Option<u32> {
     match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
@@ -127,7 +127,7 @@ pub struct Raster {
     pub rgba: Vec<[u8; 4]>,
 }
 
-/// Like [`render`], but returns the pixels and not a PNG.
+/// Like [`render`], but returns the pixels instead of a PNG file.
 ///
 /// # Errors
 /// See [`render`].
@@ -156,8 +156,8 @@ pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
-/// Returns the width and height of a picture in whole pixels. `natural_width` and `natural_height` are the size of its
-/// drawing.
+/// Returns the width and height of a picture in whole pixels. `natural_width` and `natural_height` are the width and
+/// height of the drawing. Fails if the size of the picture is out of range.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
@@ -180,7 +180,7 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
     }
 }
 
-/// Renders an SVG to pixels.
+/// Renders an SVG to pixels. The colours are premultiplied by their opacity.
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
     let natural = (
@@ -190,8 +190,8 @@ fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let (width, height) = pixels(natural.0, natural.1, size)?;
     let mut pixels =
         Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
-    // Stretch the drawing by less than one pixel to whole pixels, so that the edges of the page are not partly
-    // transparent.
+    // Stretch the drawing by less than one pixel, so that it fills whole pixels. Otherwise the border pixels of the
+    // picture would be partly transparent.
     let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
     resvg::render(&tree, scale, &mut pixels.as_mut());
     Ok(pixels)

@@ -1,4 +1,5 @@
-//! [`write()`]: writes a drawing as SVG text. It only uses features that resvg and browsers treat in the same way.
+//! [`write()`] writes a drawing as an SVG document. The document only uses features that resvg and browsers draw in the
+//! same way.
 //!
 //! Attributes have a fixed order, and one function formats all numbers, so the same drawing gives the same bytes. Ids
 //! of elements begin with a hash of the drawing, so that several figures can be on one page.
@@ -29,7 +30,7 @@ use crate::text::xml;
 #[error("the words of the drawing cannot be written so: {0}")]
 pub struct OutlineError(String);
 
-/// Writes a drawing as an SVG document with its text as text.
+/// Writes a drawing as an SVG document. Text is written as text, not as outlines.
 ///
 /// # Panics
 /// If a number of the drawing is not finite. No valid scene causes this.
@@ -55,27 +56,27 @@ pub fn write(drawing: &Drawing) -> String {
 }
 
 /// Like [`write()`], for a drawing that is converted to pixels. All ids begin with `d`, because no other figure is on
-/// the same page. To save time, titles and descriptions are left out, and groups are written without their `<g>`
-/// element unless it clips.
+/// the same page. To save time, titles and descriptions are left out, and groups without a clip path are written
+/// without a `<g>` element.
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
 }
 
-/// Like [`write()`]. The id of each line of text is `t` with its number in the order of drawing: `t1`, `t2` …
+/// Like [`write()`], but each line of text has an id: `t` and its number in the order of drawing (`t1`, `t2` …).
 #[cfg(feature = "png")]
 pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// Writes a drawing as an SVG document with options. The options set a size for print, or make text independent of the
-/// reader's fonts.
+/// Writes a drawing as an SVG document with options. They can set the width in print, and they can make text
+/// independent of the fonts that a reader has installed.
 ///
 /// # Errors
 /// [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.
 ///
 /// # Panics
-/// As [`write()`].
+/// See [`write()`].
 ///
 /// # Example
 /// ```
@@ -114,14 +115,14 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, Outlin
     }
 }
 
-/// Lays out all text of the drawing. Returns it as a tree in which each line of text has the id `t1`, `t2` …
+/// Lays out all text of the drawing. Returns the drawing as a tree in which the lines of text have the ids `t1`, `t2` …
 #[cfg(feature = "png")]
 fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, OutlineError> {
     tree::read(&numbered(drawing), &options.fonts).map_err(OutlineError)
 }
 
-/// Returns the prefix of all ids: [`Options::mark`], or a short hash of drawing and options if no mark is set.
-/// Different drawings and options very probably have different hashes.
+/// Returns the prefix of all ids: [`Options::mark`], or a short hash of drawing and options if no mark is set. It is
+/// very unlikely that two different drawings have the same hash.
 fn mark_of(drawing: &Drawing, options: &Options) -> String {
     if let Some(mark) = &options.mark {
         return mark.clone();
@@ -178,7 +179,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
             format!("{}mm", number(mm * drawing.height / drawing.width)),
         ),
     };
-    // Most shapes and texts share these attributes, so write them only once.
+    // Write attributes that most shapes and texts share only once, at the root element.
     svg.put(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
@@ -230,7 +231,7 @@ impl Writer<'_> {
         let _ = write!(self.text, " {name}=\"{value}\"");
     }
 
-    /// True if only visible items are written.
+    /// True if only visible items are written, without titles and descriptions.
     fn is_bare(&self) -> bool {
         match self.form {
             #[cfg(all(feature = "cli", feature = "png"))]
@@ -275,7 +276,7 @@ impl Writer<'_> {
         self.put("</g>\n");
     }
 
-    /// Writes a clip path, and returns its id.
+    /// Writes a clip path for a rectangle, and returns the id of the clip path.
     fn clip_path(&mut self, rect: PageRect) -> String {
         self.clips += 1;
         let id = format!("{}-clip{}", self.mark, self.clips);
@@ -289,7 +290,8 @@ impl Writer<'_> {
         id
     }
 
-    /// Writes the attributes of a group: id, class, attributes for screen readers, clip path and camera.
+    /// Writes the attributes of a group: id, class, attributes for screen readers, clip path, and scale and origin of
+    /// the scene.
     fn group_attributes(&mut self, group: &Group, clip: Option<String>) {
         if let Some(id) = &group.id {
             let id = format!("{}-{}", self.mark, xml(id));
@@ -363,7 +365,7 @@ fn holds_titles(items: &[Item]) -> bool {
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
 }
 
-/// Returns a 32-bit hash of a text: the exclusive or of both halves of its 64-bit hash.
+/// Returns a 32-bit hash of a text: the exclusive or of the two halves of a 64-bit hash.
 fn fold(text: &str) -> u32 {
     let hash = crate::text::hash(text.as_bytes());
     (hash ^ (hash >> 32)) as u32

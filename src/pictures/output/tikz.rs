@@ -1,4 +1,4 @@
-//! [`write()`]: writes a drawing as a TikZ picture for LaTeX documents. Its text uses the fonts of the document.
+//! [`write()`] writes a drawing as a TikZ picture for LaTeX documents. Its text is set in the fonts of the document.
 //!
 //! It only needs the package `tikz`. Include the file with `\input`.
 
@@ -13,7 +13,8 @@ use crate::drawing::{
 /// PostScript points per inch; TeX calls them big points (`bp`).
 const BIG_POINTS: f64 = 72.0;
 
-/// Writes a drawing as a `tikzpicture`. `width_mm` is its width in millimetres. For `None`, one pixel is 1/96 inch.
+/// Writes a drawing as a `tikzpicture`. `width_mm` is its width in millimetres. If it is `None`, one pixel is 1/96
+/// inch.
 ///
 /// # Panics
 /// If a number of the drawing is not finite. No valid scene causes this.
@@ -201,14 +202,14 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// Replaces control characters by spaces, so that the text is one line and can be a comment.
+/// Replaces control characters, such as line breaks, by spaces, so that the text fits in a one-line comment.
 fn comment(text: &str) -> String {
     text.chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect()
 }
 
-/// Escapes text for LaTeX. Letters of other scripts are not changed, except μ.
+/// Escapes text for LaTeX. Letters of other scripts are not changed, except μ, which becomes `$\mu$`.
 fn escaped(words: &str) -> String {
     let mut out = String::with_capacity(words.len());
     for c in words.chars() {

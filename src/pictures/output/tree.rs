@@ -1,4 +1,5 @@
-//! [`read`]: reads an SVG with resvg. All text is laid out with the built-in and the added fonts.
+//! [`read`] reads an SVG with the resvg library. Text is laid out with the built-in fonts and the fonts that a user
+//! adds.
 //!
 //! Pixel images, PDF and text outlines are all made from this tree, so text has the same position in all of them. Only
 //! the built-in and the added fonts are used, never those of the machine. A character that no font has is drawn as a
@@ -22,7 +23,7 @@ pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     let options = usvg::Options {
         font_family: "Libertinus Serif".to_owned(),
         fontdb: database(more),
-        // A drawing is self-contained: it loads no files and no images.
+        // Never load files or images: a drawing contains everything that it shows.
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_string: Box::new(|_, _| None),
             ..usvg::ImageHrefResolver::default()
@@ -32,7 +33,7 @@ pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     usvg::Tree::from_str(svg, &options).map_err(|e| e.to_string())
 }
 
-/// Replaces characters that no font has by question marks.
+/// Replaces characters that none of the fonts has by question marks.
 fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
     let lacking = fonts.lacking(svg);
     if lacking.is_empty() {
@@ -42,7 +43,7 @@ fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
     Cow::Owned(svg.chars().map(shown).collect())
 }
 
-/// Returns the built-in fonts, followed by the added fonts.
+/// Returns a font database with the built-in fonts, followed by the added fonts.
 fn database(more: &Fonts) -> Arc<fontdb::Database> {
     let ours = &fonts().0;
     if more.more().is_empty() {
@@ -55,14 +56,14 @@ fn database(more: &Fonts) -> Arc<fontdb::Database> {
     Arc::new(all)
 }
 
-/// True if a glyph of a line of text comes from an added font.
+/// True if any glyph of a line of text comes from an added font.
 pub(super) fn foreign(text: &usvg::Text) -> bool {
     let spans = text.layouted().iter();
     let mut glyphs = spans.flat_map(|span| &span.positioned_glyphs);
     glyphs.any(|glyph| face(glyph.font).is_none())
 }
 
-/// Returns the texts of a tree in the order of drawing.
+/// Returns the lines of text in a group and its subgroups, in the order of drawing.
 pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
     let mut found = Vec::new();
     for node in group.children() {
@@ -97,7 +98,7 @@ pub(super) struct Run {
     pub glyphs: Vec<Placed>,
 }
 
-/// Returns the glyphs of a span of text that come from built-in fonts, as runs of one face.
+/// Returns the glyphs of a span of text as runs of glyphs of one face. Glyphs from added fonts are left out.
 pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for glyph in &span.positioned_glyphs {
@@ -124,7 +125,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
     runs
 }
 
-/// Returns the face of a built-in font in the tree; `None` for an added font.
+/// Returns the face of the built-in font with this id, or `None` for an added font.
 pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
     known

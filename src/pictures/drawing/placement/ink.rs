@@ -74,8 +74,8 @@ impl Ink {
         }
     }
 
-    /// True if `matches` is true for any piece whose bounding box overlaps the box from `min` to `max`. The search stops
-    /// at the first such piece, and `matches` is called at most once for each piece.
+    /// True if `matches` is true for any piece whose bounding box overlaps the box from `min` to `max`. The search
+    /// stops at the first such piece, and `matches` is called at most once for each piece.
     fn any_near(
         &self,
         min: PagePoint,
@@ -319,7 +319,8 @@ struct Cells {
 
 impl Grid {
     fn new(pieces: &[Piece]) -> Grid {
-        // A page is only a few thousand pixels wide. Limit the grid; pieces far outside the page share its outermost cells.
+        // Limit the size of the grid: a page is only a few thousand pixels wide. Pieces far outside the page share the
+        // outermost cells.
         let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
         let ends =
             |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));

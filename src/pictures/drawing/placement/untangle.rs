@@ -1,4 +1,4 @@
-//! [`untangle`] exchanges the positions of two labels whose leader lines cross, if there are fewer crossings afterwards.
+//! [`untangle`] exchanges the positions of two labels whose leader lines cross, if fewer lines cross afterwards.
 //!
 //! Labels are placed one after the other, so in a crowd a late label may only find a position behind other labels. The
 //! method is a local search over pairs (2-opt). It stops if no exchange reduces the number of crossings, or after a few
@@ -12,8 +12,8 @@ use crate::drawing::{PagePoint, PageRect};
 /// fast.
 const MAX_ROUNDS: usize = 4;
 
-/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns whether any label
-/// moved.
+/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns whether any
+/// label moved.
 pub(super) fn untangle(
     ink_without_labels: &Ink,
     page: PageRect,

@@ -43,8 +43,9 @@ pub struct StyleProblem {
 pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
-    /// Reads the theme that a style file describes. Values that are not in the file come from the theme `base`. If `base`
-    /// is `None`, they come from the theme that the file names, or from the default theme if the file names none.
+    /// Reads the theme that a style file describes. Values that are not in the file come from the theme `base`. If
+    /// `base` is `None`, they come from the theme that the file names, or from the default theme if the file names
+    /// none.
     ///
     /// # Errors
     /// All problems of the file.

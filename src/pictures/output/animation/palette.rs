@@ -1,4 +1,5 @@
-//! [`Palette`]: at most 255 colours for all pictures of an animation, and one index for pixels that do not change.
+//! [`Palette`]: the colours of all pictures of an animation, at most 255. One more index stands for pixels that do not
+//! change.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +23,7 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Creates the palette for some pictures; `None` if a changed pixel is not opaque.
+    /// Creates the palette for all pictures of an animation. Returns `None` if a changed pixel is not opaque.
     pub fn new(patches: &[Patch]) -> Option<Palette> {
         let counts = counts(patches)?;
         let colours = chosen(&counts);
@@ -38,18 +39,18 @@ impl Palette {
         })
     }
 
-    /// Returns the number of indices, including the index of unchanged pixels.
+    /// Returns the number of indices in the palette, including the index of unchanged pixels.
     pub fn len(&self) -> usize {
         self.colours.len() + 1
     }
 
-    /// Returns the red, green and blue bytes of every index.
+    /// Returns the bytes of the palette: red, green and blue for each index in order.
     pub fn bytes(&self) -> Vec<u8> {
         let all = [[0; 3]].into_iter().chain(self.colours.iter().copied());
         all.flatten().collect()
     }
 
-    /// Returns the indices of the pixels of a patch.
+    /// Returns the palette index of each pixel of a patch, row by row.
     pub fn indices(&self, patch: &Patch) -> Vec<u8> {
         let mut known = ([0; 3], None);
         let number = |(colour, changed): &([u8; 4], bool)| {
@@ -70,7 +71,7 @@ fn opaque([red, green, blue, _]: [u8; 4]) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Counts the changed pixels of each colour; `None` if a changed pixel is not opaque.
+/// Counts the changed pixels of each colour. Returns `None` if a changed pixel is not opaque.
 fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     let mut counts = BTreeMap::new();
     let changed = |patch: &'_ Patch| -> Vec<[u8; 4]> {
@@ -88,8 +89,8 @@ fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
     Some(counts)
 }
 
-/// Returns the colours of the palette. If there are at most [`MAX_COLOURS`] colours, the result has all of them.
-/// Otherwise it has the most frequent colours, and one colour for each group of similar colours among the others.
+/// Returns the colours of the palette. Up to [`MAX_COLOURS`] colours are all kept. If there are more, the result has
+/// the most frequent colours, and one colour for each group of similar colours among the others.
 fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
     let mut colours: Vec<([u8; 3], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
     if colours.len() > MAX_COLOURS {
@@ -100,8 +101,8 @@ fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
     colours.into_iter().map(|(colour, _)| colour).collect()
 }
 
-/// Returns the first colour of each group of similar colours. The groups are as small as possible such that there are
-/// at most `most` of them.
+/// Groups colours that have the same leading bits in each channel, and returns the first colour of each group. Compares
+/// as many bits as possible such that there are at most `most` groups.
 fn reduced(colours: &[([u8; 3], usize)], most: usize) -> Vec<([u8; 3], usize)> {
     for bits in (1..BITS).rev() {
         let mut groups = BTreeMap::new();

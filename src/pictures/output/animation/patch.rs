@@ -20,14 +20,15 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// Returns red, green, blue and opacity of all pixels of the patch, including unchanged pixels.
+    /// Returns the red, green, blue and alpha bytes of all pixels of the patch, including unchanged pixels.
     pub fn all_pixels(&self) -> Vec<u8> {
         self.pixels.iter().flat_map(|(colour, _)| *colour).collect()
     }
 }
 
-/// Converts pictures with their durations in seconds to patches. Returns the patches, and the width and height of the
-/// pictures in pixels. If a picture equals the previous picture, the previous picture is shown for longer.
+/// Converts pictures, each with its duration in seconds, to patches. Returns the patches, and the width and height of
+/// the pictures in pixels. A picture that equals the previous picture gets no patch; its duration is added to that of
+/// the previous picture.
 pub(super) fn patches(
     rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>,
 ) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
@@ -56,8 +57,8 @@ pub(super) fn patches(
     Ok((patches, size))
 }
 
-/// Returns the smallest patch with all pixels that differ from the previous picture; `None` if no pixel differs. The
-/// patch of the first picture is the whole picture.
+/// Returns the smallest patch that contains all pixels that differ from the previous picture `before`. Returns `None`
+/// if no pixel differs. Without a previous picture, the patch is the whole picture.
 fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Patch> {
     let across = raster.width as usize;
     let Some(before) = before else {

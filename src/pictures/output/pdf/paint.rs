@@ -1,4 +1,4 @@
-//! Converts paints, outlines and transforms to the types of krilla.
+//! Converts colours, outlines and transforms of an SVG to the types of the PDF library krilla.
 
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Transform};
@@ -7,8 +7,8 @@ use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash
 use resvg::tiny_skia::PathSegment;
 use resvg::usvg;
 
-/// Splits fill and stroke into passes in the order of drawing. Each pass has either a fill or a stroke. `order`
-/// determines whether the fill or the stroke comes first.
+/// Returns the passes in which a shape is drawn, in order. Each pass has either a fill or a stroke. `order` determines
+/// whether the fill or the stroke comes first.
 pub(super) fn passes(
     fill: Option<Fill>,
     stroke: Option<Stroke>,
@@ -35,12 +35,12 @@ fn paint(paint: &usvg::Paint) -> Option<Paint> {
     }
 }
 
-/// Converts an opacity from 0 to 1 to the type of krilla.
+/// Converts an opacity (0 to 1) to the type of krilla.
 pub(super) fn share(share: usvg::Opacity) -> NormalizedF32 {
     NormalizedF32::new(share.get()).unwrap_or(NormalizedF32::ONE)
 }
 
-/// Converts a fill; `None` if its paint is not a plain colour.
+/// Converts a fill to the type of krilla. Returns `None` if the paint is not a plain colour.
 pub(super) fn fill(of: &usvg::Fill) -> Option<Fill> {
     Some(Fill {
         paint: paint(of.paint())?,
@@ -52,7 +52,7 @@ pub(super) fn fill(of: &usvg::Fill) -> Option<Fill> {
     })
 }
 
-/// Converts a stroke; `None` if its paint is not a plain colour.
+/// Converts a stroke to the type of krilla. Returns `None` if the paint is not a plain colour.
 pub(super) fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
     Some(Stroke {
         paint: paint(of.paint())?,
@@ -76,12 +76,13 @@ pub(super) fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
     })
 }
 
-/// Converts a transform.
+/// Converts an affine transform to the type of krilla.
 pub(super) fn transform(t: usvg::Transform) -> Transform {
     Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
 }
 
-/// Joins the outlines of the shapes directly in a group into one path; `None` if the group has no shapes.
+/// Joins the outlines of a group's own shapes, without those of nested groups, into one path. Returns `None` if there
+/// are none.
 pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     let mut pen = PathBuilder::new();
     for node in group.children() {
@@ -92,7 +93,7 @@ pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     pen.finish()
 }
 
-/// Converts the outline of a shape; `None` if it is empty.
+/// Converts the outline of a shape to the type of krilla. Returns `None` if it is empty.
 pub(super) fn outline(data: &resvg::tiny_skia::Path) -> Option<Path> {
     let mut pen = PathBuilder::new();
     put(&mut pen, data);

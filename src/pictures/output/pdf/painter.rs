@@ -1,4 +1,4 @@
-//! [`PdfPainter`]: paints an SVG that resvg has read on a page of a PDF.
+//! [`PdfPainter`]: paints an SVG on a page of a PDF. The SVG is a tree that resvg has read.
 
 use krilla::geom::Point;
 use krilla::paint::FillRule;
@@ -18,7 +18,7 @@ pub(super) struct PdfPainter<'s, 'd> {
 }
 
 impl PdfPainter<'_, '_> {
-    /// Paints a group with all its nodes.
+    /// Paints all items of a group, with the transform, clip path and opacity of the group.
     pub(super) fn group(&mut self, group: &usvg::Group) {
         let mut pushed = 0;
         if !group.transform().is_identity() {
@@ -38,7 +38,7 @@ impl PdfPainter<'_, '_> {
                 usvg::Node::Group(group) => self.group(group),
                 usvg::Node::Path(path) => self.path(path),
                 usvg::Node::Text(text) => self.text(text),
-                // A drawing contains no images.
+                // The drawings of this crate contain no images.
                 usvg::Node::Image(_) => {}
             }
         }
@@ -75,7 +75,7 @@ impl PdfPainter<'_, '_> {
                     continue;
                 };
                 for (fill, stroke) in passes(fill.clone(), stroke.clone(), span.paint_order) {
-                    // Draw the halo around letters as outlines. Otherwise the document would contain the text twice.
+                    // Draw the halo around the letters as outlines. As text, it would be in the document a second time.
                     let outlined = fill.is_none();
                     self.surface.set_fill(fill);
                     self.surface.set_stroke(stroke);

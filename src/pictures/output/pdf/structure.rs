@@ -1,4 +1,4 @@
-//! The structure of a document for screen readers: tagged headings, paragraphs and tables, and bookmarks.
+//! Builds the structure of a PDF for screen readers: bookmarks, and tags for headings, paragraphs and tables.
 
 use std::num::NonZeroU16;
 
@@ -12,10 +12,10 @@ use super::{Bookmark, Role, Tags};
 /// The rows of a table: the number and the cells of each.
 type Rows = Vec<(usize, Vec<Node>)>;
 
-/// Builds the tag tree of a document: cells are put in rows, and rows in tables.
+/// Builds the tag tree of a document: joins consecutive cells to rows, and rows to tables.
 pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     let mut nodes = Vec::new();
-    // `open` is the table whose cells are collected: its number, and its rows with their numbers.
+    // The table whose cells are being collected: the number of the table, and its rows with their numbers.
     let mut open: Option<(usize, Rows)> = None;
     for (role, content) in tags {
         if let Some(Role::Cell { table, row, head }) = role {
@@ -58,7 +58,7 @@ fn table_of((_, rows): (usize, Vec<(usize, Vec<Node>)>)) -> Node {
     TagGroup::with_children(Tag::Table, rows.collect()).into()
 }
 
-/// Builds the tree of bookmarks; `scale` is in points per pixel.
+/// Builds the tree of bookmarks from the list of bookmarks and their levels. `scale` is in points per pixel.
 pub(super) fn outline(bookmarks: &[Bookmark], scale: f32) -> Outline {
     let mut outline = Outline::new();
     let mut rest = bookmarks;
@@ -69,8 +69,8 @@ pub(super) fn outline(bookmarks: &[Bookmark], scale: f32) -> Outline {
     outline
 }
 
-/// Returns a node for the first bookmark and all bookmarks below it, and the remaining bookmarks. Returns `None` for an
-/// empty list. `scale` is in points per pixel.
+/// Returns the node of the first bookmark, with all bookmarks of its subtree, and the remaining bookmarks. Returns
+/// `None` for an empty list. `scale` is in points per pixel.
 fn branch(bookmarks: &[Bookmark], scale: f32) -> Option<(OutlineNode, &[Bookmark])> {
     let (first, mut rest) = bookmarks.split_first()?;
     let place = Point::from_xy(0.0, scale * first.y as f32);

@@ -1,4 +1,4 @@
-//! [`encode`]: writes pixels as a lossless PNG with the smallest number of bytes per pixel.
+//! [`encode`] writes pixels as a PNG without loss, with the smallest possible number of bytes per pixel.
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -8,7 +8,7 @@ use super::{Compression, PngError};
 /// smaller, but files of figures larger, and it takes time.
 const NO_FILTER: u8 = 0;
 
-/// Writes a picture as PNG. `per_metre` is its resolution in pixels per metre.
+/// Returns the bytes of a PNG file. `per_metre` is the resolution in pixels per metre that the file records, if any.
 pub(super) fn encode(
     pixels: Pixmap,
     per_metre: Option<u32>,
@@ -25,8 +25,8 @@ pub(super) fn encode(
     let rows = fewest(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    // Compress all rows at once. If rows were compressed one by one, the compressor would clear its buffers each time,
-    // which doubles the cost.
+    // Compress all rows at once. If rows were compressed one by one, the compressor would clear its buffers each time
+    // and take twice as long.
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
     writer
         .write_chunk(png::chunk::IDAT, &packed)
@@ -35,12 +35,13 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Sets the colour type of the encoder. Returns the rows of pixels; each row begins with its filter type. A pixel takes
-/// one byte if there are at most 256 colours, three bytes in other opaque pictures, and four bytes otherwise.
+/// Sets the colour type with the fewest bytes per pixel in the encoder, and returns the bytes of all rows. A pixel
+/// takes one byte if there are at most 256 colours, three bytes in other opaque pictures, and four bytes otherwise.
+/// Each row begins with the byte of its filter type.
 fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
     let mut table = Table::default();
     if let Some(runs) = runs(&pixels, &mut table) {
-        // Sort the colours, so that equal pictures give equal bytes.
+        // Sort the palette, so that it does not depend on where the colours are in the picture.
         let colours: Vec<[u8; 4]> = table.found.iter().map(|p| straight(*p)).collect();
         let mut sorted = colours.clone();
         sorted.sort_unstable();
@@ -62,19 +63,20 @@ fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u
         }
         return rows;
     }
-    // Without an early exit the compiler can test several pixels at once.
+    // `fold` tests all pixels without an early exit, so that the compiler can test several pixels at once.
     let all = pixels.data().as_chunks::<4>().0;
     if all.iter().fold(u8::MAX, |least, pixel| least & pixel[3]) == u8::MAX {
         encoder.set_color(png::ColorType::Rgb);
-        // In an opaque picture premultiplied colours equal straight colours.
+        // If all pixels are opaque, premultiplied colours are equal to straight colours.
         return rows(&pixels, |p| [p.red(), p.green(), p.blue()]);
     }
     encoder.set_color(png::ColorType::Rgba);
     rows(&pixels, straight)
 }
 
-/// Returns the picture as runs of equal pixels, row by row. A run consists of the index of the colour in `table` and
-/// the number of pixels. Returns `None` if there are more than [`MAX_COLOURS`] colours.
+/// Returns the picture as runs of equal pixels, row by row, and adds their colours to `table`. A run consists of the
+/// index of its colour in `table` and its number of pixels. Returns `None` if there are more than [`MAX_COLOURS`]
+/// colours.
 fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
     let mut runs = Vec::new();
     for row in pixels.pixels().chunks_exact(pixels.width() as usize) {
@@ -121,12 +123,13 @@ impl Default for Table {
 }
 
 impl Table {
-    /// Returns the index of a colour; a new colour gets the next index. Returns `None` if all indices are used.
+    /// Returns the index of a colour. A colour that is not yet in the table gets the next index. Returns `None` if all
+    /// indices are used.
     fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
         let bits =
             u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
-        // Multiplicative hashing with 2³² divided by the golden ratio. The high bits of the product depend on all
-        // channels.
+        // Multiplicative hashing: the factor is 2³² divided by the golden ratio. The high bits of the product depend on
+        // all channels.
         let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
         while let Some(number) = self.places[place] {
             if self.found[usize::from(number)] == colour {
@@ -157,7 +160,7 @@ fn rows<const N: usize>(
     rows
 }
 
-/// Returns red, green, blue and opacity of a pixel, not premultiplied.
+/// Returns the red, green, blue and alpha bytes of a pixel, not premultiplied.
 pub(super) fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
     let c = pixel.demultiply();
     [c.red(), c.green(), c.blue(), c.alpha()]

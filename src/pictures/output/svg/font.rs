@@ -1,4 +1,4 @@
-//! [`embedded`]: embeds subsets of the built-in fonts in the SVG. A subset has the characters of the drawing.
+//! [`embedded`] embeds subsets of the built-in fonts in the SVG. A subset has only the characters of the drawing.
 //!
 //! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them.
 //! Browsers need these tables, so they are computed again from the positions of the glyphs in this drawing.
@@ -15,10 +15,11 @@ use write_fonts::types::{GlyphId, Tag};
 use crate::drawing::Face;
 use crate::output::tree::Run;
 
-/// Returns a style sheet with the fonts of some text. The name of each family begins with `mark`.
+/// Returns a style sheet that embeds a subset of each built-in font of the text. The names of the font families begin
+/// with `mark`.
 ///
 /// # Errors
-/// The reason why a font could not be subset.
+/// A message with the face and the reason why its subset could not be made.
 pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     let mut sheet = String::new();
     for face in Face::ALL {
@@ -43,8 +44,8 @@ pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     Ok(sheet)
 }
 
-/// Returns the family name of a face in one drawing. It contains `mark`, because other drawings on the same page
-/// contain other subsets.
+/// Returns the name of the embedded font family of a face. The name begins with `mark`, because other drawings on the
+/// same page embed other subsets.
 pub(super) fn family(face: Face, mark: &str) -> String {
     match face {
         Face::Serif | Face::SerifItalic | Face::SerifBold => format!("{mark}-serif"),
@@ -52,7 +53,7 @@ pub(super) fn family(face: Face, mark: &str) -> String {
     }
 }
 
-/// Returns a font file that contains only the glyphs of a face that the text uses.
+/// Returns a font file with only those glyphs of a face that the text uses.
 fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
     let mut characters = BTreeMap::new();
@@ -86,7 +87,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
         }
     }
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
-        // Version 3 is a table without glyph names. The names are left out because the glyph indices have changed.
+        // Write the table in version 3, which has no glyph names. The old names do not fit the new glyph indices.
         let mut head = post
             .as_bytes()
             .get(..32)
@@ -107,7 +108,8 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     Ok(font.build())
 }
 
-/// Returns the kerning of the glyph pairs in some text, in font units. Negative kerning moves the second glyph closer.
+/// Returns the kerning of each pair of neighbouring glyphs in the text, in font units. Negative kerning moves the
+/// second glyph closer to the first.
 fn kerning(
     font: &FontRef<'_>,
     face: Face,
@@ -119,7 +121,7 @@ fn kerning(
     for run in runs {
         for pair in run.glyphs.windows(2) {
             let [a, b] = pair else { continue };
-            // True if the glyph belongs to one character. The glyph of a ligature is not in the subset.
+            // True if the glyph stands for exactly one character. The glyph of a ligature is not in the subset.
             let own = |placed: &crate::output::tree::Placed| {
                 let mut characters = placed.characters.chars();
                 let only = characters.next().filter(|_| characters.next().is_none());
@@ -129,7 +131,7 @@ fn kerning(
                 continue;
             };
             let by = (b.at.0 - a.at.0) / run.size * units - f64::from(alone);
-            // Values up to half a unit are rounding errors.
+            // Kerning of at most half a font unit is a rounding error.
             if own(a) && own(b) && by.abs() > 0.5 {
                 pairs.entry((a.glyph, b.glyph)).or_insert(by.round() as i16);
             }
@@ -138,8 +140,8 @@ fn kerning(
     Ok(pairs)
 }
 
-/// Returns a `kern` table, version 0, with one horizontal subtable of pairs (format 0). Returns `None` if there are no
-/// pairs, or more than 10 000.
+/// Returns the bytes of a font's `kern` table: version 0, with one horizontal subtable of format 0. Returns `None` if
+/// there are no pairs or more than 10 000 pairs.
 fn kern(pairs: &BTreeMap<(u16, u16), i16>) -> Option<Vec<u8>> {
     let count = u16::try_from(pairs.len())
         .ok()

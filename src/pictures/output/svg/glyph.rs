@@ -1,4 +1,4 @@
-//! [`numbered`]: converts a line of text to outlines at their position in the picture.
+//! [`numbered`] converts a line of text to the outlines of its letters, at their positions in the picture.
 
 use resvg::tiny_skia::{PathSegment, Point};
 use resvg::usvg::{Node, Text};
@@ -6,8 +6,8 @@ use resvg::usvg::{Node, Text};
 use super::outline::Steps;
 use crate::drawing::PagePoint;
 
-/// Returns the number in the id of a line of text (`t1`, `t2` …), and the path data of the letters. Returns `None` if
-/// the id has another form.
+/// Returns the number in the id of a line of text (`t1`, `t2` …), and the SVG path data of its letters. Returns `None`
+/// if the id has another form.
 pub(super) fn numbered(text: &Text) -> Option<(usize, String)> {
     let number = text.id().strip_prefix('t')?.parse().ok()?;
     let mut pen = Steps::default();

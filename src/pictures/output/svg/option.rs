@@ -1,4 +1,4 @@
-//! [`Options`]: the options of an SVG file.
+//! [`Options`]: the options for writing an SVG file.
 
 use crate::output::fonts::Fonts;
 

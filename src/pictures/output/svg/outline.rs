@@ -1,4 +1,4 @@
-//! Writes numbers and path data with as few characters as possible, at a precision of 1/100 pixel.
+//! Writes numbers and SVG path data with as few characters as possible, at a precision of 1/100 pixel.
 
 use crate::drawing::{Outline, PagePoint, Segment};
 
@@ -17,7 +17,7 @@ pub(super) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// Appends the path data of an outline to `data`.
+/// Appends the SVG path data of an outline to `data`.
 pub(super) fn steps(data: &mut String, outline: &Outline) {
     let mut pen = Steps {
         data: std::mem::take(data),
@@ -46,19 +46,19 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Begins a new subpath.
+    /// Begins a new subpath at the point `to`.
     pub fn begin(&mut self, to: PagePoint) {
         self.at = hundredths(to);
         self.begin = self.at;
         self.put('M', &[self.at.0, self.at.1]);
     }
 
-    /// Adds a straight line.
+    /// Adds a straight line from the current point to the point `to`.
     pub fn line(&mut self, to: PagePoint) {
         let to = hundredths(to);
         let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
         match (x, y) {
-            // Do not omit a line of length 0, because with round ends it is drawn as a dot.
+            // Also write a line of length 0, because a line with round ends is then drawn as a dot.
             (_, 0) => self.put('h', &[x]),
             (0, _) => self.put('v', &[y]),
             _ => self.put('l', &[x, y]),
@@ -66,7 +66,8 @@ impl Steps {
         self.at = to;
     }
 
-    /// Adds a curve. `points` are its control points and its end. The letter `q` has one control point, `c` has two.
+    /// Adds a Bézier curve. `points` are its control points and its end point. A quadratic curve (letter `q`) has one
+    /// control point, and a cubic curve (letter `c`) has two.
     pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
         let from = self.at;
         for (number, point) in points.iter().enumerate() {
@@ -86,8 +87,8 @@ impl Steps {
     }
 
     fn put(&mut self, letter: char, numbers: &[i64]) {
-        // Omit a command letter that equals the previous letter. Always write `M`, because further coordinates after
-        // `M` would mean a line.
+        // Omit a command letter that is the same as the previous one. Always write `M`: without it, further coordinates
+        // would mean a line.
         let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
         if !stated {
             self.data.push(letter);
@@ -103,7 +104,7 @@ impl Steps {
         self.more(more);
     }
 
-    /// Appends numbers that follow other numbers.
+    /// Appends numbers after another number. A space separates them, except before a minus sign.
     fn more(&mut self, numbers: &[i64]) {
         for number in numbers {
             if *number >= 0 {
@@ -114,21 +115,21 @@ impl Steps {
     }
 }
 
-/// Converts a point to whole hundredths of a pixel, rounded.
+/// Rounds the coordinates of a point (pixels) to whole hundredths of a pixel.
 fn hundredths(point: PagePoint) -> (i64, i64) {
     let whole = |value: f64| {
         assert!(
             value.is_finite(),
             "a drawing holds the number {value}; every number of a drawing is finite"
         );
-        // `as` saturates only for numbers far outside any page.
+        // `as` saturates, but only for points far outside any page.
         (value * 100.0).round() as i64
     };
     (whole(point.x), whole(point.y))
 }
 
-/// Writes hundredths as a decimal number without trailing zeros. This function is faster than `format!`; a drawing has
-/// thousands of numbers.
+/// Appends a number of hundredths to `data` as a decimal number without trailing zeros. This function is faster than
+/// `format!`; a drawing has thousands of numbers.
 fn put(data: &mut String, hundredths: i64) {
     let (whole, part) = (
         hundredths.unsigned_abs() / 100,

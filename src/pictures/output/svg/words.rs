@@ -1,4 +1,4 @@
-//! Writes the texts of a drawing as SVG.
+//! Writes the lines of text of a drawing as SVG.
 
 #[cfg(feature = "embed")]
 use super::font;
@@ -8,7 +8,7 @@ use crate::drawing::{Anchor, Face, Stroke, Text};
 use crate::text::xml;
 
 impl Writer<'_> {
-    /// Writes a line of text as SVG text or as outlines.
+    /// Writes a line of text, either as SVG text or as the outlines of its letters.
     pub(super) fn words(&mut self, text: &Text) {
         self.texts += 1;
         if let Form::Outlines(outlines) = self.form {
@@ -60,7 +60,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Returns the font families of a face as a value of `font-family`.
+    /// Returns the font families of a face, as a value for the attribute `font-family`.
     pub(super) fn families(&self, face: Face) -> String {
         match self.form {
             #[cfg(feature = "embed")]

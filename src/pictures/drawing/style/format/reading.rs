@@ -124,8 +124,8 @@ impl Reading {
         colour
     }
 
-    /// Reads a list of colours. Returns `None` if the value is not a list or an entry is not a colour. Reports a problem
-    /// in these cases and if there are fewer than `least` colours.
+    /// Reads a list of colours. Returns `None` if the value is not a list or an entry is not a colour. Reports a
+    /// problem in these cases, and if there are fewer than `least` colours.
     fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
         let Value::List(list) = value else {
             let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";

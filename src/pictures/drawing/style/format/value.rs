@@ -1,5 +1,5 @@
-//! [`Value`]: a value of a style file, read from JSON or from TOML. No other file of `drawing` uses serde, serde_json or
-//! toml.
+//! [`Value`]: a value of a style file, read from JSON or from TOML. No other file of `drawing` uses serde, serde_json
+//! or toml.
 
 use core::fmt;
 
