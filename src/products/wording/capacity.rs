@@ -1,15 +1,15 @@
-//! Describes in words which forces a block can carry.
+//! Describes in words which forces can act on a block without a collapse.
 
 use super::number::{digits, quantity};
 use crate::analysis::{CapacityShape, LoadCapacity};
 use crate::scene::Scene;
 use crate::text;
 
-/// Describes a capacity in one or two sentences: where the force acts, and how large it may be in each direction.
+/// Describes a load capacity in words: where the force acts, and how large it may be in each direction.
 pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
     let what = match capacity.shape() {
-        CapacityShape::Empty => format!("no force {place} makes it stand"),
+        CapacityShape::Empty => format!("it falls with every force {place}"),
         CapacityShape::Everything => format!("every force {place} is carried"),
         _ => match sides(capacity) {
             Some(sides) => format!("{place} it carries {sides}"),
@@ -21,11 +21,12 @@ pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     };
     match capacity.cases {
         1 => what,
-        _ => format!("{what}, in every case of the given ranges"),
+        _ => format!("{what}, for all values in the given ranges"),
     }
 }
 
-/// Names the point and the block: `at (1, 2) on block a`.
+/// Describes where the force acts: at a point of a block, between two points, or as the force of a robot. Example:
+/// `at (1, 2) on block a`.
 pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     // A coordinate that is only a rounding error relative to the block's size is written as 0.
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
@@ -56,8 +57,8 @@ const SIDES: [([f64; 2], &str); 4] = [
     ([0.0, -1.0], "down"),
 ];
 
-/// Lists the largest force to the right, to the left, up and down. Returns `None` if the frame does not stand without a
-/// force.
+/// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if the
+/// frame falls without a force.
 pub fn sides(capacity: &LoadCapacity) -> Option<String> {
     let each = SIDES.map(|(direction, word)| {
         let most = capacity.reach(direction)?;
@@ -70,7 +71,8 @@ pub fn sides(capacity: &LoadCapacity) -> Option<String> {
     each.map(|each| format!("at most {}", each.join(", ")))
 }
 
-/// Writes the ranges of both components: `Fx from −3 N to 2 N and Fy of at least 4 N`.
+/// Writes the ranges of the horizontal and the vertical component of the force: `Fx from −3 N to 2 N and Fy of at least
+/// 4 N`.
 pub fn ranges(capacity: &LoadCapacity) -> String {
     let range = |name: &str, direction: [f64; 2]| {
         let most = capacity.most(direction).map(|v| rounded(v, capacity));
@@ -97,8 +99,7 @@ pub fn ranges(capacity: &LoadCapacity) -> String {
     )
 }
 
-/// Returns 0 for a force that is only a rounding error relative to the largest force of the capacity; otherwise the
-/// force itself.
+/// Returns `force`, or 0 if it is so small, relative to the largest force of the capacity, that it is a rounding error.
 fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     let largest = sizes.chain(capacity.edges.iter().map(|e| e.limit.abs()));

@@ -1,4 +1,4 @@
-//! Describes failures for tables, captions and sentences.
+//! Describes in words which forces are missing where a frame fails, for tables, captions and sentences.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::scene::{BlockId, BodyId, Scene, Unit};
 /// Largest number of unsupported blocks that are named. All further blocks are only counted.
 const MAX_LISTED_BLOCKS: usize = 6;
 
-/// Returns the magnitude of the missing force (N) or torque (N·m).
+/// Returns the magnitude of the force (N) or torque (N·m) that is missing at a failure.
 pub fn amount(failure: &Failure) -> f64 {
     match failure {
         Failure::Tension { force, .. }
@@ -19,14 +19,15 @@ pub fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// Sorts the failures of a frame by magnitude, largest first. Equal failures keep their order.
+/// Returns the failures of a frame, sorted by the magnitude of the missing force, largest first. Equal failures keep
+/// their order.
 pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     failures
 }
 
-/// Names a body: `block 2`, `the ground`.
+/// Returns the name of a body for a sentence: `block 2` or `the ground`.
 pub fn named(scene: &Scene, body: BodyId) -> String {
     match body {
         BodyId::Ground(_) => "the ground".to_owned(),
@@ -34,7 +35,7 @@ pub fn named(scene: &Scene, body: BodyId) -> String {
     }
 }
 
-/// Names the two bodies of an interface: `2 and the ground`.
+/// Returns the names of the two bodies of an interface: `2 and the ground`.
 pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     let [a, b] = bodies.map(|id| match id {
         BodyId::Ground(_) => "the ground",
@@ -43,7 +44,7 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     format!("{a} and {b}")
 }
 
-/// Describes a failure and its place, as a sentence without a full stop.
+/// Describes a failure, its position and the missing force, as a sentence without a full stop.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     let units = scene.units;
     let newtons = |value: f64| number::amount(value, units.force());
@@ -53,7 +54,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             at,
             force,
         } => format!(
-            "{} comes off {} at {}: to hold it would need a pull of {}",
+            "{} comes off {} at {}: holding them together would need a pull of {}",
             scene.name(a),
             scene.name(b),
             place(at, units),
@@ -64,7 +65,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             at,
             force,
         } => format!(
-            "{} slides along {} at {}: to hold it would need {} more than friction can give",
+            "{} slides along {} at {}: stopping it would need {} more than friction can give",
             scene.name(a),
             scene.name(b),
             place(at, units),
@@ -76,7 +77,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             force,
             ..
         } => format!(
-            "robot {} cannot hold {}: it would have to give ({}, {}) {} beyond its limits",
+            "robot {} cannot hold {}: its force would have to exceed the limits by ({}, {}) {}",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
             digits(units.force().value_from_si(force.x)),
@@ -89,7 +90,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             torque,
             ..
         } => format!(
-            "robot {} cannot hold {}: it would have to give {} beyond its limit",
+            "robot {} cannot hold {}: its torque would have to exceed the limit by {}",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
             number::amount(torque, units.torque())
@@ -97,7 +98,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Describes the missing force as a noun phrase, for a list: `a pull of 8 N between a and b`.
+/// Describes the missing force of a failure as a noun phrase, for a list: `a pull of 8 N between a and b`.
 pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     match failure {
         Failure::Tension { bodies, force, .. } => format!(
@@ -123,8 +124,8 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Writes a clause that names the bodies or the robot that would have to provide the missing force. `write` formats an
-/// amount with its unit.
+/// Describes the missing force of a failure as a clause: `block a would have to stick to block b with 8 N`. `write`
+/// formats a value with its unit.
 pub fn missing_sentence(
     scene: &Scene,
     failure: &Failure,
@@ -158,14 +159,15 @@ pub fn missing_sentence(
             write(force.norm(), scene.units.force())
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
-            "robot {} would have to give a torque of {}",
+            "robot {} would have to give {} more torque",
             scene.robots[robot.0].id,
             write(torque.abs(), scene.units.torque())
         ),
     }
 }
 
-/// Names the blocks that even adhesion could not hold; `None` if there are no such blocks.
+/// Names the blocks that even adhesion at all contacts could not hold: `nothing carries block a`. Returns `None` if
+/// there are no such blocks.
 pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let blocks = found.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
@@ -178,8 +180,8 @@ pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String
     })
 }
 
-/// Writes a sentence for each reason why blocks are unsupported, with at most `max` names. Empty if all blocks are
-/// supported.
+/// Explains why blocks are unsupported: one sentence for each reason, each with the names of at most `max` blocks.
+/// Returns an empty list if all blocks are supported.
 pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<String> {
     let reached = reached(found);
     let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = found
@@ -189,11 +191,11 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<Stri
     let reasons = [
         (
             apart,
-            "no contacts lead from there to the ground or to a robot",
+            "no chain of contacts leads to the ground or to a robot",
         ),
         (
             touching,
-            "even if all contacts and robots stuck, the fall would not stop",
+            "even with adhesion at every contact and robot, the fall would not stop",
         ),
     ];
     let mut sentences = Vec::new();
@@ -212,8 +214,8 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<Stri
     sentences
 }
 
-/// Returns the blocks that contacts connect to the ground or to a block that a robot holds. It searches the graph of
-/// contacts.
+/// Returns the blocks that a chain of contacts connects to the ground or to a block that a robot holds, found by a
+/// search in the graph of contacts.
 fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     let mut next: Vec<BlockId> = found.robots.iter().map(|robot| robot.block).collect();
@@ -237,7 +239,7 @@ fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     reached
 }
 
-/// Keeps the first `max` parts, and replaces the others by a count: `3 more`.
+/// Returns the first `max` parts of a list. If there are more, their number follows as the last entry: `3 more`.
 pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
     if parts.len() > max {
         let left = parts.len() - max;
@@ -247,7 +249,7 @@ pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
     parts
 }
 
-/// Writes a number and its unit, joined by no-break spaces.
+/// Writes a value with its unit, joined by a no-break space.
 fn unbroken(value: f64, unit: Unit) -> String {
     quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

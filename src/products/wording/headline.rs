@@ -1,4 +1,4 @@
-//! [`headline`]: describes the most important margin in one sentence.
+//! [`headline`] describes the most important margin of a frame in one sentence.
 
 use super::margin::{Parameter, StatedMargin, confirmed};
 use super::number::{three_down, three_up};
@@ -17,8 +17,8 @@ pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> St
     }
 }
 
-/// Writes an upper end: `2.40`, or `at least 2.40` if the end is not confirmed. Returns `None` if there is no end.
-/// `write` formats the number.
+/// Writes the upper end of an interval: `2.40`, or `at least 2.40` if the end is not confirmed. Returns `None` if the
+/// interval has no upper end. `write` formats the number.
 fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
     let end = end?;
     let value = write(confirmed(end)?);
@@ -57,12 +57,12 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
             format!("It falls: it needs {} times its {load}", three_up(low))
         }
         (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
-        _ => format!("It falls at every factor on its {load}"),
+        _ => format!("It falls under every multiple of its {load}"),
     }
 }
 
-/// Describes the margin of a structure that stands, for all parameters except the load factor. Tilt and horizontal load
-/// have the nearest end.
+/// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and horizontal
+/// load, it describes the end of the interval that is nearest to 0.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     let nearest = || {
         let ends = [
@@ -86,10 +86,10 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::HorizontalLoad => match nearest() {
             Some((share, side)) => format!(
-                "It stands until a horizontal force of {} of its weight pushes it to the {side}",
+                "It stands until a horizontal force of {} times its weight pushes it to the {side}",
                 three_down(share)
             ),
-            None => "It stands under a horizontal force of any share of its weight".to_owned(),
+            None => "It stands under a horizontal force of any multiple of its weight".to_owned(),
         },
         Parameter::Friction => match margin.interval.low().and_then(confirmed) {
             Some(least) if least > 0.0 => {
@@ -102,7 +102,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::Kernel => match end(margin.interval.high(), &three_down) {
             Some(most) => format!("It stands up to a safety kernel of {most}"),
-            None => "It stands at every safety kernel".to_owned(),
+            None => "It stands with every safety kernel".to_owned(),
         },
         _ => format!("{}: {}", margin.name, margin.sentence()),
     }
@@ -116,7 +116,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             three_up(least)
         ),
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
-            "It falls at every friction coefficient".to_owned()
+            "It falls with every friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),
     }

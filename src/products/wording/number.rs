@@ -7,8 +7,8 @@ use crate::scene::format::UnitsEntry;
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// Writes a value in an SI unit with three significant digits, a prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
-/// Units that the scene chooses have no prefix: `0.0024 kN`.
+/// Writes a value, given in SI units, with three significant digits, an SI prefix and its unit: `5.74 N·m`, `−12 kN`,
+/// `250 µN`. If the scene file chooses the unit, no prefix is added: `0.0024 kN`.
 pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
     match unit.is_chosen {
@@ -17,17 +17,17 @@ pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     }
 }
 
-/// Writes a number with three significant digits and its unit, without a prefix.
+/// Writes a value, given in `unit`, with three significant digits and this unit.
 fn in_chosen_unit(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return with_prefix(value, unit);
     }
-    // Equal forces must have equal digits; see `with_prefix`.
+    // The factor makes sure that equal forces are written with equal digits; `with_prefix` explains it.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let sign = if value < 0.0 { "−" } else { "" };
     let size: f64 = rounded.parse().unwrap_or(value);
     if (1e-4..1e7).contains(&size) {
-        // `size` is the shortest decimal number that gives the rounded number when it is read.
+        // A float is formatted with as few digits as possible, so no digits follow the three significant ones.
         return format!("{sign}{size} {unit}");
     }
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
@@ -44,15 +44,15 @@ fn with_prefix(value: f64, unit: &str) -> String {
             format!("unlimited {unit}")
         };
     }
-    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. A value exactly between two
-    // roundings may have a rounding error of the solver (below 1e-9) in either direction. The factor moves values just
-    // below this limit above it, so that equal forces have equal digits.
+    // Round in decimal before choosing the prefix, so that 999.7 N becomes 1 kN and not 1000 N. Two equal forces can
+    // differ by a rounding error of the solver (relative error below 1e-9). If one is just below 4.125 and the other
+    // just above, they would be rounded differently. The factor moves both above this limit.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
     let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
-    // Values from 0.01 to 1 have no prefix: 0.05 N is easier to compare with 3 N than 50 mN.
+    // Values from 0.01 to 1 get no prefix, because 0.05 N is easier to compare with 3 N than 50 mN is.
     if (-2..0).contains(&exponent) {
         let digits = mantissa.replace('.', "");
         let zeros = "0".repeat((-1 - exponent) as usize);
@@ -92,22 +92,22 @@ fn superscript(value: i32) -> String {
     value.to_string().chars().map(raised).collect()
 }
 
-/// Writes the magnitude and the direction of a force: `7.1 N at 30°`. The angle is anticlockwise from the positive x
-/// axis.
+/// Writes the magnitude and the direction of a force: `7.1 N at 30°`. The angle is measured anticlockwise from the
+/// positive x axis.
 pub fn force(force: Vector, units: UnitsEntry) -> String {
-    // Round before reducing to 0 … 359, so that an angle just below 0 gives 0° and neither −0° nor 360°.
+    // Round before adding 360° and taking the remainder, so that an angle just below 0 is written as 0°, not as 360°.
     let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
     format!("{} at {degrees:.0}°", quantity(force.norm(), units.force()))
 }
 
-/// Writes an angle in degrees with two digits: `5.3°`, `12°`.
+/// Writes an angle, given in degrees, with about two significant digits: `5.3°`, `12°`.
 pub fn degrees(angle: f64) -> String {
     let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
     format!("{angle:.decimals$}°")
 }
 
-/// Writes a ratio in whole percent: `97 %`. Ratios of at least [`FULL`] give `100 %`, and ratios of at most 1 −
-/// `FULL` give `0 %`. Other ratios that would be rounded to these give `over 99 %` and `under 1 %`.
+/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL`] gives `100 %`, and only a ratio of at
+/// most 1 − `FULL` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;
@@ -122,7 +122,7 @@ pub fn percent(share: f64) -> String {
 /// Ratios of at least this value count as 100 %, because the difference is a rounding error of the solver.
 pub const FULL: f64 = 1.0 - 1e-6;
 
-/// Writes a number and a noun: `1 hinge`, `2 hinges`.
+/// Writes a count and its noun in the singular or plural: `1 hinge`, `2 hinges`.
 pub fn counted(count: usize, what: &str) -> String {
     if count == 1 {
         format!("1 {what}")
@@ -131,7 +131,8 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// Returns the largest number at most `value` that is 1, 2 or 5 times a power of ten; 0 if there is no such number.
+/// Returns the largest number that is 1, 2 or 5 times a power of ten and not larger than `value`. Returns 0 if `value`
+/// is not positive and finite.
 pub fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 0.0;
@@ -146,7 +147,8 @@ pub fn round_below(value: f64) -> f64 {
     format!("{lead}e{exponent}").parse().unwrap_or(0.0)
 }
 
-/// Like [`round_below`], but the number is round in `unit`. Both `value` and the result are in the SI unit.
+/// Like [`round_below`], but the result is a round number if it is converted to `unit`. `value` and the result are in
+/// SI units.
 pub fn round_below_in(value: f64, unit: Unit) -> f64 {
     match unit.size {
         1.0 => round_below(value),
@@ -154,7 +156,7 @@ pub fn round_below_in(value: f64, unit: Unit) -> f64 {
     }
 }
 
-/// Joins parts to a list: `a`, `a and b`, `a, b and c`.
+/// Joins words to a list in a sentence: `a`, `a and b`, `a, b and c`.
 pub fn listed(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
@@ -163,7 +165,8 @@ pub fn listed(parts: &[String]) -> String {
     }
 }
 
-/// Returns the letter of a panel: a … z, then aa, ab …. `number` is counted from 0.
+/// Returns the letter that labels a panel of a figure: a … z, then aa, ab …. `number` is the index of the panel, from
+/// 0.
 pub fn letter(number: usize) -> String {
     let mut rest = number + 1;
     let mut letters = Vec::new();
@@ -184,7 +187,7 @@ pub fn digits(x: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{x:.3e}");
     }
-    // `first` is the exponent of the first digit. Three more digits follow it.
+    // `first` is the power of ten of the first significant digit. Three more digits follow.
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
     let text = format!("{x:.decimals$}");
@@ -201,25 +204,27 @@ pub fn three(x: f64) -> String {
         return digits(x);
     }
     let decimals = |x: f64| usize::try_from(2 - libm::log10(x.abs()).floor() as i32).unwrap_or(0);
-    // 9.999 becomes 10.0, not 10.00.
+    // Determine the decimals again after rounding, so that 9.999 becomes 10.0 and not 10.00.
     let rounded: f64 = format!("{x:.*}", decimals(x)).parse().unwrap_or(x);
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
-/// Writes a number above 0 like [`three`], but rounded down, within the accuracy of margins.
+/// Writes a positive number with three significant digits like [`three`], but rounded down. The written number is
+/// larger than `x` by at most the relative error of margins, 1e-6.
 pub fn three_down(x: f64) -> String {
     three_beyond(x, -1.0)
 }
 
-/// Writes a number above 0 like [`three`], but rounded up, within the accuracy of margins.
+/// Writes a positive number with three significant digits like [`three`], but rounded up. The written number is smaller
+/// than `x` by at most the relative error of margins, 1e-6.
 pub fn three_up(x: f64) -> String {
     three_beyond(x, 1.0)
 }
 
-/// Writes a number with three significant digits, rounded in the direction of `sign`. Differences smaller than the
-/// accuracy of margins do not count.
+/// Writes a number with three significant digits, rounded up if `sign` is 1 and down if it is −1. The nearest rounding
+/// in the other direction is also accepted if its relative distance is at most the error of margins.
 fn three_beyond(x: f64, sign: f64) -> String {
-    // Margins are accurate to this relative distance.
+    // The relative error of margins.
     const ACCURATE: f64 = 1e-6;
     let nearest = three(x);
     let written: f64 = nearest.parse().unwrap_or(x);
@@ -230,8 +235,8 @@ fn three_beyond(x: f64, sign: f64) -> String {
     three(written + sign * digit)
 }
 
-/// Chooses one SI prefix for a column of numbers up to `largest`. Returns the unit with this prefix, and the factor by
-/// which the numbers are multiplied.
+/// Chooses one SI prefix for all numbers of a column, of which the largest is `largest`. Returns the unit with this
+/// prefix, and the factor by which the numbers must be multiplied.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     let (prefix, factor) = match largest {
         x if x >= 2e9 => ("G", 1e-9),
@@ -242,7 +247,7 @@ pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     (format!("{prefix}{unit}"), factor)
 }
 
-/// Writes a number with one significant digit, for orders of magnitude: `3e-12`.
+/// Writes a number with one significant digit, to show its order of magnitude: `3e-12`.
 pub fn rough(x: f64) -> String {
     if x == 0.0 {
         "0".into()
@@ -256,7 +261,7 @@ pub fn tenths(share: f64) -> String {
     format!("{} %", digits((share * 1000.0).round() / 10.0))
 }
 
-/// Writes a time in ms or s with four digits. `seconds` is the time in seconds.
+/// Writes a time, given in seconds, in ms or s with four significant digits.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
         format!("{} ms", digits(seconds * 1e3))
@@ -265,14 +270,14 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Writes a point: `(2, 1.5) m`.
+/// Writes the coordinates of a point in the length unit of the scene: `(2, 1.5) m`.
 pub fn place(p: Point, units: UnitsEntry) -> String {
     let unit = units.length();
     let [x, y] = [p.x, p.y].map(|x| digits(unit.value_from_si(x)));
     format!("({x}, {y}) {}", unit.symbol())
 }
 
-/// Writes a value with four significant digits and its unit, without a prefix: `1234 N`.
+/// Writes a value, given in SI units, with four significant digits and its unit, without a prefix: `1234 N`.
 pub fn amount(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
     format!("{} {}", digits(unit.value_from_si(value)), unit.symbol())

@@ -1,9 +1,9 @@
-//! Describes proofs in words and numbers.
+//! Describes the proof of a verdict in words and numbers.
 
 use super::number::{digits, rough};
 use crate::analysis::Proof;
 
-/// Describes a proof in a few words, for one line of a table.
+/// Describes a proof in a few words, for one line of a table: `forces balance to 3e-12`.
 pub fn short(proof: Proof) -> String {
     match proof {
         Proof::Forces {
@@ -27,7 +27,7 @@ pub fn short(proof: Proof) -> String {
     }
 }
 
-/// Returns the numbers of a proof, each with a label.
+/// Returns the numbers that characterize a proof, each with a label that says what it measures.
 pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     match proof {
         Proof::Forces {
@@ -41,11 +41,11 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
                 rough(worst_imbalance),
             ),
             (
-                "worst pull at a contact, relative to its own forces",
+                "worst pull at a contact, relative to the forces at this contact",
                 rough(worst_pull),
             ),
             (
-                "worst slip at a contact, or excess of a robot, relative to its own force",
+                "worst excess over a friction limit or robot limit, relative to the force there",
                 rough(worst_slip),
             ),
         ],
@@ -58,7 +58,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
                 digits(power),
             ),
             (
-                "worst speed against a contact or robot, relative to the fastest point",
+                "worst speed against a contact or robot, relative to the speed of the fastest point",
                 rough(worst_violation),
             ),
             (
@@ -72,7 +72,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     }
 }
 
-/// Explains a proof to a reader who does not know such proofs.
+/// Explains in one or more sentences what a proof shows, for readers who do not know the method.
 pub fn sentence(proof: Proof) -> String {
     match proof {
         Proof::Forces {
@@ -86,13 +86,14 @@ pub fn sentence(proof: Proof) -> String {
             if proof.holds() {
                 format!(
                     "The listed forces hold every block at rest. This was checked from the outlines and weights alone: \
-                     the forces balance exactly if each changes by at most {} of its own amount. The limit is {band}.",
+                     the forces balance exactly if each force changes by at most {} times its size. The limit is \
+                     {band}.",
                     rough(worst)
                 )
             } else {
                 format!(
-                    "The best forces found do not balance: they would have to change by {} of their own amounts. The limit \
-                     is {band}.",
+                    "The best forces found do not balance: they would have to change by {} times their size. The \
+                     limit is {band}.",
                     rough(worst)
                 )
             }

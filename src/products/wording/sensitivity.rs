@@ -1,4 +1,4 @@
-//! Describes the sensitivity of a margin: the changes of the scene with the largest effect, with their amounts.
+//! Describes the sensitivity of a margin: which small changes of the scene change the margin most.
 
 use super::failure::{named, pair};
 use super::number::{digits, round_below, three};
@@ -45,7 +45,8 @@ pub struct EffectiveChange {
     pub after: f64,
 }
 
-/// Returns at most `most` changes that make the interval of the margin larger, the most effective first.
+/// Returns the changes that enlarge the interval of a margin at one end, at most `most` of them, the most effective
+/// first. `is_high` is true if `end` is the upper end.
 pub fn most_effective(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -63,12 +64,13 @@ pub fn most_effective(
     list
 }
 
-/// Returns the length by which corners and loads are moved, metres. It is 1, 2 or 5 times a power of ten.
+/// Returns the length in metres by which the described changes move corners and loads. It is 1, 2 or 5 times a power of
+/// ten.
 pub fn step_length(found: &FrameAnalysis) -> f64 {
     round_below(SHARE_OF_LENGTH * found.length * (1.0 + 1e-9))
 }
 
-/// Writes a length in millimetres, or in metres from 1 m.
+/// Writes a length below 1 m in millimetres, and any other length in metres.
 pub fn length(metres: f64) -> String {
     match metres < 1.0 {
         true => format!("{} mm", digits(1e3 * metres)),
@@ -76,8 +78,8 @@ pub fn length(metres: f64) -> String {
     }
 }
 
-/// Returns the changes with the largest effect as [`most_effective`] does, without those that are too small for the
-/// digits of the value.
+/// Like [`most_effective`], but leaves out changes with so small an effect that the written value of the margin stays
+/// the same.
 pub fn visible(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -90,8 +92,10 @@ pub fn visible(
     changes
 }
 
-/// Returns the corners, by their index in [`EndSensitivity::corners`], each with the unit vector along which the
-/// interval grows most and its growth per metre; `None` if it does not grow. Corners that move together occur once.
+/// Returns the best move of each corner. An entry is the index of the corner in [`EndSensitivity::corners`], and the
+/// unit vector along which the interval grows most with its growth per metre, or `None` if no move enlarges the
+/// interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and −1 for the
+/// lower end.
 pub fn corner_moves(
     found: &FrameAnalysis,
     end: &EndSensitivity,
@@ -116,7 +120,8 @@ pub fn corner_moves(
     list
 }
 
-/// Returns the changes of corners. Corners that move together are listed once.
+/// Returns the best move of each corner as a change that is described in words. Of corners that move together, only the
+/// first is listed.
 fn corners(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -151,7 +156,7 @@ fn corners(
     list
 }
 
-/// Returns the changes of weights, friction and loads.
+/// Returns the changes of weights, friction coefficients and load positions that enlarge the interval.
 fn others(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -209,8 +214,8 @@ fn others(
     list
 }
 
-/// Returns the sign of the change (1 or −1) for which the interval grows most, and its growth per unit. Returns `None`
-/// if the interval does not grow.
+/// Returns whether the interval grows more if the quantity increases (1) or decreases (−1), and its growth per unit of
+/// the quantity. Returns `None` if the interval grows in neither direction.
 fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     let [backward, forward] = slope.both()?;
     let sides = [(1.0, outward * forward), (-1.0, -outward * backward)];
@@ -218,8 +223,8 @@ fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     (best.1 > 0.0).then_some(best)
 }
 
-/// Returns the unit vector along which the interval grows most, and its growth per metre. At a kink only the directions
-/// of the axes are compared. Returns `None` if the interval does not grow.
+/// Returns the unit vector along which a move enlarges the interval most, and the growth per metre. If a derivative is
+/// not unique, only moves along the x and y axes are compared. Returns `None` if no move enlarges the interval.
 pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)> {
     if let [Slope::Unique(x), Slope::Unique(y)] = slopes {
         let gradient = Vector::new(x, y) * outward;
@@ -234,9 +239,9 @@ pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)>
     both.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Names the nearest of eight directions: `up and to the left`.
+/// Describes a direction by the nearest of eight directions: `up and to the left`.
 pub fn toward(direction: Vector) -> String {
-    // The tangent of 22.5°.
+    // The tangent of 22.5°, half the angle between two of the eight directions.
     const NARROW: f64 = 0.414_213_562_373_095_1;
     let (x, y) = (direction.x.abs(), direction.y.abs());
     let upright = if direction.y > 0.0 { "up" } else { "down" };
@@ -250,7 +255,7 @@ pub fn toward(direction: Vector) -> String {
     }
 }
 
-/// Returns the name of an end of a margin. `is_high` selects the upper end.
+/// Returns the name of one end of a margin: of the upper end if `is_high`, otherwise of the lower end.
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Friction, _) => "least friction",
@@ -264,7 +269,8 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     }
 }
 
-/// Writes a value of a margin. The sign is left out if the name gives the direction.
+/// Writes a value of a margin with three significant digits. Tilt and horizontal load are written without a sign,
+/// because [`name`] contains the direction.
 pub fn value(kind: MarginKind, value: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", three(value.abs())),
@@ -273,7 +279,7 @@ pub fn value(kind: MarginKind, value: f64) -> String {
     }
 }
 
-/// Describes the ends of a margin in lines. Each end has its most effective changes.
+/// Returns lines of text that describe, for each end of a margin, the most effective changes.
 pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
     let kind = sensitivity.kind;
     let mut lines = Vec::new();
@@ -286,7 +292,7 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
         let name = name(kind, is_high);
         lines.push(match changes.is_empty() {
             true => {
-                format!("{name} {before}: no single change of a usual size makes it visibly better")
+                format!("{name} {before}: no single small change improves it visibly")
             }
             false => format!("{name} {before}; what changes it most:"),
         });
@@ -297,14 +303,14 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
         let kinks = kinks(end);
         if kinks > 0 {
             lines.push(format!(
-                "  {kinks} derivatives are not unique and were not computed: the margin may have a kink there"
+                "  {kinks} derivatives are not listed: they jump at this value, and their one-sided values were not computed"
             ));
         }
     }
     lines
 }
 
-/// Returns a sentence that explains why there is no sensitivity.
+/// Returns a phrase that explains why the sensitivity of a margin is not available.
 pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
     let name = name(kind, true);
     match reason {
@@ -320,16 +326,17 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
             format!("no sensitivity of the {name}: the frame stands at every larger value")
         }
         NoSensitivity::RangeEnds => {
-            format!("no sensitivity of the {name}: its range ends before the frame falls")
+            format!("no sensitivity of the {name}: the frame stands up to the end of the possible range")
         }
         NoSensitivity::Unconfirmed => {
-            format!("no sensitivity of the {name}: no verdict confirms its value")
+            format!("no sensitivity of the {name}: its value is not confirmed by a verdict")
         }
-        _ => format!("no sensitivity of the {name}: forces and mechanism there were not computed"),
+        _ => format!("no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"),
     }
 }
 
-/// Returns the number of corners, weights, friction coefficients and loads for which a derivative is not unique.
+/// Returns the number of corners, weights, friction coefficients and loads for which the derivative jumps and its
+/// one-sided values were not computed.
 fn kinks(end: &EndSensitivity) -> usize {
     let is_kink = |slope: &Slope| slope.both().is_none();
     let corners = end.corners.iter().filter(|corner| match corner.moves {

@@ -1,4 +1,4 @@
-//! Describes verdicts and their reasons.
+//! Describes in words whether a frame stands, and the reasons why not.
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
 use super::number::{listed, quantity};
@@ -26,7 +26,7 @@ pub fn plain(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Writes a number of frames or scenes with a verdict: `1 stands`, `3 fall`.
+/// Writes how many frames or scenes have a verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {
         (Verdict::Stable, 1) => "stands",
@@ -38,8 +38,8 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
     format!("{count} {word}")
 }
 
-/// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this below the
-/// verdict. Empty for all other frames.
+/// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this text below the
+/// verdict. The text is empty for all other frames.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
         // The text has to fit in two lines, so it has only the reason. Remedies are in the report and on the terminal.
@@ -64,8 +64,8 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. Empty for all
-/// other frames.
+/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is empty
+/// for all other frames.
 pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
     reasons_with(scene, found, &|value, unit| quantity(value, unit))
 }
@@ -112,14 +112,14 @@ pub fn sentence_with(
                 .into()
         }
         Verdict::Stable if found.robots.is_empty() => {
-            "It stands: contacts can press and rub so that every block stays at rest.".into()
+            "It stands: pressure and friction at the contacts can hold every block at rest.".into()
         }
         Verdict::Stable => {
-            "It stands: contacts can press and rub, and robots hold, so that every block stays at rest.".into()
+            "It stands: pressure and friction at the contacts, and the robots, can hold every block at rest.".into()
         }
         Verdict::Unstable => match reasons_with(scene, found, write) {
             reasons if reasons.is_empty() => {
-                "It falls: no forces that contacts and robots can give hold every block at rest."
+                "It falls: no forces that contacts and robots can give would hold every block at rest."
                     .into()
             }
             reasons => format!("It falls: {reasons}."),

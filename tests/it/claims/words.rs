@@ -1,5 +1,5 @@
-//! What people read, held against what programs read: the terminal's table, a report's sentences and tables, the titles in
-//! figures.
+//! What people read, held against what programs read: the terminal's table, a report's sentences and tables, the titles
+//! in figures.
 
 use drystone::Analysis;
 use drystone::analysis::Options;
@@ -226,7 +226,8 @@ fn amount(text: &str) -> (f64, Option<f64>) {
     (value * factor, at)
 }
 
-/// Every title of an arrow in a figure of forces tells an amount and a direction that the result lists between these bodies.
+/// Every title of an arrow in a figure of forces tells an amount and a direction that the result lists between these
+/// bodies.
 #[test]
 fn titles_of_arrows_tell_the_forces_of_the_result() {
     let (mut contacts, mut weights, mut robots) = (0, 0, 0);
@@ -297,8 +298,8 @@ fn titles_of_arrows_tell_the_forces_of_the_result() {
     );
 }
 
-/// Blocks that nothing carries, with the reason that is true: there is no way from them to the ground, or there is one and still
-/// nothing that sticks would stop them.
+/// Blocks that nothing carries, with the reason that is true: there is no way from them to the ground, or there is one
+/// and still nothing that sticks would stop them.
 #[test]
 fn what_nothing_carries_is_told_with_its_true_reason() {
     let ground = json!([{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }]);
@@ -315,10 +316,10 @@ fn what_nothing_carries_is_told_with_its_true_reason() {
     let table = tables(&[told]).remove(0);
     let says = |part: &str| table.lines().any(|line| line.trim() == part);
     assert!(
-        says("nothing carries a, b: no contacts lead from there to the ground or to a robot"),
+        says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"),
         "{table}"
     );
     let touches =
-        "nothing carries tip: even if all contacts and robots stuck, the fall would not stop";
+        "nothing carries tip: even with adhesion at every contact and robot, the fall would not stop";
     assert!(says(touches), "{table}");
 }

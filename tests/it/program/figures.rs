@@ -39,7 +39,7 @@ fn the_gallery_is_drawn_in_every_format_with_captions() {
     // What the source leaves out carries what it refuses.
     assert!(captions.contains("a bridge of five blocks. It falls: "));
     assert!(captions.contains("The same with corner contacts. It stands."));
-    assert!(captions.contains("robot r0 would have to give a torque of 5.74 N·m"));
+    assert!(captions.contains("robot r0 would have to give 5.74 N·m more torque"));
     let ran = bench.run("figures -o one --format svg");
     assert!(ran.err.contains("10 figures, 11 files"), "{}", ran.err);
 }

@@ -1,4 +1,4 @@
-//! [`falls_headline`]: how far a falling frame is from standing.
+//! [`falls_headline`] describes what a falling frame lacks to stand, for example the share of its load that it carries.
 
 use super::super::number::NO_BREAK;
 use super::confirmed;
@@ -6,8 +6,8 @@ use super::list::friction;
 use crate::analysis::{FrameAnalysis, Interval, Verdict};
 use crate::scene::Scene;
 
-/// Describes how far a falling frame is from standing: `falls: carries 33 % of its load`. Returns `None` if the frame
-/// does not fall, or if no margin gives more information than the verdict.
+/// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame stands
+/// or is undecided, or if no computed margin shows what is lacking.
 pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     if found.verdict != Verdict::Unstable {
         return None;
@@ -20,8 +20,8 @@ pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     Some(format!("falls: {lack}"))
 }
 
-/// Describes which share of its loads a frame carries, or by which factor its loads must be multiplied. Returns `None`
-/// if neither is known.
+/// Describes which share of its loads a falling frame carries, or how many times its loads it would need to stand.
+/// Returns `None` if neither is known.
 fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     let loads = match scene.loads.len() {
         1 => "load",
@@ -29,7 +29,7 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     };
     let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
     match (low, high) {
-        // Round down: the frame carries at least this share.
+        // Round down, so that the frame carries at least the written share.
         (_, Some(high)) if high < 1.0 => {
             let share = libm::floor(100.0 * high + 1e-4);
             Some(match share >= 1.0 {
@@ -42,12 +42,12 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     }
 }
 
-/// Describes the friction coefficient with which a frame would stand. Returns `None` if its present friction is large
-/// enough, or if no value is known.
+/// Describes the friction coefficient with which a falling frame would stand. Returns `None` if its present friction is
+/// large enough, or if no such coefficient is known.
 fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(found)?;
     match interval {
-        Interval::Empty(_) => Some("no friction would hold it".to_owned()),
+        Interval::Empty(_) => Some("no friction coefficient would hold it".to_owned()),
         Interval::Undecided => None,
         Interval::Between { low, .. } => {
             let low = confirmed(low).filter(|low| *low > least)?;
@@ -57,7 +57,7 @@ fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
     }
 }
 
-/// Writes a positive number with two decimals, rounded up, so that the frame stands with the written value.
+/// Writes a positive number with two decimals. The number is rounded up, so that the frame stands at the written value.
 fn above(value: f64) -> String {
     format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
 }

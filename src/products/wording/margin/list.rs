@@ -1,11 +1,11 @@
-//! [`stated`]: lists the margins of a frame with their present values.
+//! [`stated`] lists the margins of a frame, each with the present value of its parameter.
 
 use super::{Parameter, Position, StatedMargin};
 use crate::analysis::{FrameAnalysis, Interval, Intervals, Verdict};
 use crate::scene::Scene;
 use crate::text;
 
-/// Returns all computed margins of a frame. The headline margin comes first.
+/// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.
 pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
     let Some(margins) = &found.margins else {
         return Vec::new();
@@ -24,7 +24,7 @@ pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'
     list
 }
 
-/// Returns the margins of the whole frame.
+/// Returns the computed margins that concern the whole frame: all except the limits of robots.
 fn whole_frame<'a>(
     scene: &Scene,
     found: &FrameAnalysis,
@@ -66,7 +66,7 @@ fn whole_frame<'a>(
     list
 }
 
-/// Returns the margins of the limits of each robot.
+/// Returns the margins for the force and torque limits of each robot.
 fn robot_limits<'a>(
     scene: &Scene,
     intervals: &'a Intervals,
@@ -94,8 +94,9 @@ fn robot_limits<'a>(
     list
 }
 
-/// Returns the index of the most important margin. This is the load factor, if it is in the list and has a limit.
-/// Otherwise it is the margin with the least reserve. Returns `None` for an empty list.
+/// Returns the index of the most important margin. This is the load factor if the list has it and the frame does not
+/// carry every multiple of its loads. Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns
+/// `None` for an empty list.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list
         .iter()
@@ -108,7 +109,8 @@ fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
     })
 }
 
-/// Returns the least and the largest friction coefficient of the frame's interfaces; `None` without interfaces.
+/// Returns the smallest and the largest friction coefficient of the frame's interfaces, or `None` if there are no
+/// interfaces.
 pub(super) fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     let all = found
         .contacts
@@ -120,8 +122,8 @@ pub(super) fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// Returns the position of the present friction coefficients relative to an interval for one common coefficient.
-/// `alike` is the result if all present coefficients are equal.
+/// Returns whether the present friction coefficients lie inside the interval of the friction margin, which is for one
+/// coefficient at all interfaces. `alike` is the result if the present coefficients are all equal.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,

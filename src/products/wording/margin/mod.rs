@@ -1,4 +1,5 @@
-//! Describes margins in words: the values of a parameter at which a frame stands, and the present value.
+//! Describes margins in words. A margin is the interval of values of a parameter at which a frame stands, compared with
+//! the present value.
 //!
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
@@ -34,7 +35,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// Returns the unit of a value.
+    /// Returns the unit that is written after a value of this parameter: `°` for a tilt, otherwise empty.
     fn unit(self) -> &'static str {
         match self {
             Parameter::Tilt => "°",
@@ -42,12 +43,12 @@ impl Parameter {
         }
     }
 
-    /// True if the values of the parameter may be negative.
+    /// True if a value of the parameter can be negative. A negative value points to the left.
     pub fn is_signed(self) -> bool {
         matches!(self, Parameter::Tilt | Parameter::HorizontalLoad)
     }
 
-    /// Writes a value with its unit and, for a signed parameter, its side: `5° left`.
+    /// Writes a value of the parameter with its unit. A signed value has its direction instead of a sign: `5° left`.
     fn value(self, value: f64) -> String {
         if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
             return amount(value, unit);
@@ -93,7 +94,7 @@ pub struct StatedMargin<'a> {
 }
 
 impl StatedMargin<'_> {
-    /// Describes the interval and the present value: `stands from 0.3 to 2.4; now 1`.
+    /// Describes the interval and the present value of the margin: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         match self.present_words() {
             None => self.stands(),
@@ -101,12 +102,13 @@ impl StatedMargin<'_> {
         }
     }
 
-    /// Describes the interval without the present value.
+    /// Describes the interval of the margin without the present value: `stands from 0.3 to 2.4`.
     pub fn stands(&self) -> String {
         stands(self.parameter, self.interval)
     }
 
-    /// Describes the present value, and its position if it is not inside the interval.
+    /// Describes the present value, and whether it is outside the interval or undecided: `now 3, outside`. Returns
+    /// `None` if there is no present value.
     fn present_words(&self) -> Option<String> {
         let (low, high) = self.present?;
         let value = |value: f64| self.parameter.value(value);
@@ -123,7 +125,7 @@ impl StatedMargin<'_> {
         })
     }
 
-    /// True if the frame stands at the present value, and also if the parameter grows or decreases without limit.
+    /// True if the frame stands at every value of the parameter.
     pub fn has_no_limit(&self) -> bool {
         let free = |end: Option<&End>| matches!(end, Some(End::Unbounded));
         let from_zero = self.interval.low().and_then(confirmed) == Some(0.0);
@@ -132,10 +134,10 @@ impl StatedMargin<'_> {
             && (from_zero || free(self.interval.low()))
     }
 
-    /// Returns the relative distance of the present value from the nearest end of the interval. The result is 0 at or
-    /// beyond an end, and 1 if there is no end.
+    /// Returns the relative distance of the present value from the nearest end of the interval, from 0 to 1. It is 0 if
+    /// the frame does not stand at the present value, and 1 if the interval has no end.
     ///
-    /// The distance to an upper end is relative to this end, and the distance to a lower end is relative to the present
+    /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the present
     /// value. The distance of a tilt is divided by 90°. A horizontal force is already a fraction of the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
@@ -163,8 +165,8 @@ impl StatedMargin<'_> {
     }
 }
 
-/// Returns the end of the interval if it is confirmed. Otherwise returns the farthest value at which the frame is known
-/// to stand. Returns `None` if the interval has no end.
+/// Returns the value of an end of an interval. If the end is not confirmed, returns the farthest value at which the
+/// frame is known to stand. Returns `None` if the interval is unbounded on this side.
 pub fn confirmed(end: &End) -> Option<f64> {
     match end {
         End::At { value, .. } => Some(*value),
@@ -173,7 +175,8 @@ pub fn confirmed(end: &End) -> Option<f64> {
     }
 }
 
-/// Describes each margin of a frame in one line, the headline margin first. Notes follow.
+/// Describes each margin of a frame in one line, the most important margin first. The notes on margins follow, one line
+/// each.
 pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, found);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());

@@ -1,15 +1,15 @@
-//! [`stands`]: describes the values of a parameter at which a frame stands.
+//! [`stands`] describes in words at which values of a parameter a frame stands.
 
 use super::{Parameter, confirmed};
 use crate::analysis::{End, Exclusion, Interval};
 
-/// Describes an interval: `stands from 0.3 to 2.4`.
+/// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
 pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     let (low, high) = match interval {
         Interval::Between { low, high } => (low, high),
         Interval::Empty(excluded) => {
             let none = match parameter {
-                Parameter::LoadFactor => "stands with no factor on its loads",
+                Parameter::LoadFactor => "stands under no multiple of its loads",
                 _ => "stands at no value",
             };
             return match conflict(excluded) {
@@ -45,8 +45,8 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     format!("stands {}{unconfirmed}", range(parameter, low, high))
 }
 
-/// Returns two values if two motions exclude all values of the parameter. Below the first value the frame falls by one
-/// motion; above the second value it falls by the other motion.
+/// Returns two values if two collapse motions together exclude all values of the parameter. The first motion excludes
+/// values below the first value, and the second motion excludes values above the second value.
 fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     match excluded {
         [below, above] if below.from.is_none() && above.to.is_none() => {
@@ -56,9 +56,9 @@ fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     }
 }
 
-/// Describes the values between two ends.
+/// Describes the values between the two ends of an interval: `from 0.3 to 2.4`.
 fn range(parameter: Parameter, low: &End, high: &End) -> String {
-    // Leave out a lower end of 0 for a parameter that cannot be negative.
+    // If the parameter cannot be negative, do not write a lower end of 0.
     let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
     let least = confirmed(low).filter(begins);
     let most = confirmed(high);
@@ -76,14 +76,14 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
     match (least, most) {
         (None, None) => "at any value".to_owned(),
         (None, Some(high)) if parameter.is_signed() => {
-            format!("from any value left to {}", value(high))
+            format!("from any value on the left to {}", value(high))
         }
         (Some(low), None) if parameter.is_signed() => {
-            format!("from {} to any value right", value(low))
+            format!("from {} to any value on the right", value(low))
         }
         (None, Some(high)) => format!("up to {}", value(high)),
         (Some(low), None) => format!("at {} and more", value(low)),
-        // If both ends have the same text, they are the same value at the printed precision.
+        // If both ends have the same text, they are equal at the printed precision.
         (Some(low), Some(high)) if value(low) == value(high) => format!("only at {}", value(low)),
         (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
     }
