@@ -281,12 +281,12 @@ fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words:
         "{words}"
     );
     assert_eq!(
-        is_one_of(&["at least", "and more", "any value right"]),
+        is_one_of(&["at least", "and more", "to any value on the right"]),
         bound == (true, false),
         "{words}"
     );
     assert_eq!(
-        is_one_of(&["at most", "up to", "any value left"]),
+        is_one_of(&["at most", "up to", "from any value on the left"]),
         bound == (false, true),
         "{words}"
     );
