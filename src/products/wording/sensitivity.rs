@@ -326,12 +326,16 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
             format!("no sensitivity of the {name}: the frame stands at every larger value")
         }
         NoSensitivity::RangeEnds => {
-            format!("no sensitivity of the {name}: the frame stands up to the end of the possible range")
+            format!(
+                "no sensitivity of the {name}: the frame stands up to the end of the possible range"
+            )
         }
         NoSensitivity::Unconfirmed => {
             format!("no sensitivity of the {name}: its value is not confirmed by a verdict")
         }
-        _ => format!("no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"),
+        _ => format!(
+            "no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"
+        ),
     }
 }
 

@@ -319,7 +319,6 @@ fn what_nothing_carries_is_told_with_its_true_reason() {
         says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"),
         "{table}"
     );
-    let touches =
-        "nothing carries tip: even with adhesion at every contact and robot, the fall would not stop";
+    let touches = "nothing carries tip: even with adhesion at every contact and robot, the fall would not stop";
     assert!(says(touches), "{table}");
 }

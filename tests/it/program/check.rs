@@ -61,12 +61,14 @@ fn a_person_reads_verdict_numbers_and_what_fails() {
         assert!(line.chars().count() <= 80, "{line}");
     }
     // The lintel's 11 N lie 2 m beyond the post's edge; the pull at the far corner has an arm of 1 m.
-    let words = "lintel comes off left at (0, 3) m: holding them together would need a pull of 22 N";
+    let words =
+        "lintel comes off left at (0, 3) m: holding them together would need a pull of 22 N";
     assert!(ran.out.contains(words), "{}", ran.out);
     // The post's own 6 N, half a metre inside, do a share of that at its foot.
     assert!(
-        ran.out
-            .contains("left comes off ground at (0, 0) m: holding them together would need a pull of 19 N"),
+        ran.out.contains(
+            "left comes off ground at (0, 0) m: holding them together would need a pull of 19 N"
+        ),
         "{}",
         ran.out
     );
