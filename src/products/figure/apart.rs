@@ -1,11 +1,11 @@
-//! [`apart`]: moves overlapping arrows on one line sideways, so that they are drawn side by side.
+//! [`apart`]: moves parallel arrows that overlap sideways, so that they are drawn next to each other.
 //!
 //! The ground often pushes a block up on the same line on which its weight pulls it down. On this line, the two arrows
 //! would look like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
 //!
 //! 1. The ideal offset of an arrow is 0. With an opposite arrow at the same point it is half a shaft and half the gap,
 //!    so that the pair is centred about its true line.
-//! 2. If the arrow does not overlap any earlier arrow there, it is drawn there.
+//! 2. If the arrow overlaps no earlier arrow at its ideal offset, it gets this offset.
 //! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets at which the arrows just do not
 //!    overlap. The arrow gets the candidate that is nearest to the ideal offset and at which it overlaps no earlier
 //!    arrow.
@@ -38,14 +38,14 @@ const OFFSET_RESOLUTION: f64 = 1e-6;
 /// Relative tolerance of the least distance, because candidates lie exactly at it.
 const CLEAR_TOL: f64 = 1e-6;
 
-/// Moves overlapping arrows of a frame sideways, so that they are drawn side by side.
+/// Moves parallel arrows of a frame that overlap sideways, so that they are drawn next to each other.
 pub(crate) fn apart(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {
         return;
     }
     let original = arrows.clone();
-    // `placed` has the boxes of the arrows that have already been placed.
+    // `placed` contains the bounding boxes of the arrows whose final positions are known.
     let mut placed = Places::sized_for(original.iter().map(space_around));
     let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -64,8 +64,8 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
 }
 
-/// Returns an offset to the left of the arrow, in metres, at which the arrow does not overlap any placed arrow. Of all
-/// candidates, the result is the offset nearest to `ideal`.
+/// Returns the sideways offset of an arrow in metres, positive to its left. Of all offsets at which the arrow overlaps
+/// no placed arrow, the result is the nearest to `ideal`. Returns `ideal` if no such offset is found.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -100,7 +100,7 @@ fn offset_of_least_change(
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
-    // A small offset is final, because arrows farther away can only give larger offsets.
+    // If the offset is small, do not search again: arrows farther away can only give larger offsets.
     let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));
     nearby
         .filter(|offset| offset.abs() < 0.5 * NEARBY * arrow.width)
@@ -108,7 +108,8 @@ fn offset_of_least_change(
         .unwrap_or(ideal)
 }
 
-/// Returns a box around an arrow, enlarged by the gap between arrows. Arrows whose boxes are disjoint do not overlap.
+/// Returns the bounding box of an arrow, enlarged by the gap between arrows. Arrows whose boxes are disjoint do not
+/// overlap.
 fn space_around(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.reach();
     let ends = Bounds {
@@ -118,8 +119,8 @@ fn space_around(arrow: &ForceArrow) -> Bounds {
     ends.grown((HEAD_WIDTH + 2.0 * GAP) * arrow.width)
 }
 
-/// True if another arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the
-/// arrows from left to right.
+/// True if another arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the x
+/// coordinate of the tail and the index of each arrow, from left to right.
 fn has_opposite(by_x: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> bool {
     let (x, far) = (arrows[i].at.x, 0.5 * arrows[i].width);
     let from = by_x.partition_point(|entry| entry.0 < x - far);
@@ -140,13 +141,13 @@ fn across(arrow: &ForceArrow) -> Option<Vector> {
     (length > 0.0).then(|| Vector::new(-reach.y, reach.x) / length)
 }
 
-/// True if two arrows are parallel and closer than the least distance.
+/// True if two arrows are parallel and closer to each other than the least allowed distance.
 fn too_close(a: &ForceArrow, b: &ForceArrow) -> bool {
     side_by_side(a, b).is_some_and(|(needed, distance)| distance < needed * (1.0 - CLEAR_TOL))
 }
 
-/// Returns two distances in metres for two parallel arrows that overlap along their direction: the least allowed
-/// distance of their axes, and their actual distance. Returns `None` for any other pair.
+/// Returns the least allowed distance and the actual distance of the axes of two parallel arrows, in metres. Returns
+/// `None` if the arrows are not parallel or lie one behind the other.
 fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let (u, v) = (a.reach(), b.reach());
     let (long, other) = (u.norm(), v.norm());
@@ -173,7 +174,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
         .map(|(p, q)| p.2 + q.2 + gap)
         .fold(0.0, f64::max);
     let cross = |d: Vector| along.x * d.y - along.y * d.x;
-    // Two straight axes are nearest to each other at an end of their common range.
+    // The distance of two straight axes is smallest at the beginning or end of their common range.
     let ends = [
         from.max(0.0).min(long),
         (from + project(v)).max(0.0).min(long),
@@ -185,8 +186,8 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     (needed > 0.0).then_some((needed, distances[0].min(distances[1])))
 }
 
-/// Returns three lengths in metres for the shaft and for the head: its beginning and its end along the arrow, and half
-/// its width.
+/// Returns the shaft and the head of an arrow, each as (begin, end, half width) in metres. Begin and end are distances
+/// from the tail along the arrow.
 fn parts(arrow: &ForceArrow) -> [(f64, f64, f64); 2] {
     let length = arrow.reach().norm();
     let (long, wide) = head_size(length, arrow.width);

@@ -38,8 +38,8 @@ pub enum ArrowKind {
 }
 
 impl ArrowKind {
-    /// Returns the other body that exerts the force. The opposite arrow is drawn on this other body. Returns `None` if
-    /// no body exerts the force.
+    /// Returns the body that exerts the force; the arrow of the reaction is drawn on this body. Returns `None` for
+    /// weights, loads, and forces and torques of robots.
     pub fn partner(self) -> Option<BodyId> {
         match self {
             ArrowKind::Contact(from)
@@ -157,10 +157,10 @@ impl Marks {
         let least = LEAST_SEEN / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
-        // The torque arrow of a load has a least length, so this arrow is always visible.
+        // Torque arrows of loads have a minimum length, so they are always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // Forces in N and torques in N·m have the same scale.
+        // The limit is computed for forces. For torques it is exact only if the unit edge is 1 m.
         let amount = round_above(least / unit * self.newtons_per_unit);
         let parts = [
             ("force", forces, units.force()),
@@ -174,7 +174,7 @@ impl Marks {
         (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
     }
 
-    /// Returns the largest force that an arrow shows, N. The result is at least the force whose arrow is one unit edge
+    /// Returns the largest force in newtons that an arrow shows, but at least the force whose arrow is one unit edge
     /// long.
     pub(crate) fn largest(&self) -> f64 {
         let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
@@ -205,7 +205,8 @@ pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let tip = arrow.at + reach;
     let neck = tip - reach * (long / length);
     let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
-    // The head is a triangle. It is approximated by a strip along its axis with two thirds of its width.
+    // The triangular head is approximated by a strip along the axis of the arrow. The strip is two thirds as wide as
+    // the head.
     let head = from_segment(neck, tip, p) - wide / 3.0;
     shaft.min(head)
 }

@@ -21,7 +21,8 @@ pub(crate) struct Bearing {
     pub friction: Option<f64>,
 }
 
-/// Returns the bearing of each contact of a frame, in the order of the contacts; `None` for a contact without force.
+/// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. A
+/// contact without force is `None`.
 pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
     let largest = found.contacts.iter().map(pressed).fold(0.0, f64::max);
@@ -43,8 +44,8 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
     found.contacts.iter().map(bearing).collect()
 }
 
-/// Returns a limit in newtons. A force up to this limit on a block of this weight may be numerical noise of the solver.
-/// `largest` is the largest force of the frame.
+/// Returns the largest force in newtons that counts as numerical noise of the solver on a block of weight `weight` (N).
+/// `largest` is the largest force of the frame (N).
 pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     if weight > 0.0 {
         f64::min(NOISE * largest, SHARE * weight)

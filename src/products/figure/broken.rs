@@ -33,8 +33,7 @@ impl ListEntry {
         }
     }
 
-    /// Returns the last entry of a list, which gives the number of entries that are left out. Returns `None` if no
-    /// entry is left out.
+    /// Returns a last entry such as `And 3 more gaps.` if the list does not show all `count` entries; otherwise `None`.
     fn rest(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(SHOWN);
         (more > 0).then(|| ListEntry {
@@ -93,7 +92,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
         height: (y + MAX_MARGIN).ceil(),
         title,
         description: format!(
-            "Outlines as they are written, without forces. {}",
+            "The outlines of the scene file, without forces. {}",
             listed.join(" ")
         ),
         background: Some(theme.page),
@@ -114,7 +113,8 @@ fn title(sketch: &Sketch) -> String {
     }
 }
 
-/// Draws the list of problems and gaps below `y` (pixels), `room` pixels wide. Also returns its lower end.
+/// Draws the list of problems and gaps, `room` pixels wide, from the height `y` (pixels) downwards. Also returns the y
+/// coordinate below its last line.
 fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Group, f64) {
     let theme = &options.theme;
     let size = theme.sizes.reason;
@@ -156,7 +156,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
         entries.push(ListEntry::numbered(number, words));
     }
     entries.extend(ListEntry::rest(sketch.problems.list.len(), "problems"));
-    // Gaps that are nearly contacts are only found if each body is valid. Bodies may overlap.
+    // The search for gaps needs a scene in which every body is valid. Overlaps do not matter.
     let scene = sketch.scene.as_ref();
     let near = scene.map(|scene| Interfaces::new(scene).near_misses);
     let near = near.unwrap_or_default();
@@ -164,7 +164,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
         let number = sketch.problems.list.len().min(SHOWN) + i + 1;
         let name = |id| sketch.body(id).map_or("", |body| body.name.as_str());
         let words = format!(
-            "A gap of at most {} {} between {} and {}, which carries nothing.",
+            "A gap of at most {} {} between {} and {}: they do not touch, so no force acts between them.",
             digits(gap.distance),
             sketch.units.length().symbol(),
             name(gap.bodies[0]),
@@ -182,7 +182,8 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
     (marks, entries)
 }
 
-/// Describes a problem with its line and path in the scene file. `has_place` is true if the picture shows it.
+/// Describes a problem with its line and path in the scene file. `has_place` is true if the picture has a mark for the
+/// problem.
 fn problem_in_words(problem: &Problem, has_place: bool) -> String {
     let line = match problem.line {
         0 => String::new(),
@@ -194,7 +195,7 @@ fn problem_in_words(problem: &Problem, has_place: bool) -> String {
     };
     let place = match has_place {
         true => "",
-        false => " (it has no place in the picture)",
+        false => " (not marked in the picture)",
     };
     format!("{line}{path}{}{place}.", problem.message)
 }

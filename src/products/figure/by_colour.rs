@@ -1,4 +1,4 @@
-//! [`ByColour`]: outlines joined by their colour, so that many outlines become a few paths.
+//! [`ByColour`]: joins outlines of the same colour into one path, so that a file has only a few paths.
 
 use crate::drawing::{Colour, Item, Outline, Path, Stroke};
 
@@ -22,7 +22,7 @@ impl ByColour {
         self.0.into_iter().map(path).map(Item::from)
     }
 
-    /// Returns the outlines as lines that are `width` pixels wide.
+    /// Returns one path for each colour, which draws the outlines as lines of `width` pixels.
     pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
         let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
         self.0.into_iter().map(path).map(Item::from)

@@ -33,8 +33,9 @@ const MECHANISM: &str = "guide mechanism";
 /// The height of letters relative to the unit edge of the scene.
 const LETTER_SHARE: f64 = 0.15;
 
-/// Writes a frame as DXF. The drawing has the ground, blocks with their names, and grips of robots. If the frame
-/// stands, it has the line of thrust; if the frame falls, the displaced blocks. Coordinates are in metres with y up.
+/// Writes a frame as DXF. The drawing shows the ground, the blocks with their names, and the grip points of robots. If
+/// the frame stands, the drawing also shows the line of thrust; if the frame falls, the displaced blocks. Coordinates
+/// are in metres with y up.
 ///
 /// `frame` is the index of the frame, from 0. The text is empty if the frame does not exist.
 ///
@@ -107,8 +108,8 @@ impl DxfWriter {
         self.group(8, layer);
     }
 
-    /// Writes the header, the layers and the start of the entities. The header gives the version, and metres as the
-    /// unit.
+    /// Writes the beginning of the file: the header with the version and the unit (metres), the layers, and the start
+    /// of the section of entities.
     fn head(&mut self) {
         let header = [
             (0, "SECTION"),
@@ -175,8 +176,8 @@ impl DxfWriter {
     }
 }
 
-/// Returns the text as one line of ASCII, because a line break would end the group. Other characters are written as
-/// `\U+XXXX`, which CAD programs show as characters.
+/// Returns the text as one line of ASCII, because a line break would end the value. Any other character is written as
+/// `\U+XXXX`, which CAD programs show as the character.
 fn ascii(text: &str) -> String {
     let mut line = String::new();
     for c in crate::text::line(text).chars() {

@@ -1,9 +1,9 @@
-//! Draws the forces that a block can carry as a polygon at the point at which they act. Small pictures show how the
-//! structure falls beyond the longest edges of the polygon.
+//! Draws the set of all forces that a block can carry, as a polygon at the loaded point. Small pictures show how the
+//! structure falls under forces just beyond the longest edges of the polygon.
 //!
-//! The tail of a force is at the point. The force is carried if its tip lies in the polygon. A polygon that is small
-//! compared with its forces would look like a dot, so it is drawn next to the structure at a separate scale. Unbounded
-//! sets of forces are cut off at a circle, which has no line.
+//! The tail of a force is at the loaded point. The block can carry the force if its tip lies in the polygon. A polygon
+//! that is small compared with its forces would look like a dot, so it is drawn next to the structure at a separate
+//! scale. Unbounded sets of forces are cut off at a circle, which has no line.
 
 mod plan;
 
@@ -79,27 +79,27 @@ impl PanelContent for CarriedForces {
             return legend::robots(context);
         };
         let area = match first.is_apart {
-            true => "tips of the forces that are carried",
-            false => "tips of the forces that are carried; their tail is at the dot",
+            true => "tips of the forces that the block can carry",
+            false => "tips of the forces that the block can carry; all tails are at the dot",
         };
         entries.push(Entry::Sign(area_sign, 20.0, area.into()));
         if !first.is_apart {
             entries.push(Entry::Sign(dot_sign, 10.0, "no force".into()));
         }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
-            entries.push(Entry::Sign(open_sign, 26.0, "goes on without end".into()));
+            entries.push(Entry::Sign(open_sign, 26.0, "continues without limit".into()));
         }
         if plans.len() > 1 {
-            entries.push(Entry::Sign(before_sign, 26.0, "in the step before".into()));
+            entries.push(Entry::Sign(before_sign, 26.0, "in the previous step".into()));
         }
         if plans.iter().any(|p| !p.pictures.is_empty()) {
             entries.push(Entry::Sign(
                 number_sign,
                 14.0,
-                "how it begins to fall just beyond this edge, enlarged".into(),
+                "how the structure begins to fall just beyond this edge, enlarged".into(),
             ));
         }
-        // The scale of the forces is a round force with an arrow of at most 64 pixels.
+        // The legend shows the scale of the forces: an arrow of at most 64 pixels for a round number of newtons.
         let pixels_per_newton = first.scale * unit / context.unit;
         let newtons = round_below(64.0 / pixels_per_newton);
         if newtons > 0.0 && newtons.is_finite() {
@@ -122,7 +122,7 @@ impl PanelContent for CarriedForces {
     }
 }
 
-/// Draws the polygon at its position, its numbered edges, and a dot for the force 0.
+/// Draws the polygon of carried forces: its area, its edges with their numbers, and a dot for the force 0.
 fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let theme = &pen.context.options.theme;
     let words = wording::capacity::ranges(plan.capacity);
@@ -178,7 +178,8 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     if !plan.is_apart {
         let at = pen.camera.place(plan.zero);
         if !plan.capacity.contains([0.0, 0.0]) {
-            // This arrow is one of the carried forces. It shows that the tails of all forces are at this point.
+            // The block cannot carry the force 0. An arrow from the dot to the middle of the polygon shows that all
+            // forces begin at the dot.
             let to = pen.camera.place(plan.middle());
             let along = (to.x - at.x, to.y - at.y);
             ink.arrow(at, along, 2.0);
@@ -216,13 +217,13 @@ fn leader(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// Draws the polygon of the previous step.
+/// Draws the polygon of carried forces of the previous step as a dashed outline. `plan` is the plan of that step.
 fn earlier(pen: &Pen<'_>, plan: &Plan<'_>) -> Group {
     let theme = &pen.context.options.theme;
     let ring = plan.ring.iter().map(|p| pen.camera.place(*p));
     let path = Path::stroked(Outline::ring(ring), before_stroke(theme));
     Group::with_class("before")
-        .titled("The forces that were carried in the step before")
+        .titled("The forces that the block could carry in the previous step")
         .with(path)
 }
 
@@ -230,7 +231,8 @@ fn before_stroke(theme: &Theme) -> Stroke {
     Stroke::new(theme.faint, 1.0).dashed([4.0, 3.0])
 }
 
-/// Draws a small picture of a mechanism, with its number and the direction in which the loaded point begins to move.
+/// Draws a small picture of a mechanism, with the number of its edge and an arrow in the direction in which the loaded
+/// point begins to move.
 fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> Group {
     let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
     let scene = &analysis.scene;
@@ -242,7 +244,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> G
     let line = Stroke::new(theme.outline, (0.6 * pen.line).max(0.5));
     let mut group = Group::with_class("mechanism");
     group = group.titled(format!(
-        "How it begins to fall beyond edge {}",
+        "How the structure begins to fall beyond edge {}",
         small.number
     ));
     let mut ground = Group {
@@ -282,7 +284,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> G
     // This arrow has the direction of the force beyond the edge.
     let own = moved.get(plan.capacity.block.0).and_then(Option::as_ref);
     let from = place(own.map_or(plan.point, |d| d.moved(plan.point)));
-    // On a narrow page, a shorter arrow would only be a head.
+    // A shorter arrow would have no visible shaft on a narrow page.
     let length = (0.2 * shown.width.min(shown.height)).max(17.0);
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
@@ -305,7 +307,7 @@ fn dot(at: PagePoint, theme: &Theme) -> Path {
     Path::filled(Outline::circle(at, DOT), theme.page).with_stroke(Stroke::new(theme.ink, 1.5))
 }
 
-/// Returns a small triangle at the end of a line. It shows that the line continues.
+/// Returns a small triangle at `end`, which shows that the edge from `other` continues beyond `end` without limit.
 fn open_end(end: PagePoint, other: PagePoint) -> Outline {
     let (x, y) = (end.x - other.x, end.y - other.y);
     let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);

@@ -1,4 +1,5 @@
-//! [`ForceChange`]: the force of one interface in two frames, and when it counts as changed. Figures and reports use it.
+//! [`ForceChange`]: compares the force of one interface in two frames, and decides whether it changed. Figures and
+//! reports use this comparison.
 
 use crate::analysis::Contact;
 use crate::geometry::Vector;
@@ -19,30 +20,32 @@ pub(crate) struct ForceChange<'a> {
 }
 
 impl ForceChange<'_> {
-    /// Returns the magnitudes of both forces, N.
+    /// Returns the magnitudes of the earlier and the later force, N.
     pub(crate) fn amounts(&self) -> [f64; 2] {
         self.forces.map(|force| force.norm())
     }
 
-    /// Returns the larger of both magnitudes, N.
+    /// Returns the larger of the two magnitudes, N.
     pub(crate) fn larger(&self) -> f64 {
         let [before, after] = self.amounts();
         before.max(after)
     }
 
-    /// Returns the magnitude of the difference of both forces, N.
+    /// Returns the magnitude of the difference between the earlier and the later force, N.
     pub(crate) fn difference(&self) -> f64 {
         (self.forces[1] - self.forces[0]).norm()
     }
 
-    /// True if the force changed. Forces of at most `noise` N count as zero; see [`noise`].
+    /// True if the force changed by more than 5 % of the larger magnitude. Forces of at most `noise` newtons count as
+    /// zero; see [`noise`].
     pub(crate) fn is_change(&self, noise: f64) -> bool {
         let larger = self.larger();
         larger > noise && self.difference() > CHANGE_TOL * larger
     }
 }
 
-/// Returns the magnitude of rounding errors for forces of these magnitudes, all in N.
+/// Returns the largest magnitude that counts as a rounding error, N: a small share of the largest of `amounts`, which
+/// are also in N.
 pub(crate) fn noise(amounts: impl Iterator<Item = f64>) -> f64 {
     NOISE_SHARE * amounts.fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! Finds the blocks that options name.
+//! Finds the block that the user names in an option of a figure, such as `--block`.
 
 use crate::scene::{BlockId, Scene};
 use crate::text::{self, nearest};
@@ -12,15 +12,15 @@ pub(crate) const FREEBODY: &str = "freebody";
 pub(crate) const FREEBODY_HELP: &str =
     "One block as a free body, with names for all forces that may act on it";
 
-/// Finds the block of a free-body diagram, and the last frame in which this block is placed. Without a name, the block
-/// is the only block of the scene.
+/// Finds the block for a free-body diagram by its name. Returns the last frame in which the block is placed, and the
+/// block. The name may be left out if the scene has only one block.
 pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, BlockId), String> {
     let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
     let Some(name) = name else {
         return match (scene.blocks.as_slice(), placed(BlockId(0))) {
             ([_], Some(frame)) => Ok((frame, BlockId(0))),
             _ => Err(format!(
-                "a free-body diagram is of one block; choose with --block one of {}",
+                "a free-body diagram shows one block; add --block with one of these names: {}",
                 first_names(scene)
             )),
         };
@@ -32,22 +32,23 @@ pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, Bl
     }
 }
 
-/// Finds the block with a name.
+/// Finds the block with this name. If there is none, the error suggests a similar name or lists the blocks.
 pub(crate) fn named_block(scene: &Scene, name: &str) -> Result<BlockId, String> {
     let number = scene.blocks.iter().position(|b| b.id == name);
     number.map(BlockId).ok_or_else(|| {
         let known = scene.blocks.iter().map(|b| b.id.as_str());
         let near = nearest(name, known)
             .map_or_else(|| listed(scene), |near| format!("; did you mean {near}?"));
-        format!("it has no block {name}{near}")
+        format!("there is no block {name}{near}")
     })
 }
 
-/// Names the blocks of a scene, at most [`MAX_LISTED_BLOCKS`] of them: `; its blocks are a, b, …`.
+/// Lists the blocks of a scene for an error message: `; the blocks are a, b, …`. At most [`MAX_LISTED_BLOCKS`] are
+/// named.
 fn listed(scene: &Scene) -> String {
     match scene.blocks.is_empty() {
-        true => "; it has no blocks".into(),
-        false => format!("; its blocks are {}", first_names(scene)),
+        true => "; the scene has no blocks".into(),
+        false => format!("; the blocks are {}", first_names(scene)),
     }
 }
 

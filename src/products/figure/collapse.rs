@@ -15,7 +15,8 @@ const MAX_NAMED_BLOCKS: usize = 4;
 /// slides or falls.
 const ROTATION_TOL: f64 = 0.02;
 
-/// Returns the line below the verdict in a figure of a mechanism.
+/// Returns the text below the verdict in a figure of a mechanism: how the frame collapses, or why there is no
+/// mechanism.
 pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
@@ -105,7 +106,7 @@ impl Sentences<'_> {
         });
         match (hinge, slip) {
             (Some((_, other)), _) => {
-                // With a safety kernel, a block turns about points between its corners and not about the corners.
+                // With a safety kernel, a block turns about a point inside its interface and not about a corner.
                 let about = if scene.kernel > 0.0 {
                     "hinge"
                 } else {
@@ -118,7 +119,8 @@ impl Sentences<'_> {
         }
     }
 
-    /// True if the rotation of a body is visible in its motion. `fastest` is the speed of its fastest point.
+    /// True if a body rotates fast enough for the text to say that it turns. `fastest` is the speed of the fastest
+    /// point of the body.
     fn turning(&self, body: &[Motion], fastest: f64) -> bool {
         let scene = &self.analysis.scene;
         let turned = |m: &Motion| {
@@ -130,7 +132,8 @@ impl Sentences<'_> {
         body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// Returns the joints of a body with other bodies, each with the other body. Joints with bodies at rest come first.
+    /// Returns the joints between a body and other bodies, each with the other body. Joints to bodies at rest come
+    /// first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =

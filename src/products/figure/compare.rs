@@ -29,7 +29,8 @@ const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
 
-/// Returns the blocks that were added since the previous frame, and the blocks that were removed.
+/// Returns the blocks that were added since the previous frame, and the blocks that were removed since then. Both lists
+/// are empty for the first frame.
 fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let Some(earlier) = frame.checked_sub(1) else {
         return [Vec::new(), Vec::new()];
@@ -56,8 +57,8 @@ fn force(contact: &Contact) -> Vector {
     }
 }
 
-/// Compares a frame with the previous frame. Returns the interfaces of both frames whose forces differ, and the number
-/// of all interfaces that both frames have.
+/// Compares the forces of a frame with those of the previous frame. Returns the interfaces that both frames have and
+/// whose forces changed, and the number of interfaces that both frames have.
 fn changes(analysis: &Analysis, frame: usize) -> (Vec<ForceChange<'_>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
@@ -193,7 +194,7 @@ impl PanelContent for Comparison {
             entries.push(Entry::Sign(gone_sign, 20.0, "gone".to_owned()));
         }
         if changed {
-            let what = "force changed by over 5 %; faint, the force before".to_owned();
+            let what = "force changed by over 5 %; the previous force is faint".to_owned();
             entries.push(Entry::Sign(ring_sign, 14.0, what));
         }
         entries
@@ -204,7 +205,7 @@ impl PanelContent for Comparison {
 
         let Some(earlier) = frame.checked_sub(1) else {
             return match analysis.frames.len() {
-                1 => "one frame: nothing to compare it with".to_owned(),
+                1 => "there is only one frame, so there is nothing to compare".to_owned(),
                 _ => String::new(),
             };
         };
@@ -213,9 +214,9 @@ impl PanelContent for Comparison {
         let verdicts = [earlier, frame].map(|f| analysis.frames[f].verdict);
         if verdicts[0] != verdicts[1] {
             stated.push(match verdicts[1] {
-                Verdict::Stable => "stands where the frame before did not".to_owned(),
-                Verdict::Unstable => "falls where the frame before did not".to_owned(),
-                Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
+                Verdict::Stable => "stands, unlike the previous frame".to_owned(),
+                Verdict::Unstable => "falls, unlike the previous frame".to_owned(),
+                Verdict::Undecided => "undecided, unlike the previous frame".to_owned(),
             });
         }
         let names = |ids: &[BlockId]| -> Vec<String> {
@@ -223,7 +224,7 @@ impl PanelContent for Comparison {
             names.collect()
         };
         let (came, went) = (names(&came), names(&went));
-        // These blocks have the same name in both frames, but different outlines, weights or loads.
+        // `both` are the names of blocks that both frames contain, but with different outlines, weights or loads.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
         let alone = |names: &[String]| -> Vec<String> {
             names
@@ -255,9 +256,9 @@ impl PanelContent for Comparison {
     }
 }
 
-/// Returns the vector in metres by which an arrow was moved off its line of action. The arrow shows the force on `on`
-/// from `from`. The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they
-/// were moved, `marks` are the arrows afterwards.
+/// Returns the vector, in metres, by which the arrow of the force from body `from` on body `on` was moved off its line
+/// of action. The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they were
+/// moved, and `marks` are the arrows afterwards.
 fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
     let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
     let far = |a: &ForceArrow| (a.force - force).norm();

@@ -1,4 +1,5 @@
-//! [`PanelContent`]: a trait for the content of one kind of figure, and the [`FigureContext`] computed from it.
+//! [`PanelContent`]: the trait that each kind of figure implements. [`FigureContext::new`] computes the data of a
+//! figure from its content.
 //!
 //! A kind of figure is a type without fields that implements the trait in a separate file; [`Kind`](super::Kind) lists
 //! all kinds. A good start for a new kind is a copy of the smallest kind, `kernel.rs`.
@@ -63,22 +64,22 @@ pub(crate) struct FrameSource<'a> {
 
 /// The content of the panels of one kind of figure. Every kind implements the methods without a default.
 pub(crate) trait PanelContent: Sync {
-    /// Returns the name, the description and the requirements of the kind.
+    /// Returns the name, the description and the requirements of this kind of figure.
     fn about(&self) -> About;
 
-    /// Returns the margins that the figure shows if the analysis has them. The figure is also complete without these
-    /// margins, unlike with [`About::needs_margins`].
+    /// Returns the optional margins: the figure shows them if the analysis has computed them, and is complete without
+    /// them. Margins that the figure needs are requested with [`About::needs_margins`].
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }
 
-    /// Returns the force, in N, whose arrow is one unit edge long. The value is used if each panel has its own scale.
-    /// It is 0 for a kind without arrows.
+    /// Returns the force, in newtons, whose arrow is one unit edge long if each panel has its own scale of arrows. The
+    /// result is 0 for a kind of figure without arrows.
     fn largest_force(&self, _of: FrameSource<'_>) -> f64 {
         0.0
     }
 
-    /// Returns the arrows of a frame. A force of `newtons_per_unit` N has an arrow as long as the unit edge.
+    /// Returns the arrows of a frame. The arrow of a force of `newtons_per_unit` newtons is one unit edge long.
     fn marks(&self, _of: FrameSource<'_>, _newtons_per_unit: f64) -> Marks {
         Marks::default()
     }
@@ -89,30 +90,31 @@ pub(crate) trait PanelContent: Sync {
         Course::default()
     }
 
-    /// Returns the text next to the mark of a verdict.
+    /// Returns the text next to the symbol of the verdict of a frame.
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
         verdict::badge(&context.analysis.frames[frame]).to_owned()
     }
 
-    /// Returns a box in metres around all items except blocks, ground, robots and arrows; `None` if there are no such
-    /// items. `unit` is the unit edge in metres.
+    /// Returns a box, in metres, around all items of a frame other than blocks, ground, robots and arrows. Returns
+    /// `None` if there are no such items. `unit` is the unit edge in metres.
     fn extent(&self, _of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
         None
     }
 
-    /// Draws the picture of the frame that `pen` draws. The ground is cut at the edge of `view` (metres).
+    /// Draws the picture of one frame with `pen`. `view` is the shown part of the scene in metres; ground outside it is
+    /// cut off.
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group;
 
-    /// Returns the entries of the legend, which explain all signs in the figure. `unit` is the unit edge in pixels.
+    /// Returns the entries of the legend, which explain all symbols in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
-    /// Returns the line below the verdict of a frame.
+    /// Returns the text below the verdict of a frame, which gives the reason or the main result.
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String;
 }
 
 impl<'a> FigureContext<'a> {
-    /// Computes the context of a figure with this content. The order matters, because each step uses the results before
-    /// it: the scale of the arrows, the arrows, the box of each frame, and the line below each verdict.
+    /// Computes the data that all panels of a figure share. Each step uses the results of the earlier steps: the scale
+    /// of the arrows, the arrows, the shown part of each frame, and the text below each verdict.
     pub fn new(
         analysis: &'a Analysis,
         options: &'a Options,
@@ -174,7 +176,7 @@ impl<'a> FigureContext<'a> {
     }
 }
 
-/// Returns the arrows of each frame at the scale of the options. Arrows on one line are moved apart.
+/// Returns the arrows of each frame at the scale that the options select. Arrows that overlap are moved apart.
 fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelContent) -> Vec<Marks> {
     let about = content.about();
     let source = |frame: usize| FrameSource {
@@ -227,9 +229,9 @@ const LONGEST_SHARE: f64 = 0.25;
 /// Least length of the longest arrow of a load, pixels.
 const LONG_LOAD: f64 = 24.0;
 
-/// Returns two lengths. The first is the length of the longest arrow, in unit edges. It is larger than 1 if unit edges
-/// are so short that small arrows would only be heads. The second is the least length of the longest arrow of a load,
-/// in metres.
+/// Returns two lengths. The first is the length of the longest arrow in unit edges, at least 1. It is larger than 1 if
+/// a unit edge is short on the page, so that small arrows keep a visible shaft. The second is the least length of the
+/// longest load arrow, in metres.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
     let bare = FigureContext::new(analysis, options, &Bare);
@@ -248,8 +250,8 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     }
 }
 
-/// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
-/// visible. The factor is the same for all.
+/// Lengthens the arrows of loads if the longest of them is shorter than `least` metres, so that their directions are
+/// visible. All of them are lengthened by the same factor.
 fn lengthen_loads(marks: &mut Marks, least: f64) {
     let is_load = |arrow: &&mut ForceArrow| arrow.kind == ArrowKind::Load;
     let lengths = marks.arrows.iter_mut().filter(is_load);

@@ -55,7 +55,8 @@ pub(crate) struct FigureContext<'a> {
 }
 
 impl<'a> FigureContext<'a> {
-    /// Displaces the blocks of every frame, and the arrows on them, by the share `way` (0 to 1) of their paths.
+    /// Moves the blocks of every frame along their paths, together with the arrows on them. `way` is the share of the
+    /// path: 0 at its beginning, 1 at its end.
     pub fn go(&mut self, way: f64) {
         self.displaced = self.courses.iter().map(|course| course.at(way)).collect();
         let frames = self.still.iter().zip(&self.displaced);
@@ -64,8 +65,8 @@ impl<'a> FigureContext<'a> {
             .collect();
     }
 
-    /// Returns the extreme states of a frame, between which its forces may vary. The first call computes them for all
-    /// frames.
+    /// Returns the extreme thrust states of a frame. The forces of the frame may vary between these states. The first
+    /// call computes the states of all frames.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
         let frames = 0..self.analysis.frames.len();
         let all = || {
@@ -76,7 +77,7 @@ impl<'a> FigureContext<'a> {
         &self.thrust.get_or_init(all)[frame]
     }
 
-    /// Returns the same context with more space around the content of each frame: `across` metres on the left and
+    /// Returns this context with more space around the content of each frame: `across` metres on the left and on the
     /// right, `up` metres above and below.
     pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
         // If ground is visible at the lower edge, add no space below it.
@@ -94,8 +95,8 @@ impl<'a> FigureContext<'a> {
         self
     }
 
-    /// True if arrows are too small to read at this scale (pixels per metre). In this case the colours of blocks show
-    /// the forces.
+    /// True if arrows are too small to read at this scale (pixels per metre). The figure then shows the forces by the
+    /// colours of the blocks.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
         let has_plain_block = self
             .analysis
@@ -112,8 +113,8 @@ impl<'a> FigureContext<'a> {
             && !self.options.printed()
     }
 
-    /// True if nearly all arrows are too short to be visible at this scale (pixels per metre). A figure with only the
-    /// visible arrows would be misleading.
+    /// True if fewer than 20 % of the arrows are long enough to be visible at this scale (pixels per metre). A figure
+    /// with only these arrows would be misleading.
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
@@ -122,13 +123,13 @@ impl<'a> FigureContext<'a> {
         (arrows().filter(carried).filter(seen).count() as f64) < MIN_VISIBLE_SHARE * count as f64
     }
 
-    /// True if all blocks have one plain colour.
+    /// True if the colours of blocks show no quantity.
     pub fn plain(&self) -> bool {
         !self.colours_show_amplitudes || self.fills.scale == FillScale::Plain
     }
 
-    /// Returns the box in metres that the panels of a row show. The box is as wide as all frames need, so that
-    /// structures are aligned in columns. It is as high as the frames of this row need.
+    /// Returns the part of the scene, in metres, that the panels of one row show. Its width is the same for all rows,
+    /// so that structures are aligned in columns. Its height is the height that the frames of this row need.
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
         let row = rows.reduce(Bounds::union).unwrap_or(self.view);

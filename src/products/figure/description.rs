@@ -1,4 +1,4 @@
-//! Describes blocks and arrows with their numbers and units, for tooltips and screen readers.
+//! Describes blocks, arrows and motions in words, with numbers and units, for tooltips and screen readers.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::context::FigureContext;
@@ -7,8 +7,8 @@ use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
 pub(crate) use crate::wording::failure::{named, pair};
 
-/// Describes a block: its weight, and the meaning of its colour. `place` is its index among the placed blocks of the
-/// frame.
+/// Returns the weight of a block and the value that its colour shows, in words. `place` is the index of the block among
+/// the placed blocks of the frame.
 pub(crate) fn block(
     context: &FigureContext<'_>,
     frame: usize,
@@ -28,8 +28,8 @@ pub(crate) fn block(
     format!("weight {weight}, {fill}")
 }
 
-/// True if a force is drawn as a dot because its arrow is too short to be visible. Only loads and missing forces have
-/// dots. For two opposite arrows between two blocks there is only one dot.
+/// True if a force is drawn as a dot because its arrow is too short to be visible (`seen` is false). Only loads and
+/// missing forces have dots. The two opposite forces between two blocks have only one dot.
 pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     let twice = match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,
@@ -38,7 +38,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     !seen && !twice && (arrow.kind == ArrowKind::Load || arrow.kind.is_failure())
 }
 
-/// Describes the arrow of a force.
+/// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.
 pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
@@ -78,7 +78,7 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     }
 }
 
-/// Describes the arrow of a torque.
+/// Describes the torque that an arrow shows, such as `Torque of a load on block a: 6 N·m clockwise`.
 pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     let scene = &context.analysis.scene;
     let direction = if turn.torque > 0.0 {
@@ -106,7 +106,7 @@ pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     }
 }
 
-/// Describes the motion of a block.
+/// Describes in which direction a block begins to move in a mechanism, and how fast it turns.
 pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     let name = &scene.blocks[motion.block.0].id;
     let degrees = libm::atan2(motion.velocity.y, motion.velocity.x).to_degrees();

@@ -1,5 +1,5 @@
-//! Draws dimension lines at the edges of a picture. They show the width and height of all blocks, or of the block in
-//! the centre of a zoomed picture.
+//! Draws dimension lines at the edges of a picture. The lines show the width and the height of the structure, or those
+//! of the block that a zoomed picture shows.
 
 use super::context::FigureContext;
 use super::words::quantity;
@@ -15,8 +15,8 @@ pub(crate) const ASIDE: f64 = 58.0;
 /// Half the length of the mark at each end, pixels.
 const TICK: f64 = 4.0;
 
-/// Draws the dimension lines of the picture of a frame, which shows `view` (metres). The group is empty for a frame
-/// without blocks.
+/// Draws the dimension lines below and to the left of the picture of a frame. `view` is the part of the scene that the
+/// picture shows, in metres. The group is empty for a frame without blocks.
 pub(crate) fn lines(
     context: &FigureContext<'_>,
     frame: usize,
@@ -25,7 +25,7 @@ pub(crate) fn lines(
 ) -> Group {
     let group = Group::with_class("dimensions");
     let scene = &context.analysis.scene;
-    // In a zoomed picture measure only the block at its centre.
+    // A zoomed picture gives only the dimensions of the block at its centre.
     let meant = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
     let blocks = scene.frames[frame].placed.iter().filter(meant);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
@@ -55,7 +55,7 @@ pub(crate) fn lines(
     let label = |at: PagePoint, value: f64, anchor| {
         Text::new(at, words(value), Face::Sans, size, theme.faint).anchored(anchor)
     };
-    // Put the number on the line if the line is long enough, otherwise next to its end.
+    // Write the width below the middle of the line if the line is long enough, otherwise to the right of the line.
     let wide = text::width(&words(all.width()), Face::Sans, size);
     let below = if wide + 4.0 < measured.width {
         label(

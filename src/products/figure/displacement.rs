@@ -1,5 +1,5 @@
-//! [`Course`]: the paths of blocks along a collapse mechanism. The motions are finite and rigid, so blocks keep their
-//! shapes.
+//! [`Course`]: the paths of blocks in a collapse mechanism. The blocks move as rigid bodies by visible distances and
+//! keep their shapes.
 //!
 //! A mechanism only gives velocities, so the figure has to choose an amplitude. For each group of blocks in contact:
 //!
@@ -56,8 +56,8 @@ struct GroupCourse {
 }
 
 impl Course {
-    /// Computes the course of a frame that falls. The course of any other frame is empty. `unit` is the unit edge in
-    /// metres.
+    /// Computes the paths of the blocks of a frame that falls. For any other frame the course is empty. `unit` is the
+    /// unit edge in metres.
     pub fn new(analysis: &Analysis, frame: usize, unit: f64) -> Course {
         if analysis.frames[frame].verdict != Verdict::Unstable {
             return Course::default();
@@ -76,8 +76,8 @@ impl Course {
         course
     }
 
-    /// Returns the displacements of the blocks at this share of the path (0 to 1), indexed by block. The displacement
-    /// of a block at rest is `None`. The list is empty if no block moves.
+    /// Returns the displacement of each block, indexed by block; `None` for a block at rest. `share` is the position on
+    /// the path, from 0 (original position) to 1 (end). The list is empty if no block moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
         if self.groups.is_empty() {
             return Vec::new();
@@ -91,8 +91,8 @@ impl Course {
         displaced
     }
 
-    /// Returns a box in metres around all moving blocks and all arrows along the whole path; `None` if no block moves.
-    /// `marks` are the arrows before the motion.
+    /// Returns a box, in metres, that contains the moving blocks and all arrows at every position along the path.
+    /// Returns `None` if no block moves. `marks` are the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=PLACES).map(|place| self.at(f64::from(place) / f64::from(PLACES)));
         let each = places.filter_map(|displaced| {
@@ -110,7 +110,8 @@ impl Course {
         each.reduce(Bounds::union)
     }
 
-    /// Shortens the paths of groups until no blocks overlap at any position along the paths.
+    /// Shortens the paths of groups of blocks until no blocks overlap at any tested position. Does nothing if too many
+    /// blocks move.
     fn stop_before_overlaps(&mut self, analysis: &Analysis, frame: usize) {
         let moving: usize = self.groups.iter().map(|g| g.linkage.len()).sum();
         if moving > MAX_TESTED_BLOCKS {
@@ -142,8 +143,8 @@ impl Course {
         }
     }
 
-    /// Returns the first of the [`PLACES`] positions along the path at which blocks overlap, and the pairs of blocks
-    /// that overlap. Positions are numbered from 1. Returns `None` if no blocks overlap.
+    /// Returns the first position along the path at which blocks overlap, and the pairs of blocks that overlap there.
+    /// The [`PLACES`] tested positions are numbered from 1. Returns `None` if no blocks overlap at any of them.
     fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
         (1..=PLACES).find_map(|place| {
             let displaced = self.at(f64::from(place) / f64::from(PLACES));
@@ -153,8 +154,8 @@ impl Course {
     }
 }
 
-/// Moves each arrow on a displaced block together with the point of the block at the tip of the arrow. The direction of
-/// the force does not change.
+/// Returns the arrows after the displacement of the blocks. The tip of an arrow follows the point of its block at which
+/// it was before. The direction of an arrow does not change.
 pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> Marks {
     let way = |on: BodyId, tip: Point| match on {
         BodyId::Block(id) => {
@@ -177,8 +178,8 @@ pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> 
     marks
 }
 
-/// Returns the amplitude of a group, without regard to overlaps. The amplitude is the displacement in metres of a point
-/// with speed 1. `unit` is the unit edge in metres.
+/// Returns the displacement, in metres, of a point of speed 1 at the end of the path of a group. Overlaps with other
+/// blocks are not considered. `unit` is the unit edge in metres.
 fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);

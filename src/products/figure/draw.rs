@@ -1,4 +1,4 @@
-//! [`draw`] and its variants: animations, separate panels, and pages for print.
+//! [`draw`]: draws the figures of an analysis. Its variants draw animations, separate panels, and pages for print.
 
 use std::borrow::Cow;
 
@@ -16,7 +16,7 @@ const MOTION_STEPS: (f64, f64) = (12.0, 150.0);
 /// Time for which the end of a motion is shown, seconds.
 const MOTION_REST: f64 = 1.0;
 
-/// Draws a figure of this kind, one panel per frame.
+/// Draws a figure of this kind with one panel for each frame of the analysis.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
@@ -50,11 +50,12 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
     draw(analysis, Kind::Forces, options)
 }
 
-/// Draws the pictures of an animation, all of one size and scale. Returns each picture with the time in seconds for
-/// which it is shown. A frame is shown for `seconds`. If the kind shows mechanisms, a frame that falls moves during
-/// this time, slowly at both ends. Then it is shown at rest for one second.
+/// Draws the pictures of an animation, all at the same size and scale. Returns each picture with the time in seconds
+/// for which it is shown. Each frame is shown for `seconds`. If the kind shows mechanisms, the blocks of a frame that
+/// falls move during this time, slowly at the beginning and at the end. Their last position is then shown for one more
+/// second.
 ///
-/// Units: seconds.
+/// Units: all times are in seconds.
 pub fn film(
     analysis: &Analysis,
     kind: Kind,
@@ -85,12 +86,13 @@ pub fn film(
     pages.into_iter().zip(times).collect()
 }
 
-/// Converts a share of the time (0 to 1) to a share of the path (0 to 1). The motion is slow at both ends.
+/// Converts a share of the time (0 to 1) to a share of the path (0 to 1). The motion is slow at its beginning and at
+/// its end.
 fn eased(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
 
-/// Draws the panels of [`draw`] as separate pages, one for each frame, all of one size and scale.
+/// Draws the panels of [`draw`] as separate pages, one for each frame. All pages have the same size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     frame_pages(&shown(analysis, kind), kind, &kind.options(options))
 }
@@ -108,22 +110,23 @@ pub fn panels_of(
     strip::pages(&analysis, kind.content(), &kind.options(options), existing)
 }
 
-/// Draws the panels of [`draw`] on several pages at one scale, each with its title and legend. A page is at most
-/// `max_ratio` times as high as wide, unless a single row is higher.
+/// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
+/// page is at most `max_ratio` times its width, unless a single row is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let analysis = shown(analysis, kind);
     strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)
 }
 
-/// Returns lower bounds of the width and height of the page of [`draw`], in pixels. The function draws nothing, so a
-/// figure that is too large for a file can be refused early.
+/// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
+/// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
     let context = kind.context(analysis, &options);
     Layout::new(&context, analysis.frames.len()).least(&context)
 }
 
-/// Returns the analysis that a kind of figure shows. If the kind needs elementary mechanisms, the result has them.
+/// Returns the analysis that a kind of figure shows: with elementary mechanisms if the kind needs them, otherwise
+/// unchanged.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
     if kind.content().about().needs_elementary_mechanisms {
         Cow::Owned(analysis.elementary())
@@ -132,7 +135,7 @@ fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
     }
 }
 
-/// Draws one page for each frame.
+/// Draws one page for each frame of the analysis.
 fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     strip::pages(analysis, kind.content(), options, 0..analysis.frames.len())
 }

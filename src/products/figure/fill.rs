@@ -1,4 +1,4 @@
-//! [`Fills`]: the colours of blocks, and the quantity that they show.
+//! [`Fills`]: the colours of blocks, and the quantity that these colours show.
 //!
 //! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names the quantity, which is the
 //! same for all blocks. Only the rule of the thesis has two quantities. A block that a robot holds shows the used share
@@ -39,7 +39,7 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// Computes, for each block of each frame, the share that its colour shows.
+    /// Computes the share (0 to 1) that the colour of each block shows, for all frames. `rule` selects the quantity.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -78,17 +78,18 @@ impl Fills {
         self.scale != FillScale::Plain && (most - least > 0.02 || most > 0.08)
     }
 
-    /// Returns the colour of a share (0 to 1).
+    /// Returns the colour that shows this share (0 to 1).
     pub fn colour(&self, theme: &Theme, share: f64) -> Colour {
         ramp(self.rule)(theme, share)
     }
 
-    /// Returns the function that converts a share to a colour.
+    /// Returns the function that converts a share (0 to 1) to a colour.
     pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
         ramp(self.rule)
     }
 
-    /// Returns the labels of both ends of the colour scale, and the name of the quantity.
+    /// Returns the texts of the legend: the smallest and the largest value of the colour scale, and the name of the
+    /// quantity.
     pub fn key(&self) -> ([String; 2], String) {
         let ends = |most: String| ["0".to_owned(), most];
         match self.scale {
@@ -104,7 +105,7 @@ impl Fills {
             FillScale::Stress(largest, thickness) => {
                 let thickness = quantity(thickness, self.units.length());
                 let what =
-                    format!("largest mean pressure on a joint of a block, {thickness} thick");
+                    format!("largest mean pressure on a joint of a block; thickness {thickness}");
                 (ends(quantity(largest, self.units.stress())), what)
             }
             FillScale::Friction => (
@@ -115,7 +116,7 @@ impl Fills {
         }
     }
 
-    /// Describes the value that the colour of a block shows; empty for plain blocks.
+    /// Describes the value that the colour of a block shows, such as `colour: 12 N`. Empty if colours show no quantity.
     pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
@@ -140,7 +141,7 @@ impl Fills {
 fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     match rule {
         Fill::Source => |_, share| {
-            // `as` saturates and turns NaN into 0.
+            // The conversion with `as` maps negative numbers and NaN to 0.
             let entry = ((share * PLASMA.len() as f64) as usize).min(PLASMA.len() - 1);
             Colour::hex(PLASMA[entry])
         },
@@ -148,7 +149,8 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     }
 }
 
-/// Divides all amounts by the largest of them. Calls `scale` with this largest amount, in its own unit.
+/// Returns all amounts divided by the largest amount, and the scale that `scale` makes from the largest amount. All
+/// amounts have the same unit.
 fn to_largest(
     amounts: Vec<Vec<f64>>,
     scale: impl Fn(f64) -> FillScale,
@@ -159,7 +161,8 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// Computes the shares as in the thesis.
+/// Computes the shares by the rule of the thesis; see the head of this file. Returns the quantity and the share of each
+/// block.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
@@ -180,7 +183,7 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
     (FillScale::Limit(limit), shares)
 }
 
-/// Returns amount / limit. If the limit is 0, the result is 1 for every amount above 0.
+/// Returns amount / limit. If the limit is 0, the result is 1 for a positive amount and 0 otherwise.
 fn share(amount: f64, limit: f64) -> f64 {
     if limit > 0.0 {
         amount / limit
@@ -191,8 +194,8 @@ fn share(amount: f64, limit: f64) -> f64 {
     }
 }
 
-/// Returns the larger ratio of a component of a robot's force to its limit, for the robot that holds this block.
-/// Returns `None` if no robot holds the block, or if the force has no limits.
+/// Returns the used share of the force limits of the robot that holds this block: the larger of |Fx| / limit and |Fy| /
+/// limit. Returns `None` if no robot holds the block, or if its force has no limits.
 fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = found.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
@@ -202,7 +205,7 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-/// Returns the largest value of `amount` on the interfaces of each placed block, in placing order.
+/// Returns, for each placed block in placing order, the largest value of `amount` on the interfaces of the block.
 fn largest(
     scene: &Scene,
     frame: &Frame,
@@ -231,8 +234,8 @@ fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the largest mean normal stress on the interfaces of each placed block, in N/m². The stress is normal force /
-/// (length × thickness). A corner has no area; its stress counts as 0.
+/// Returns, for each placed block, the largest mean normal stress on its interfaces, N/m². The stress is normal force /
+/// (length × thickness). A corner has no area, so its stress counts as 0.
 fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, found, |contact| {
         let area = contact.interface.length() * scene.thickness;

@@ -1,4 +1,5 @@
-//! Draws the force flow: the paths of the forces through the blocks, as bands as wide as the forces.
+//! Draws the force flow: the paths of the forces through the blocks. Each path is a band whose width is proportional to
+//! the force.
 //!
 //! In each block, strands lead from the points where forces enter to the points where they leave; [`strands`] computes
 //! them. The bands of a force have the same width and direction on both sides of a joint.
@@ -83,8 +84,8 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// Returns the magnitude of the largest load or missing force of a frame, N. A torque counts as torque divided by the
-/// unit edge.
+/// Returns the largest magnitude of a load or missing force in a frame, N. A torque counts as the force torque / unit
+/// edge.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
@@ -96,7 +97,8 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the largest length that an arrow may have, metres.
+/// Returns the largest length of an arrow, metres: a share of the longer side of the structure, but at least one unit
+/// edge.
 fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
     let edge = unit(&analysis.scene, options.zoom);
     let blocks = analysis.scene.blocks.iter();
@@ -128,7 +130,7 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
             .collect(),
         newtons_per_unit,
     };
-    // Without arrows the legend needs no scale.
+    // If there are no arrows, return no scale either, so that the legend shows none.
     if shown.arrows.is_empty() && shown.turns.is_empty() {
         Marks::default()
     } else {
@@ -136,8 +138,8 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     }
 }
 
-/// Returns the contact with the largest force in a frame. If several forces are equal except for rounding, the result
-/// is the first of them. Returns `None` if no contact has a force.
+/// Returns the contact with the largest force in a frame; the first of them if several forces are equal except for
+/// rounding. Returns `None` if no contact has a force.
 pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
     let contacts = found.contacts.iter();
@@ -150,7 +152,7 @@ pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     })
 }
 
-/// Returns the largest force of a joint or a robot in all frames, N.
+/// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let frames = &context.analysis.frames;
     let contacts = frames.iter().filter_map(largest_contact);
@@ -161,13 +163,13 @@ fn largest(context: &FigureContext<'_>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the width of the band of the largest force, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit edge in pixels.
 fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of carried forces in a frame with this verdict.
+/// Returns the colour of the bands of carried forces. It is paler in a frame that does not stand.
 fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     match verdict {
         Verdict::Stable => theme.motion,
@@ -175,7 +177,7 @@ fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     }
 }
 
-/// Returns the colour of strands of this kind in a frame with this verdict.
+/// Returns the colour of the bands of this kind. The colour depends on the verdict of the frame.
 fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
     let carried = carried(theme, verdict);
     match kind {
@@ -228,13 +230,13 @@ impl<'a> Picture<'a> {
         )
     }
 
-    /// True if the frame has many blocks. Then all bands of one colour are one shape without titles, and joints have no
-    /// dots.
+    /// True if the frame has more than [`MANY_STRANDS`] blocks. All bands of one colour are then drawn as one shape
+    /// without tooltips, and joints have no dots.
     fn many(&self) -> bool {
         self.scene.frames[self.pen.number].placed.len() > MANY_STRANDS
     }
 
-    /// Draws the bands: weights at the bottom, above them carried forces, and missing forces on top.
+    /// Draws the bands: first weights, then carried forces over them, and missing forces on top.
     fn flow(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("flow");
         let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];
@@ -260,14 +262,14 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// Returns the outline of a strand. Adds its axis to the ink, so that no label covers it.
+    /// Returns the outline of the band of a strand. Adds its axis to the ink, so that no label covers the band.
     fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
         let camera = self.pen.camera;
         let width = |newtons: &f64| camera.metres((newtons * self.scale).max(LEAST_WIDTH));
         let mut widths: Vec<f64> = strand.widths.iter().map(width).collect();
         let mut axis = strand.axis.clone();
         if self.many() && !strand.exact {
-            // In figures with many blocks bends are not visible, and straight bands make the file smaller.
+            // In a figure with many blocks, bends are not visible. Straight bands make the file smaller.
             axis = axis
                 .first()
                 .into_iter()
@@ -288,7 +290,8 @@ impl<'a> Picture<'a> {
         ribbon::ribbon(&axis, &widths, camera)
     }
 
-    /// Draws a dot at the point of action of each joint's resultant.
+    /// Draws a dot at the point of action of the resultant of each joint. A joint at its limit has a special mark
+    /// instead.
     fn dots(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("resultants");
         if self.many() {
@@ -319,8 +322,8 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// Returns a callout with the magnitude of the largest force of a joint. The callout is at the dot of this joint.
-    /// Empty if no joint has a force.
+    /// Returns a label `largest: …` with the magnitude of the largest force of a joint, at the dot of this joint. The
+    /// list is empty if no joint has a force.
     fn callout(&self) -> Vec<Callout> {
         let largest = largest_contact(self.found).into_iter();
         let callout = |contact: &Contact| {

@@ -26,7 +26,7 @@ pub(crate) const BUILD: Forces = Forces {
     shares_arrow_scale: true,
 };
 
-/// True if missing forces have a larger scale than other forces.
+/// True if the arrows of missing forces are drawn at a larger scale than other arrows.
 fn own_scale(marks: &Marks) -> bool {
     let ratio = |arrow: &ForceArrow| arrow.vector.norm() / arrow.force.norm();
     let of = |missing: bool| {

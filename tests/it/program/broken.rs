@@ -46,7 +46,7 @@ fn crossings_and_what_has_no_place_are_told_apart() {
     let ran = bench.run("render --broken door.json -o -");
     assert_eq!(ran.code, 2, "{}", ran.err);
     assert!(ran.out.contains("refused, with 4 problems"));
-    assert!(ran.out.contains("(it has no place in the picture)"));
+    assert!(ran.out.contains("(not marked in the picture)"));
     assert!(ran.out.contains("<title>mark 2</title>"));
     assert!(!ran.out.contains("<title>mark 1</title>"), "an unknown key");
 }

@@ -54,7 +54,7 @@ fn a_block_is_cut_free_by_its_name() {
     for (line, said) in [
         (
             "render stands.json -o a.svg --kind freebody",
-            "choose with --block one of left, right, lintel",
+            "add --block with one of these names: left, right, lintel",
         ),
         (
             "render stands.json -o a.svg --kind freebody --block lintl",

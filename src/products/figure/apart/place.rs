@@ -28,7 +28,7 @@ impl Places {
         }
     }
 
-    /// Adds a box.
+    /// Adds a box to the grid. Its index is the number of boxes added before it.
     pub fn put(&mut self, its: Bounds) {
         let number = self.boxes.len();
         self.boxes.push(its);
@@ -42,8 +42,8 @@ impl Places {
         }
     }
 
-    /// True if `matches` is true for a box that overlaps `near`. `matches` gets the index of the box, and may be called
-    /// several times for the same box.
+    /// True if `matches` returns true for at least one of the boxes that overlap `near`. `matches` gets the index of a
+    /// box, and may be called several times for the same box.
     pub fn any(&self, near: Bounds, mut matches: impl FnMut(usize) -> bool) -> bool {
         let mut tested = |number: &usize| near.intersects(self.boxes[*number]) && matches(*number);
         let Some((low, high)) = self.covered(near) else {
@@ -53,7 +53,8 @@ impl Places {
         self.large.iter().any(&mut tested) || cells.any(|cell| cell.iter().any(&mut tested))
     }
 
-    /// Returns the indices of the boxes that overlap `near`, in ascending order. Returns all indices for `None`.
+    /// Returns the indices of the boxes that overlap `near`, in ascending order. If `near` is `None`, returns the
+    /// indices of all boxes.
     pub fn meeting(&self, near: Option<Bounds>) -> Vec<usize> {
         let Some(near) = near else {
             return (0..self.boxes.len()).collect();
@@ -63,13 +64,14 @@ impl Places {
             found.push(number);
             false
         });
-        // A box in several cells is found several times.
+        // A box that covers several cells is found several times.
         found.sort_unstable();
         found.dedup();
         found
     }
 
-    /// Returns the first and the last cell of a box; `None` if the box covers more than [`MAX_CELLS`] cells.
+    /// Returns the lower left and the upper right cell that a box covers. Returns `None` if the box covers more than
+    /// [`MAX_CELLS`] cells.
     fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
         let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
         let (low, high) = (cell(its.min), cell(its.max));

@@ -23,8 +23,8 @@ pub(super) struct Marked {
     pub number: usize,
 }
 
-/// Returns the part of the scene that is shown, in metres. This part contains all blocks and marks, or the ground if
-/// there are no blocks. Returns `None` if this part has no size.
+/// Returns the shown part of the scene, in units of the scene file. It contains all blocks and marks, or the ground and
+/// all marks if there are no blocks. Returns `None` if it is empty or a single point.
 pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
@@ -126,7 +126,7 @@ fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Option
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }
 
-/// Returns the line segments that lie on hatch lines of both bodies.
+/// Returns the segments at which a hatch line of one body coincides with a hatch line of the other body.
 fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let level = |line: &[PagePoint; 2]| line[0].y - line[0].x;
     let mut common = Vec::new();

@@ -70,7 +70,7 @@ impl Small {
         self.corner + (point - self.view.min) * self.scale
     }
 
-    /// Returns the box of the small picture, in metres.
+    /// Returns the bounding box of the small picture in the figure, in metres.
     pub fn bounds(&self) -> Bounds {
         Bounds {
             min: self.corner,
@@ -80,7 +80,8 @@ impl Small {
 }
 
 impl<'a> Plan<'a> {
-    /// Plans the drawing of a frame. Returns `None` if no force is carried. `unit` is the unit edge in metres.
+    /// Computes the positions of the polygon and of the small pictures of a frame. Returns `None` if the analysis has
+    /// no capacity for this frame, or if the block can carry no force. `unit` is the unit edge in metres.
     pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
         let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
         let structure = structure(analysis)?;
@@ -125,19 +126,20 @@ impl<'a> Plan<'a> {
         Some(plan)
     }
 
-    /// Returns a box around everything that is drawn, in metres.
+    /// Returns a box around the polygon, the loaded point and the small pictures, in metres.
     pub fn bounds(&self) -> Option<Bounds> {
         let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
         let pictures = self.pictures.iter().map(Small::bounds);
         pictures.chain([polygon]).reduce(Bounds::union)
     }
 
-    /// Returns the mean of the corners of the drawn polygon.
+    /// Returns the mean of the corners of the drawn polygon, a point in metres.
     pub fn middle(&self) -> Point {
         middle(&self.ring)
     }
 
-    /// Arranges the small pictures to the right of everything else, or below it.
+    /// Returns one small picture for each edge in `numbers`. The pictures are to the right of the structure and the
+    /// polygon, or below them if these are wide.
     fn small_pictures(
         &self,
         analysis: &Analysis,
@@ -235,13 +237,15 @@ fn bounds_of(ring: &[Vector]) -> Bounds {
     })
 }
 
-/// Returns the frames with a capacity. All of them are drawn at one scale.
+/// Returns every frame that has a capacity, together with its capacity. The capacities of all frames are drawn at the
+/// same scale.
 fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
     let frames = analysis.frames.iter();
     frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))
 }
 
-/// Returns the largest force of a vertex in all frames, N. The result is at least 0.001 of the weight of a frame.
+/// Returns the largest force at a vertex of the polygons of all frames, N, but at least 0.001 of the weight of the
+/// heaviest frame.
 fn largest(analysis: &Analysis) -> f64 {
     let each = capacities(analysis).map(|(frame, capacity)| {
         let forces = capacity.vertices.iter().map(|v| v.force.norm());
@@ -250,12 +254,12 @@ fn largest(analysis: &Analysis) -> f64 {
     each.fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// Returns the force at which unbounded sets are cut off, N.
+/// Returns the magnitude at which unbounded sets of forces are cut off, N.
 fn cut(analysis: &Analysis) -> f64 {
     CUT * largest(analysis)
 }
 
-/// Returns the largest force that is drawn, N.
+/// Returns the largest magnitude of a drawn force, N: `cut` if a set is unbounded.
 fn farthest(analysis: &Analysis, cut: f64) -> f64 {
     let is_open = capacities(analysis).any(|(_, capacity)| !capacity.rays.is_empty());
     match is_open {
@@ -279,7 +283,7 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
         Vector::new(cos, sin) * cut
     };
     let mut ring: Vec<Vector> = (0..ROUND).map(corner).collect();
-    // `outline` is the set as a polygon that ends far beyond the circle.
+    // `outline` is the unbounded set as a polygon that is cut off far outside the circle.
     let mut outline = corners.clone();
     match capacity.rays[..] {
         [only] if corners.len() == 1 => return vec![*from, from + only * cut],
@@ -310,8 +314,8 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 /// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
 const FAR: f64 = 1e3;
 
-/// Returns the indices of the longest edges, which get small pictures, in ascending order. Empty for several frames or
-/// many blocks.
+/// Returns the indices of the longest edges, which get small pictures, in ascending order. The list is empty if the
+/// analysis has several frames or many blocks.
 fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
     let frames = analysis.scene.frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);

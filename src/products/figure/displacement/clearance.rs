@@ -21,7 +21,7 @@ impl<'a> Clearance<'a> {
         let blocks = frame.placed.iter();
         let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
         let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
-        // Schematic outlines already overlap at rest.
+        // Ignore blocks with schematic outlines: these outlines already overlap at rest.
         let is_drawn =
             |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
         let is_listed = scene.lists_contacts();
@@ -33,8 +33,8 @@ impl<'a> Clearance<'a> {
         }
     }
 
-    /// Returns the pairs of bodies that overlap. `displaced` has the displacements of the blocks, indexed by block; the
-    /// list may be shorter than the number of blocks.
+    /// Returns the pairs of bodies that overlap after the displacement. `displaced` is indexed by block; blocks beyond
+    /// the end of the list do not move.
     pub fn overlapping(&self, displaced: &[Option<Displacement>]) -> Vec<Pair> {
         let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
         let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();
@@ -49,7 +49,7 @@ impl<'a> Clearance<'a> {
             let near = placed[number + 1..].iter();
             let near = near.take_while(|other| other.2.min.x <= bounds.max.x);
             for (b, other, others) in near {
-                // Two bodies with the same motion, or two bodies at rest, do not move relative to each other.
+                // Two bodies that move together, or that are both at rest, cannot begin to overlap.
                 if motion(*a) != motion(*b)
                     && bounds.intersects(*others)
                     && overlap_share(one, other) > MAX_OVERLAP

@@ -10,8 +10,8 @@ use crate::scene::{BlockId, BodyId};
 /// are numerical noise of the solver or not visible.
 const REST_TOL: f64 = 1e-3;
 
-/// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to one body if there is no
-/// hinge and no sliding joint between them. The bodies are in the order of their first blocks.
+/// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to the same rigid body if
+/// the contact between them is not in `joints`. The bodies are sorted by their first blocks.
 pub(crate) fn rigid_bodies(
     analysis: &Analysis,
     frame: usize,
@@ -24,8 +24,8 @@ pub(crate) fn rigid_bodies(
     connected_groups(analysis, frame, |contact| !separated[contact])
 }
 
-/// Groups the motions of the moving blocks into connected components. Two blocks are connected if `joins` is true for
-/// the index of a contact between them. The groups are in the order of their first blocks.
+/// Groups the motions of the moving blocks into connected components. Two blocks are connected if `joins` returns true
+/// for the index of a contact between them. The groups are sorted by their first blocks.
 pub(crate) fn connected_groups(
     analysis: &Analysis,
     frame: usize,
@@ -62,7 +62,8 @@ pub(crate) fn connected_groups(
     groups
 }
 
-/// Returns the motions of the blocks of a frame that are not at rest.
+/// Returns the motions of the blocks that move visibly: their fastest points have at least 0.001 of the largest speed
+/// in the frame.
 fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);

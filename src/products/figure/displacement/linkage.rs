@@ -1,4 +1,5 @@
-//! [`Linkage`]: rigid bodies that are joined by hinges and sliding joints. These joints stay closed along the path.
+//! [`Linkage`]: moves rigid bodies that are joined by hinges and sliding joints, and keeps these joints closed along
+//! the path.
 //!
 //! Every body first moves along its own velocity. This alone would open the joints, by gaps proportional to the square
 //! of the angle. A few steps of Newton's method, each with the least-norm correction, then close all joints.
@@ -70,7 +71,7 @@ struct Pose {
 }
 
 impl Linkage {
-    /// Creates the linkage of a group of moving blocks in a frame, with the joints between them.
+    /// Creates the linkage of a group of moving blocks. It contains those of `joints` that belong to this group.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
         let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
         let within = |body: &Vec<Motion>| {
@@ -115,20 +116,20 @@ impl Linkage {
         }
     }
 
-    /// Returns the number of blocks.
+    /// Returns the number of blocks in the linkage.
     pub fn len(&self) -> usize {
         self.blocks().count()
     }
 
-    /// Returns all blocks.
+    /// Returns the blocks of the linkage.
     pub fn blocks(&self) -> impl Iterator<Item = BlockId> {
         self.members
             .iter()
             .flat_map(|member| member.blocks.iter().copied())
     }
 
-    /// Returns the displacement of each block after a point of speed 1 has moved by `amplitude` metres. All joints stay
-    /// closed if that is possible.
+    /// Returns the displacement of each block. `amplitude` is the displacement, in metres, of a point of speed 1. All
+    /// joints stay closed if Newton's method finds such positions.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
         let start: Vec<Pose> = self
             .members
@@ -147,8 +148,8 @@ impl Linkage {
         displaced
     }
 
-    /// Returns poses near `start` for which all joints are closed. Returns `None` if there are no joints or too many
-    /// bodies, or if Newton's method finds no such poses near `start`.
+    /// Returns positions and rotations of the bodies near `start` for which all joints are closed. Returns `None` if
+    /// there are no joints or too many bodies, or if Newton's method does not find such positions.
     fn closed(&self, start: &[Pose]) -> Option<Vec<Pose>> {
         if self.links.is_empty() || self.members.len() > MAX_BODIES {
             return None;
@@ -180,8 +181,8 @@ impl Linkage {
         None
     }
 
-    /// Returns the derivatives of all conditions, and their gaps in metres. The derivatives have three columns for each
-    /// body: x, y, and angle × [`Linkage::length`].
+    /// Returns the Jacobian matrix of all joint conditions, and the residual of each condition in metres. The matrix
+    /// has three columns for each body: x, y, and angle × [`Linkage::length`].
     fn equations(&self, poses: &[Pose]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.links.iter().map(|link| match link.condition {
             Condition::Hinge(_) => 2,
@@ -200,7 +201,8 @@ impl Linkage {
         (system.rows, system.gaps)
     }
 
-    /// Writes the equations of a link into `system`, from the row `row` on. Returns the number of equations.
+    /// Writes the linearized equations of a link into `system`, starting at the row `row`. Returns the number of
+    /// equations.
     fn add(&self, link: &Link, poses: &[Pose], row: usize, system: &mut System) -> usize {
         let [first, second] = link.bodies;
         match link.condition {
@@ -222,7 +224,7 @@ impl Linkage {
                 let way = self.place(first, poses, point) - self.place(second, poses, point);
                 system.gaps[row] = normal.dot(&way);
                 system.add(row, first, normal, self.arm(first, poses, point));
-                // The line turns with the second body about the centre of this body.
+                // The line belongs to the second body and turns with it about its centre.
                 let arm = self.arm(second, poses, point) + way;
                 system.add(row, second, -normal, arm);
                 1
@@ -240,8 +242,8 @@ impl Linkage {
         }
     }
 
-    /// Returns the vector from the centre of a body to one of its points, after the displacement of the body. `point`
-    /// is the position before the displacement. The vector is zero for a body at rest.
+    /// Returns the vector from the centre of a displaced body to one of its points, metres. `point` is the position of
+    /// this point before the displacement. The vector is zero for a body at rest.
     fn arm(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Vector {
         body.map_or(Vector::zeros(), |body| {
             let (centre, pose) = (self.members[body].centre, poses[body]);
@@ -249,7 +251,7 @@ impl Linkage {
         })
     }
 
-    /// Returns the displaced position of a point of a body.
+    /// Returns the displaced position of a point of a body, metres. A body at rest is `None`.
     fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
         body.map_or(point, |body| {
             self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point)
@@ -265,8 +267,8 @@ struct System {
 }
 
 impl System {
-    /// Adds derivatives to a row: those of the position of a point along a direction. `arm` is the vector from the
-    /// centre of the body to the point.
+    /// Adds to a row the derivatives of a point's position in the direction `along` with respect to the pose of its
+    /// body. `arm` is the vector from the centre of the body to the point.
     fn add(&mut self, row: usize, body: Option<usize>, along: Vector, arm: Vector) {
         let Some(body) = body else {
             return;
@@ -286,8 +288,9 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
     }
 }
 
-/// Returns the conditions of a joint, each with a flag. The flag is true if the line of [`Condition::OnLine`] belongs
-/// to the first body. A joint that opens while it slides has no conditions.
+/// Returns the conditions that keep a joint closed. The flag of a condition is true if it applies with the two bodies
+/// exchanged, because the line of [`Condition::OnLine`] belongs to the first body. A joint that opens while it slides
+/// has no conditions.
 fn conditions(
     scene: &Scene,
     bodies: [BodyId; 2],
@@ -301,12 +304,12 @@ fn conditions(
         return Vec::new();
     }
     match joint.touch {
-        // The bodies slide along a whole face.
+        // The bodies slide along their whole interface, so they stay parallel.
         None => vec![
             (false, Condition::Parallel),
             (false, Condition::OnLine(joint.at, normal)),
         ],
-        // A corner slides along the edge of the other body.
+        // A corner of one body slides along an edge of the other body.
         Some(at) => {
             let is_corner = |body: BodyId| {
                 let mut corners = scene.body(body).polygon.rings().iter().flatten();

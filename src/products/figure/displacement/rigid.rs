@@ -1,4 +1,4 @@
-//! [`Displacement`]: a rigid motion of finite size.
+//! [`Displacement`]: a rigid displacement of a block: a rotation about a point and a translation.
 
 use crate::analysis::Motion;
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -13,16 +13,16 @@ pub(crate) struct Displacement {
 }
 
 impl Displacement {
-    /// Returns the motion of a block with this amplitude. With spin, it is a rotation by `amplitude`·spin about the
-    /// instantaneous centre. Without spin, it is a translation by `amplitude`·velocity.
+    /// Converts the velocity of a block to a displacement. If the block spins, the displacement is a rotation by
+    /// `amplitude`·spin about the instantaneous centre; otherwise it is a translation by `amplitude`·velocity.
     ///
     /// Units: `amplitude` is the displacement in metres of a point of speed 1.
     pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
         let angle = amplitude * motion.spin;
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         // The rotation about the instantaneous centre equals a rotation about the centroid, followed by the translation
-        // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first
-        // terms of the series are exact except for rounding. They also cover a pure translation.
+        // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad, the first
+        // terms of the Taylor series are exact except for rounding. They also hold for a pure translation.
         let (along, aside) = if angle.abs() < 1e-6 {
             (1.0, 0.5 * angle)
         } else {
@@ -48,23 +48,23 @@ impl Displacement {
         }
     }
 
-    /// Returns the translation of the centre of rotation, metres.
+    /// Returns the translation that follows the rotation, metres.
     pub fn translation(&self) -> Vector {
         self.translation
     }
 
-    /// Returns the displaced position of a point of the block.
+    /// Returns the position of a point of the block after the displacement, metres. `point` is its original position.
     pub fn moved(&self, point: Point) -> Point {
         self.centre + self.turned(point - self.centre) + self.translation
     }
 
-    /// Returns the original position of a point of the block. `point` is its displaced position.
+    /// Returns the original position of a point of the block, metres. `point` is its position after the displacement.
     pub fn back(&self, point: Point) -> Point {
         let d = point - self.centre - self.translation;
         self.centre + d * self.cos - quarter_turn(d) * self.sin
     }
 
-    /// Returns the direction after the rotation of the block.
+    /// Returns a direction that is fixed to the block after the rotation of the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin
     }

@@ -1,4 +1,4 @@
-//! [`entries`]: the legend of force flow.
+//! [`entries`]: makes the legend of the figure of force flow.
 
 use super::super::context::FigureContext;
 use super::super::legend::{self, Entry};
@@ -8,7 +8,7 @@ use super::strand::{Strand, StrandKind, strands};
 use super::{LEAST_WIDTH, MANY_STRANDS, carried, colour, dot_sign, largest, widest};
 use crate::analysis::Verdict;
 
-/// Returns the entries of the legend. `unit` is the unit edge in pixels.
+/// Returns the legend entries of a figure of force flow. `unit` is the unit edge in pixels.
 pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let scene = &*context.analysis.scene;
     let frames = || scene.frames.iter().zip(&context.analysis.frames);
@@ -38,7 +38,7 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// Returns the legend entries for the bands. `all` are the strands of the figure with the verdicts of their frames.
+/// Returns the legend entries for the bands. `all` contains each strand of the figure with the verdict of its frame.
 /// `unit` is the unit edge in pixels.
 fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> Vec<Entry> {
     let theme = &context.options.theme;

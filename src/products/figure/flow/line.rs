@@ -33,9 +33,9 @@ pub(super) struct TruePath {
     pub joins: Vec<(usize, Point)>,
 }
 
-/// Returns the path from the first joint to the second. The function tries all orders of the loads. Returns `None` if
-/// no path that leads forward lies in or near the block. Also returns `None` if there are more than [`MAX_ORDERED`]
-/// loads.
+/// Returns the path of the force from the first joint to the second. The function tries all orders in which the path
+/// can meet the loads. Returns `None` if there are more than [`MAX_ORDERED`] loads, or if no path exists that stays in
+/// or near the block and never turns back.
 pub(super) fn path(
     polygon: &Polygon,
     first: Pressed,
@@ -72,7 +72,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Continues a path from its last corner along `force` to the second joint. Returns `None` if no such path exists.
+    /// Continues a path from its last corner, where the force is `force`, to the second joint, and tries all orders of
+    /// the remaining loads. Returns `None` if no such path exists.
     fn onward(&self, path: TruePath, force: Vector) -> Option<TruePath> {
         let amount = force.norm();
         let at = *path.corners.last()?;
@@ -99,8 +100,8 @@ impl Search<'_> {
         })
     }
 
-    /// Adds the last segment, from `at` to the second joint. Returns `None` if `force` at `at` does not point to this
-    /// joint.
+    /// Adds the last segment of a path, from `at` to the second joint. Returns `None` if the line of action of `force`
+    /// through `at` does not lead to this joint.
     fn arrived(&self, mut path: TruePath, at: Point, force: Vector) -> Option<TruePath> {
         let way = self.second.at - at;
         let aside = cross(force, way) / force.norm();
@@ -120,8 +121,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns the intersection of two lines; `None` if they are parallel and different. If both are the same line, returns
-/// `b`.
+/// Returns the intersection of the line through `a` and the line through `b`. Returns `b` if they are the same line,
+/// and `None` if they are parallel.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);
     if sine.abs() <= PARALLEL * along_a.norm() * along_b.norm() {

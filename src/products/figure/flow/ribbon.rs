@@ -6,8 +6,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 /// Largest width of a band at a corner, as a multiple of its width before and after the corner.
 const LONGEST_MITRE: f64 = 1.6;
 
-/// Returns the outline of a band along `axis` on the page. `widths` has the full width at each point of the axis, in
-/// metres. At a point that occurs twice, the width changes in a step.
+/// Returns the outline of a band along `axis` on the page. `widths` has the full width of the band at each point of the
+/// axis, in metres. If a point occurs twice with different widths, the width changes abruptly there.
 pub(super) fn ribbon(axis: &[Point], widths: &[f64], camera: &Camera) -> Outline {
     let points = 0..axis.len().min(widths.len());
     if axis.iter().all(|p| same(*p, axis[0])) {
@@ -24,8 +24,8 @@ fn same(a: Point, b: Point) -> bool {
     (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
 }
 
-/// Returns the vector across the band at point `i`, to the left. Its length is 1; at a corner it is longer, so that the
-/// band keeps its width.
+/// Returns a vector across the band at point `i` of the axis, pointing to the left. Its length is 1 on a straight part.
+/// At a corner it is longer, so that the band keeps its width (a mitre).
 fn aside(axis: &[Point], i: usize) -> Vector {
     let apart = |p: &&Point| !same(**p, axis[i]);
     let across = |along: Vector| quarter_turn(along / along.norm());

@@ -1,5 +1,5 @@
-//! [`strands`]: computes the paths of the forces through the blocks of a frame. Each strand has the exact widths of the
-//! forces at its ends.
+//! [`strands`]: computes the paths of the forces through the blocks of a frame. The width of each strand shows the
+//! exact force at its beginning and at its end.
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
 //! action meet in or near the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
@@ -73,8 +73,8 @@ pub(crate) struct Strand {
     pub exact: bool,
 }
 
-/// Returns the strands of a frame, block by block in placing order. `metres_per_newton` is the scale of the widths. The
-/// axes are offset by the widths, so that the strands of a force lie next to each other.
+/// Returns the strands of all blocks of a frame, in placing order. `metres_per_newton` is the scale of the widths. If a
+/// force is divided into several strands, their axes are offset so that the strands lie next to each other.
 pub(crate) fn strands(
     scene: &Scene,
     frame: &Frame,
@@ -98,7 +98,8 @@ pub(crate) fn strands(
     all
 }
 
-/// Returns all forces on each block, indexed by block.
+/// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
+/// forces.
 fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting>> {
     let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
@@ -145,7 +146,8 @@ fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting
     acting
 }
 
-/// Returns the missing force of a failure on each body on which it acts.
+/// Returns each body on which the missing force of a failure acts, with the force on this body in N. The list is empty
+/// for a missing torque.
 fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
     match *failure {
         Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
@@ -156,8 +158,8 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
     }
 }
 
-/// Returns the strands of a block between two bodies or robots, along true lines of action. Returns `None` if there is
-/// no such path. Also returns `None` if other forces act on the block, except its weight and loads.
+/// Returns the strands of a block along true lines of action. Apart from its weight and its loads, exactly two forces
+/// of contacts or robots must act on the block. Otherwise, or if no such path exists, returns `None`.
 fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Strand>> {
     let presses = |f: &&Acting| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
     let given = |f: &&Acting| matches!(f.origin, Origin::Load | Origin::Weight);
@@ -166,7 +168,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Stran
     let [one, other] = pressing[..] else {
         return None;
     };
-    // The path begins at the joint whose force points more downwards.
+    // The path begins at the joint whose force has the larger downward component.
     let along = |f: &Acting| f.force.dot(&scene.down());
     let (first, second) = match along(one) < along(other) {
         true => (other, one),
@@ -225,7 +227,8 @@ struct Sharing {
 }
 
 impl Sharing {
-    /// True if a force enters the block: its component along gravity is positive. Other forces leave the block.
+    /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
+    /// is positive, and leaves the block otherwise.
     fn enters(&self, acting: &Acting) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ACROSS * acting.force.norm() {
@@ -234,7 +237,7 @@ impl Sharing {
         acting.force.dot(&quarter_turn(self.down)) > 0.0
     }
 
-    /// Returns one strand for each pair of an entering force and a leaving force.
+    /// Returns one strand for each pair of a force that enters the block and a force that leaves it.
     fn strands(&self, forces: &[Acting]) -> Vec<Strand> {
         let (ins, outs): (Vec<&Acting>, Vec<&Acting>) = forces.iter().partition(|f| self.enters(f));
         let sum = |side: &[&Acting]| side.iter().map(|f| f.force.norm()).sum::<f64>();
@@ -247,7 +250,8 @@ impl Sharing {
             for to in &outs {
                 let (start, end) = (from.force.norm(), to.force.norm());
                 let widths = [start * end / leaving, end * start / entering];
-                // A strand begins in the direction of the entering force. It ends opposite to the leaving force.
+                // A strand begins in the direction of the force that enters. It ends in the direction opposite to the
+                // force that leaves.
                 let first = self.end(from.at, from.force, &outs, to, leaving);
                 let last = self.end(to.at, -to.force, &ins, from, entering);
                 strands.push(self.strand(from, to, [first, last], widths));
@@ -256,9 +260,9 @@ impl Sharing {
         strands
     }
 
-    /// Returns the end of the strand between two forces, and its direction there. One force acts at `at`, the other is
-    /// `partner`. The strands of all `partners` lie next to each other, in their order across the force. `sum` is the
-    /// sum of the magnitudes of all `partners`.
+    /// Returns the position of a strand at the point `at`, where `force` acts, and its direction there. The strand
+    /// connects this force with `partner`. The strands to all `partners` lie next to each other in the order of their
+    /// positions across the force. `sum` is the sum of the magnitudes of all `partners`, N.
     fn end(
         &self,
         at: Point,
@@ -313,8 +317,8 @@ impl Sharing {
     }
 }
 
-/// Returns a curve between two points with the given directions at its ends. A direction that points backwards is
-/// ignored.
+/// Returns a Bézier curve from `a` to `b`, as a list of points. `along_a` and `along_b` are its directions there; a
+/// direction that points away from the chord is ignored.
 fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
     let chord = b - a;
     let handle = |along: Vector| STRAIGHT * chord.dot(&along).max(0.0);

@@ -1,4 +1,4 @@
-//! The text of force flow figures: titles of bands and joints, and the line below the verdict.
+//! Writes the texts of figures of force flow: the tooltips of bands and joints, and the text below the verdict.
 
 use super::largest_contact;
 use super::strand::{Origin, Strand};
@@ -13,7 +13,7 @@ use crate::scene::{BodyId, Scene};
 /// Forces that differ by less than this share are equally large.
 const ALIKE: f64 = 1e-3;
 
-/// Describes a band.
+/// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
     let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), scene.units.force());
@@ -27,7 +27,7 @@ pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> S
     )
 }
 
-/// Returns a name for the object from which a force on a body comes.
+/// Returns a name for the origin of a force on the body `on`, such as `block 3`, `robot crane` or `a load`.
 fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
     let other = |[a, b]: [BodyId; 2]| description::named(scene, if a == on { b } else { a });
     match origin {
@@ -39,14 +39,15 @@ fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> Str
     }
 }
 
-/// Describes the resultant of a joint.
+/// Describes the resultant of a joint: `Between a and b: 5 N`.
 pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
     let pair = description::pair(scene, contact.interface.bodies);
     let amount = quantity(contact.resultant.force.norm(), scene.units.force());
     format!("Between {pair}: {amount}")
 }
 
-/// Returns the line below the verdict: why the frame does not stand, its largest force, and its joints at a limit.
+/// Returns the text below the verdict: why the frame does not stand, its largest contact force, and its joints at their
+/// limit.
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let why = verdict::reason(scene, found);
@@ -55,7 +56,7 @@ pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     parts.join("; ")
 }
 
-/// Describes the largest force of a joint; empty if no joint has a force.
+/// Returns the part of the text that names the largest contact force and its joint; empty if no joint has a force.
 fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
     let Some(contact) = largest_contact(found) else {
         return String::new();

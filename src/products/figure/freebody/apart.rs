@@ -1,4 +1,4 @@
-//! [`apart`]: moves apart the arrows of a free-body diagram that lie on one line.
+//! [`apart`]: moves arrows of a free-body diagram sideways if they overlap on the same line.
 //!
 //! In the middle of a pile, forces push a block up on the same line on which its weight pulls it down. On this line,
 //! the two arrows would overlap. Only the position of the arrow changes; the list of forces keeps the line of action.
@@ -14,7 +14,8 @@ const END_TO_END: f64 = 2.0;
 /// Distance of two axes, pixels: the width of a head and a small gap.
 const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
 
-/// Moves each arrow that overlaps an earlier arrow to its side, by up to two steps, if there is space.
+/// Moves each arrow that overlaps an earlier arrow sideways, by one or two arrow widths to its left or right. Without
+/// enough space, the arrow is not moved.
 pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     for i in 1..arrows.len() {
         let (before, rest) = arrows.split_at_mut(i);
@@ -47,8 +48,8 @@ pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
     }
 }
 
-/// True if two arrows are parallel and overlap. `offset` is the vector from the beginning of the first arrow to the
-/// beginning of the second, in pixels.
+/// True if two arrows are parallel and overlap. `offset` is the vector from the tail of the first arrow to the tail of
+/// the second, in pixels.
 fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
     let (long, other) = (
         libm::hypot(first.0, first.1),

@@ -1,5 +1,5 @@
-//! Finds the surroundings of a block: the bodies that touch it, the points of action of forces, and the shown part of
-//! the scene.
+//! Finds what a free-body diagram shows around the block: the bodies that touch it, the points at which forces act, and
+//! the shown part of the scene.
 
 use super::arrow::{Arrow, MAX_LENGTH};
 use crate::analysis::{Analysis, Contact};
@@ -23,7 +23,7 @@ pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     bodies
 }
 
-/// Returns the distinct application points of a contact: two, or one if they coincide.
+/// Returns the application points of a contact, metres: two points, or one if they coincide.
 pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     let [a, b] = contact.application_points;
     if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) {
@@ -33,7 +33,8 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     }
 }
 
-/// Returns the shown part of the scene, metres: the whole block, and the nearby parts of its neighbours.
+/// Returns the part of the scene that the diagram shows, metres: the whole block, and the nearby parts of the bodies
+/// that touch it.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
@@ -61,22 +62,23 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// Returns the sum of the normal and the friction force on the block, N. `normal` is the unit normal into the
-    /// block.
+    /// Returns the sum of the normal and the friction force on the block at this end of the interface, N. `normal` is
+    /// the unit normal into the block.
     pub(super) fn on_block(self, normal: Vector) -> Vector {
         normal * self.normal + quarter_turn(normal) * self.friction
     }
 }
 
-/// Returns the forces at both ends of an interface. The end to the left of the unit normal ŝ comes first, as in figures
-/// 1 and 2 of the thesis.
+/// Returns the forces on the block at the two ends of an interface. The end to the left of the unit normal ŝ comes
+/// first, as in figures 1 and 2 of the thesis.
 ///
-/// Only the sum of the friction forces is known, because both act along one line. It is divided in proportion to the
-/// normal forces, so that the sum of both ends acts at the resultant of the interface. A single end has the whole force.
+/// Only the sum of the two friction forces is known, because both act along the interface. The sum is divided in
+/// proportion to the normal forces, so that the forces of both ends together act at the resultant of the interface. If
+/// the two ends coincide, the first of them has the whole force.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
-    // Friction is positive along (−n_y, n_x) on the first body. On the second body both the direction and the force change
-    // their sign.
+    // Friction is positive along (−n_y, n_x) on the first body. On the second body, the tangent and the force both
+    // change their sign, so the number stays the same.
     let friction = contact.friction_force;
     let pressed: f64 = contact.normal_forces.iter().sum();
     let share = |k: usize| {
@@ -110,7 +112,7 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     }
 }
 
-/// Returns the unit normal into a block at one of its contacts.
+/// Returns the unit normal of a contact that points into the block.
 pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     if contact.interface.bodies[0] == BodyId::Block(block) {
         contact.interface.normal
@@ -119,7 +121,7 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// Returns the body of a contact that is not the block.
+/// Returns the body at the other side of the contact, which touches the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
     if first == BodyId::Block(block) {
@@ -129,9 +131,9 @@ pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     }
 }
 
-/// Returns the point at which the unit normal ŝ is drawn, usually the middle of the interface. `single` means that the
-/// block has no other interface. In this case the point is on the edge of the neighbour, `clear` metres beyond an end
-/// of the interface, if no other body is there.
+/// Returns the point at which the unit normal ŝ is drawn, metres: usually the middle of the interface. If the block has
+/// only this interface (`single`), the point is on the outline of the touching body, `clear` metres beyond an end of
+/// the interface, if there is space for the arrow.
 pub(super) fn aside(
     scene: &Scene,
     contact: &Contact,
@@ -165,8 +167,8 @@ pub(super) fn aside(
         .unwrap_or(interface.middle())
 }
 
-/// Returns the widths in pixels of the space for arrows and their names outside the shown part: left, top, right,
-/// bottom.
+/// Returns the widths of the margins that arrows and their names need around the shown part of the scene, in pixels:
+/// left, top, right, bottom.
 pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
     let mut pads: [f64; 4] = [12.0; 4];
     for arrow in arrows {
@@ -194,7 +196,7 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     pads
 }
 
-/// True if a point lies outside the view, and the body also reaches outside on the same side.
+/// True if a point lies outside the view, and the body also extends beyond the view on the same side.
 pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
     at.x < view.min.x && body.min.x <= view.min.x
         || at.x > view.max.x && body.max.x >= view.max.x
@@ -202,8 +204,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// True if coordinates are shown. This is so for a block with exactly one interface that no robot holds. For other
-/// blocks the picture would not be readable.
+/// True if the diagram shows coordinates, which it does for a block with exactly one interface that no robot holds. For
+/// other blocks, the picture would not be readable.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

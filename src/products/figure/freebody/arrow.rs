@@ -1,4 +1,4 @@
-//! [`Arrow`]: an arrow of a free-body diagram, before it is drawn.
+//! [`Arrow`]: the position, shape and name of an arrow of a free-body diagram.
 
 use crate::drawing::symbol::Symbol;
 use crate::drawing::{Colour, PagePoint};
@@ -32,8 +32,8 @@ pub(super) struct Arrow {
 
 impl Arrow {
     /// Returns possible centres for the name of the arrow: on both sides of its shaft and beyond its tip, or around a
-    /// torque arrow. `wide` and `high` are the width and height of the name in pixels. `from` is the beginning of the
-    /// arrow on the page.
+    /// torque arrow. `wide` and `high` are the width and height of the name in pixels. `from` is the tail of the arrow
+    /// on the page.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);
@@ -48,7 +48,7 @@ impl Arrow {
         }
         let mut middles = Vec::new();
         for share in [0.8, 1.0, 0.55, 0.3] {
-            // Try the position above the shaft first, because readers look there first.
+            // The first candidate is above the shaft, because readers look for a name there first.
             let up = if -ux > 0.0 { 1.0 } else { -1.0 };
             for side in [up, -up] {
                 let (nx, ny) = (-uy * side, ux * side);

@@ -1,5 +1,5 @@
-//! [`arrows`]: creates the arrows of a free-body diagram. They show the forces on the block, or the forces that may act
-//! at each corner, and the unit normals.
+//! [`arrows`]: creates the arrows of a free-body diagram: the forces on the block, or all forces that may act at its
+//! corners, and the unit normals.
 
 use super::super::option::{Corners, Options};
 use super::super::unit::unit;
@@ -29,20 +29,20 @@ const NAMING_SWEEP: f64 = 3.4;
 /// A block whose diagonal is at least this long on the page, pixels, has arrows of full length.
 const FULL_LENGTH_DIAGONAL: f64 = 300.0;
 
-/// Returns the length of the longest arrow, pixels. It is shorter on a small block, where long arrows would cross each
-/// other.
+/// Returns the length of the longest arrow of the diagram, pixels. A small block has shorter arrows, because long
+/// arrows would cross each other.
 pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     length_factor(analysis, block, camera) * MAX_LENGTH
 }
 
-/// Returns the factor (0.5 to 1) by which arrows on a small block are shorter.
+/// Returns the factor (0.5 to 1) for the lengths of all arrows. It is 1 for a block that is large on the page.
 fn length_factor(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
     (camera.length(bounds.diagonal()) / FULL_LENGTH_DIAGONAL).clamp(0.5, 1.0)
 }
 
 /// Returns the arrows of the diagram, with lengths proportional to the forces. With [`Corners::All`] there is an arrow
-/// for every force that may act. These arrows only name forces, so all arrows of one kind have the same length.
+/// for every force that may act. These arrows only name the forces, so all arrows of one kind have the same length.
 pub(super) fn arrows(
     analysis: &Analysis,
     block: BlockId,
@@ -93,20 +93,20 @@ impl Diagram<'_> {
         &self.analysis.scene.blocks[self.block.0].id
     }
 
-    /// Converts a unit vector of the scene to a vector on the page with this length, in pixels.
+    /// Converts a direction in the scene to a vector on the page. `length` is the length of the result in pixels.
     fn on_page(&self, direction: Vector, length: f64) -> (f64, f64) {
         let (x, y) = self.camera.turn(direction);
         let scale = length / libm::hypot(x, y).max(1e-300);
         (x * scale, y * scale)
     }
 
-    /// Returns a straight arrow for each force and a torque arrow for each torque.
+    /// Returns a straight arrow for each force, and a circular arrow for each torque.
     fn force_arrows(&self, forces: &[Force]) -> Vec<Arrow> {
         let edge = unit(&self.analysis.scene, None);
         let largest = largest(forces, edge, self.options);
         let mut arrows = Vec::new();
         for force in forces {
-            // If arrows only name forces, `corner_arrows` draws the forces of interfaces.
+            // If arrows only name forces, `corner_arrows` makes the arrows of interfaces, so they are skipped here.
             let of_interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
                 && force.colour == self.options.theme.ink;
             if self.naming && of_interface {
@@ -149,8 +149,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// Returns the arrows that name forces at each corner of an interface: the normal force, and a friction force to
-    /// each side. `number` is the index of the interface.
+    /// Returns the arrows that name the forces at each corner of an interface: a normal force, and one friction force
+    /// in each of the two directions. `number` is the index of the interface, from 0.
     fn corner_arrows(&self, number: usize, contact: &Contact) -> Vec<Arrow> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -174,7 +174,7 @@ impl Diagram<'_> {
                 };
                 arrows.push(Arrow {
                     title: format!("{what} {} on block {}", symbol.stated(), self.block_name()),
-                    // Several arrows of one unknown have a common name, which is at the first of these arrows.
+                    // If several arrows belong to one unknown, only the first of them has the name.
                     symbol: (self.detail == Detail::Parts || part == 0).then_some(symbol),
                     at: corner.at,
                     along: self.on_page(direction, length),
@@ -188,8 +188,8 @@ impl Diagram<'_> {
         arrows
     }
 
-    /// Returns the arrow of the unit normal of an interface, directed into the block. The arrow is next to the arrows
-    /// of the forces. `number` is the index of the interface.
+    /// Returns the arrow of the unit normal of an interface, which points into the block. `number` is the index of the
+    /// interface, from 0.
     fn unit_normal(&self, number: usize, contact: &Contact) -> Arrow {
         let single = self.contacts.len() == 1;
         let below = if single {

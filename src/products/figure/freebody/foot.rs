@@ -1,4 +1,4 @@
-//! Draws the lower part of a free-body diagram: the verdict, the scale, notes, and the list of forces.
+//! Draws the lower part of a free-body diagram: the verdict, the scale of the arrows, notes, and the list of forces.
 
 use super::arrow::WIDTH;
 use super::diagram::longest;
@@ -15,15 +15,16 @@ use crate::figure::verdict;
 use crate::figure::words::{quantity, round_below_in};
 
 impl Sheet<'_> {
-    /// Returns the list of forces, with moments about the centroid of the block.
+    /// Returns the table of the forces on the block, with their moments about the centroid of the block.
     pub(super) fn table(&self) -> Table {
         let body = &self.analysis.scene.blocks[self.block.0];
         let size = body.body.polygon.bounds().diagonal();
         Table::new(&self.forces, body.centroid, size, self.analysis.scene.units)
     }
 
-    /// Draws the verdict, the scale, the notes and the list of forces below `top` (pixels). `nameless` is the number of
-    /// names for which there is no space. Also returns the position of the lower end, in pixels.
+    /// Draws the verdict, the scale, the notes and the list of forces from the height `top` (pixels) downwards.
+    /// `nameless` is the number of names for which the picture has no space. Also returns the y coordinate below the
+    /// last line, in pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let mut group = Group::with_class("values");
@@ -63,8 +64,8 @@ impl Sheet<'_> {
         (group, y)
     }
 
-    /// Draws the mark and the text of the verdict, and the scale of the arrows, in one line. `y` is the height of the
-    /// line in pixels.
+    /// Draws the symbol and the text of the verdict, and the scale of the arrows, in one line. `y` is the y coordinate
+    /// of this line on the page, in pixels.
     fn verdict_and_scale(&self, y: f64) -> Vec<Item> {
         let theme = &self.options.theme;
         let found = &self.analysis.frames[self.frame];
@@ -94,8 +95,8 @@ impl Sheet<'_> {
         items
     }
 
-    /// Returns the legend entry for the scale: an arrow of a round force. Returns `None` if the lengths of the arrows
-    /// do not show magnitudes.
+    /// Returns the legend entry for the scale of the arrows: an arrow for a round number of newtons. Returns `None` if
+    /// the lengths of the arrows do not show magnitudes.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below_in(largest, self.analysis.scene.units.force());
@@ -110,8 +111,8 @@ impl Sheet<'_> {
         })
     }
 
-    /// Returns notes for the reader. They state that lengths do not show magnitudes, which forces and names are left
-    /// out, or that the forces do not balance.
+    /// Returns the notes below the picture: whether lengths show magnitudes, how many forces and names are left out,
+    /// and whether the forces on the block balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {
@@ -146,7 +147,8 @@ impl Sheet<'_> {
         notes
     }
 
-    /// Describes the diagram: its arrows, the list of forces, and the points where forces act.
+    /// Returns the description of the diagram for screen readers: its arrows, the list of forces, and the points where
+    /// forces act.
     pub(super) fn described(&self) -> String {
         let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
         let mut stated = self.table().stated();
