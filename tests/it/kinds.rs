@@ -151,7 +151,7 @@ fn a_kernel_of_one_leaves_a_point() {
         "blocks": [structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0)] });
     let scene = structure::scene(&file);
     let svg = svg::write(&draw(&Analysis::new(&scene), Kind::Kernel));
-    assert!(svg.contains("every safe stretch is a point"), "{svg}");
+    assert!(svg.contains("every safe part is a point"), "{svg}");
     assert!(
         svg.contains("Between a and the ground: 0 m of 2 m safe"),
         "{svg}"

@@ -1,4 +1,4 @@
-//! [`segments`]: computes the straight segments of the line of thrust, block by block.
+//! [`segments`]: computes the line of thrust as straight segments, block by block.
 //!
 //! A segment lies on the true line of action of a force. In a block between two bodies the line of thrust is a funicular
 //! polygon. Its construction, in [`BlockForces::funicular`]:
@@ -60,7 +60,7 @@ pub(crate) struct ThrustSegment {
     pub through: bool,
 }
 
-/// Returns the segments of the line of thrust, block by block in placing order.
+/// Returns the segments of the line of thrust of a frame, block by block in placing order.
 pub(crate) fn segments(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<ThrustSegment> {
     let (pressing, loads) = (pressing(scene, found), loads(scene));
     let mut segments = Vec::new();
@@ -88,7 +88,8 @@ struct Line {
     force: Vector,
 }
 
-/// Returns the forces that bodies and robots exert on each block, indexed by block.
+/// Returns the forces that other bodies and robots exert on each block, with their lines of action. The list is indexed
+/// by block.
 fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, found);
@@ -126,8 +127,8 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     lines
 }
 
-/// Returns the weight and the loads of each block, indexed by block. A torque without a force shifts the line of action
-/// of the weight.
+/// Returns the weight and the loads of each block with their lines of action, indexed by block. A load that is only a
+/// torque shifts the line of action of the weight.
 fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     let mut torques = vec![0.0; scene.blocks.len()];
     for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
@@ -159,8 +160,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     lines
 }
 
-/// Returns a point on the line of action of the sum of a force and a torque. The point is `at`, shifted perpendicular
-/// to the force by torque / force.
+/// Returns a point on the line of action of a force at `at` combined with a torque. The combination acts along a line
+/// that is shifted perpendicular to the force by torque / force.
 fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
     let squared = force.norm_squared();
     if torque == 0.0 || squared <= 0.0 {
@@ -186,8 +187,8 @@ impl BlockForces<'_> {
         self.polygon().bounds().diagonal()
     }
 
-    /// Returns the funicular polygon of the block. Returns `None` if no such polygon lies inside the block. Also
-    /// returns `None` unless one or two bodies or robots press on the block.
+    /// Returns the funicular polygon of the block. Returns `None` if no such polygon lies inside the block, if the
+    /// forces do not balance, or unless exactly one or two forces of bodies or robots act on the block.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),
@@ -209,7 +210,7 @@ impl BlockForces<'_> {
             .find_map(|loads| self.funicular(first, &loads, last))
     }
 
-    /// True if the forces on the block are in equilibrium. In a structure that falls, they may not be.
+    /// True if the forces on the block are in equilibrium. In a structure that falls, the forces may be out of balance.
     fn balances(&self) -> bool {
         let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
         for line in self.pressing.iter().chain(self.loads) {
@@ -220,8 +221,8 @@ impl BlockForces<'_> {
         sum.norm() <= BALANCE_TOL * all && moment.abs() <= BALANCE_TOL * all * self.size()
     }
 
-    /// Returns the resultant of the weight and all loads. Returns `None` if there is only one of these forces, or if
-    /// their sum is zero.
+    /// Returns the resultant of the weight and all loads of the block. Returns `None` if only one of these forces acts,
+    /// or if their sum is zero.
     fn total_load(&self) -> Option<Line> {
         let centroid = self.block.centroid;
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
@@ -235,8 +236,8 @@ impl BlockForces<'_> {
     }
 
     /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load if `last` is
-    /// `None`. The polygon meets the lines of action of these loads in this order. Returns `None` if the polygon does
-    /// not close or leaves the block.
+    /// `None`. The polygon meets the lines of action of `loads` in their order. Returns `None` if it does not reach its
+    /// end or leaves the block.
     fn funicular(
         &self,
         first: &Line,
@@ -251,7 +252,7 @@ impl BlockForces<'_> {
             let vertex = intersection(at, force, load, tolerance)?;
             let ends_here = last.is_none() && number + 1 == loads.len();
             if ends_here && matches!(load.origin, ForceOrigin::Load(_)) {
-                // This is the last load and there is no other joint, so the line ends at the point where the load acts.
+                // The block has no second joint, so the line of thrust ends at the point where the last load acts.
                 path.extend(self.segment(load.origin, (load.at, at), load.force));
                 continue;
             }
@@ -261,7 +262,7 @@ impl BlockForces<'_> {
             }
             at = vertex;
             force += load.force;
-            // After the last load only the force of the other joint remains.
+            // After the last load, the force in the line is the force of the second joint.
             origin = match last {
                 Some(last) if number + 1 == loads.len() => last.origin,
                 _ => ForceOrigin::Resultant,
@@ -273,7 +274,7 @@ impl BlockForces<'_> {
         }
         if let Some(last) = last {
             let miss = cross(last.at - at, force).abs() / force.norm().max(f64::MIN_POSITIVE);
-            // Each intersection adds a rounding error.
+            // Allow ten times the tolerance, because each intersection adds a rounding error.
             if miss > 10.0 * tolerance {
                 return None;
             }
@@ -288,7 +289,7 @@ impl BlockForces<'_> {
         (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
-    /// Creates a segment on a true line of action; `None` if the segment would have length 0.
+    /// Creates a segment on a true line of action; `None` if the two points coincide.
     fn segment(
         &self,
         origin: ForceOrigin,
@@ -306,7 +307,7 @@ impl BlockForces<'_> {
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
-    /// True if nine points on the segment between two points all lie in or near the block.
+    /// True if the segment between two points lies in or near the block. Nine points on the segment are tested.
     fn within(&self, from: Point, to: Point) -> bool {
         let near = NEARLY_INSIDE * self.polygon().area() / self.size();
         (0..=8).all(|i| {
@@ -319,8 +320,9 @@ impl BlockForces<'_> {
         })
     }
 
-    /// Returns the schematic path. Between two forces, the path is a straight line. Otherwise it has a straight line
-    /// from every joint and load to a common point.
+    /// Returns a schematic path for a block without a funicular polygon. If two forces act on the block, the path is
+    /// the straight line between them. Otherwise a straight line leads from each force to a common point. The weight is
+    /// not shown.
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
@@ -347,8 +349,9 @@ impl BlockForces<'_> {
             .collect()
     }
 
-    /// Returns the common point of a schematic path. The point is the mean of the points of the forces, weighted with
-    /// their magnitudes. If this mean lies outside the block or there are only two forces, the point is the centroid.
+    /// Returns the common point of a schematic path: the mean of the points at which the forces act, weighted with the
+    /// magnitudes of the forces. If this mean lies outside the block, or for fewer than three forces, returns the
+    /// centroid of the block.
     fn meeting(&self, given: &[&Line]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;
@@ -364,8 +367,8 @@ impl BlockForces<'_> {
     }
 }
 
-/// True if no segment of the path points backwards, relative to the line from the beginning to the end of the path. A
-/// path that turns back would cover itself. Segments of loads are side branches and do not count.
+/// True if no segment of the path points backwards, compared with the straight line from the beginning to the end of
+/// the path. A path that turns back would cover itself. Segments of loads are side branches and are not tested.
 fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     let main = || {
         path.iter()
@@ -378,15 +381,14 @@ fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
     main().all(|s| (s.to - s.from).dot(&chord) >= -tolerance * chord.norm())
 }
 
-/// Returns the intersection of two lines of action: of a force through `at`, and of a load. If both are the same line
-/// within `near` metres, returns the point of this line nearest to the load's point. Returns `None` for other parallel
-/// lines.
+/// Returns the intersection of the line of action of `force` through `at` and the line of action of a load. If the two
+/// lines coincide within `near` metres, returns the point on the line that is nearest to the load. Returns `None` for
+/// other parallel lines.
 fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
     let between = load.at - at;
-    // Nearly parallel lines either are the same line or do not meet. Rounding errors would determine the position of
-    // any other intersection.
+    // Treat nearly parallel lines as parallel: rounding errors would determine the position of their intersection.
     if sine.abs() < LENGTH_TOL {
         let off = cross(between, a).abs();
         return (off <= near).then(|| at + a * between.dot(&a));
@@ -399,7 +401,7 @@ fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Poin
         .then_some(corner)
 }
 
-/// Returns all permutations of a few loads. The first permutation is the given order.
+/// Returns all permutations of a few loads. The first permutation has the order of `loads`.
 fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
     let Some((first, rest)) = loads.split_first() else {
         return vec![Vec::new()];

@@ -1,4 +1,4 @@
-//! [`gallery`]: draws the figures of the thesis again, from the scenes of this crate.
+//! [`gallery`]: reproduces the figures of the thesis from scenes that are part of this crate.
 
 use super::caption::caption;
 use super::freebody::freebody;
@@ -118,10 +118,11 @@ const PLATES: [(&str, Subject); 10] = [
     ),
 ];
 
-/// Draws all figures of the thesis. Figures 8 and 9 also show variants with effects that the thesis leaves out.
+/// Draws figures 1 to 9 of the thesis. Figures 8 and 9 have additional panels with effects that the thesis does not
+/// consider.
 ///
-/// Arrows are drawn as in the thesis: normal and friction forces separately, and the largest single unknown is one unit
-/// edge long.
+/// Arrows are drawn as in the thesis: normal and friction forces have separate arrows, and the arrow of the largest
+/// single unknown is one unit edge long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
     PLATES
         .iter()
@@ -145,7 +146,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         }
         Subject::Shapes => (
             shapes(theme),
-            "The shapes that come with the triangular lattice, each with its cells and its lattice origin.".into(),
+            "The predefined shapes on the triangular lattice, each with its cells and its origin.".into(),
         ),
         Subject::Freebody(text, block) => {
             let scene = read(text);

@@ -1,5 +1,5 @@
-//! [`Joint`]: the relative motion of two bodies at an interface. The joint is a hinge if only one end stays in contact,
-//! and a slip if the interface slides.
+//! [`Joint`]: the relative motion of two bodies at an interface in a mechanism. The joint is a hinge if only one end of
+//! the interface stays in contact, and a slip if the interface slides.
 //!
 //! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
 //! with exactly this speed slips with friction. A contact that opens faster is free.
@@ -31,7 +31,7 @@ pub(crate) struct Joint {
     pub lift: f64,
 }
 
-/// Returns the joints of a frame. A joint is an interface whose bodies move relative to each other.
+/// Returns the joints of a frame: the interfaces whose two bodies move relative to each other in the mechanism.
 pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let found = &analysis.frames[frame];
     let motions = by_block(analysis, found);
@@ -69,13 +69,15 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     found.contacts.iter().enumerate().filter_map(one).collect()
 }
 
-/// Returns the joint at a contact; `None` if the two bodies move together. `relative` has the relative velocities at
-/// the application points. Speeds up to `noise` count as zero. The caller sets the contact index of the result.
+/// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the
+/// relative velocities at the two application points. `turning` is the relative spin times a length. Speeds up to
+/// `noise` count as zero. The caller sets the contact index of the result.
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
     let opening = relative.map(|v| v.dot(&interface.normal));
-    // An end stays in contact if it does not open, or if it opens only by the dilation μ of sliding.
+    // An end of the interface stays in contact if it does not open, or if it opens at μ times its sliding speed
+    // (dilation).
     let touches = [0, 1].map(|k| {
         let free = opening[k] - interface.friction * along[k].abs();
         opening[k] <= noise || free.abs() <= noise
@@ -84,7 +86,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     let turns_about = match touches {
         [true, false] => Some(points[0]),
         [false, true] => Some(points[1]),
-        // The two points nearly coincide. Both stay in contact while the bodies turn about them.
+        // The bodies turn although both points stay in contact, so the two points nearly coincide.
         [true, true] if turning > 5.0 * noise => Some(points[0]),
         _ => None,
     };
@@ -119,7 +121,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
     })
 }
 
-/// Returns the motion of each block, indexed by block; `None` for a block at rest.
+/// Returns the motion of each block in the mechanism of the frame, indexed by block; `None` for a block at rest.
 fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
     for motion in &found.mechanism {

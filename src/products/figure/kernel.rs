@@ -1,4 +1,4 @@
-//! Draws the kernels. A kernel is the safe part of an interface; a mark shows the position of the resultant in it.
+//! Draws the safe part (kernel) of each interface, and a mark at the position of the resultant in it.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -29,7 +29,7 @@ impl PanelContent for Kernel {
         About {
             name: "kernel",
             help: "The safe part of each interface, and the position of the resultant in it",
-            title: "Resultants in the safe stretches of interfaces",
+            title: "Resultants in the safe parts of interfaces",
             ..About::default()
         }
     }
@@ -53,10 +53,10 @@ impl PanelContent for Kernel {
         let frames = &context.analysis.frames;
         let mut entries = Vec::new();
         if frames.iter().any(|f| !f.contacts.is_empty()) {
-            let safe = "safe stretch of an interface".to_owned();
+            let safe = "safe part of an interface".to_owned();
             entries.push(Entry::Sign(safe_sign, WIDE, safe));
             if scene.kernel > 0.0 {
-                let rest = format!("unsafe, for the kernel of {}", scene.kernel);
+                let rest = format!("unsafe part, for a kernel of {}", scene.kernel);
                 entries.push(Entry::Sign(rest_sign, WIDE, rest));
             }
         }
@@ -71,7 +71,7 @@ impl PanelContent for Kernel {
             entries.push(Entry::Sign(within_sign, 9.0, "resultant".into()));
         }
         if !ends.is_empty() {
-            let what = "resultant at the end of the safe stretch".to_owned();
+            let what = "resultant at the end of the safe part".to_owned();
             entries.push(Entry::Sign(end_sign, 11.0, what));
         }
         entries.extend(legend::robots(context));
@@ -83,7 +83,7 @@ impl PanelContent for Kernel {
 
         match found.verdict {
             Verdict::Stable => {}
-            Verdict::Unstable => return "no resultants, for no forces balance it".into(),
+            Verdict::Unstable => return "no resultants, because no forces balance the structure".into(),
             Verdict::Undecided => {
                 return format!("no resultants; {}", verdict::reason(scene, found));
             }
@@ -100,7 +100,7 @@ impl PanelContent for Kernel {
             }
         }
         let Some((most, contact)) = nearest else {
-            return "every safe stretch is a point".into();
+            return "every safe part is a point".into();
         };
         let at_end = bearings
             .iter()
@@ -109,26 +109,26 @@ impl PanelContent for Kernel {
             .count();
         if at_end > 1 {
             return format!(
-                "in the balance shown {at_end} resultants sit at an end of the safe stretch"
+                "in the forces shown, {at_end} resultants act at an end of the safe part"
             );
         }
         let pair = description::pair(scene, contact.interface.bodies);
         if at_end == 1 {
             return format!(
-                "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
+                "in the forces shown, the resultant between {pair} acts at the end of the safe part"
             );
         }
         if most < 0.005 {
-            return "in the balance shown every resultant sits in the middle".into();
+            return "in the forces shown, every resultant acts in the middle".into();
         }
         let most = percent(most);
         format!(
-            "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe stretch"
+            "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe part"
         )
     }
 }
 
-/// True if a resultant lies at an end of the safe part, or outside it.
+/// True if a resultant acts at an end of the safe part of its interface, or outside this part.
 fn at_end(bearing: &Bearing) -> bool {
     bearing.eccentricity.is_some_and(|share| share >= FULL)
 }
@@ -138,7 +138,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the radius of a dot, in pixels. `unit` is the unit edge in pixels.
+/// Returns the radius of the dot of a resultant, in pixels. `unit` is the unit edge in pixels.
 fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
@@ -205,7 +205,8 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     group
 }
 
-/// Draws a mark at the point of action of each resultant, if the frame stands. Calls `ink` with each position.
+/// Draws a mark at the point of action of each resultant, if the frame stands. Calls `ink` with the position of each
+/// mark on the page.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
@@ -227,7 +228,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
         let amount = quantity(contact.resultant.force.norm(), scene.units.force());
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             let share = percent(share);
-            format!(", {share} of the way from the middle to the end of the safe stretch")
+            format!(", {share} of the way from the middle to the end of the safe part")
         });
         let title = format!("Resultant between {pair}: {amount}{place}");
         let path = Path::filled(outline, fill).cased(theme.page, 0.28 * radius);
@@ -242,8 +243,8 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// Returns the colour and the outline of the mark of a resultant. The mark is a disc inside the safe part, a diamond at
-/// its end, and a red diamond outside.
+/// Returns the colour and the outline of the mark of a resultant: a disc for a resultant inside the safe part, a
+/// diamond at an end of this part, and a red diamond outside it.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;

@@ -1,4 +1,4 @@
-//! [`Kind`]: lists the kinds of figures. Each kind is a separate type in a separate file.
+//! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a file of its own.
 
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
@@ -73,7 +73,7 @@ impl Kind {
         Kind::Compare,
     ];
 
-    /// Returns the content of the panels of this kind.
+    /// Returns the implementation of this kind of figure.
     pub(crate) fn content(self) -> &'static dyn PanelContent {
         match self {
             Kind::Forces => &FORCES,
@@ -91,30 +91,30 @@ impl Kind {
         }
     }
 
-    /// Returns the name of the kind, in lower case.
+    /// Returns the name of this kind of figure in lower case, such as `mechanism`.
     pub fn name(self) -> &'static str {
         self.content().about().name
     }
 
-    /// Returns the kind with this name; `None` if no kind has this name.
+    /// Returns the kind of figure with this name; `None` if there is no such kind.
     pub fn from_name(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Returns one line that describes the figure, for a list of all kinds.
+    /// Returns a line that describes this kind of figure, for a list of all kinds.
     pub fn help(self) -> &'static str {
         self.content().about().help
     }
 
-    /// Returns the margins that a figure of this analysis shows if they have been computed; `None` if the figure shows
-    /// no margins.
+    /// Returns the optional margins: a figure of this analysis shows them if they have been computed. Returns `None` if
+    /// the figure never shows margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
-    /// Analyses a scene, with everything that a figure of this kind shows: margins, the sensitivity of a margin, the
-    /// forces that a block can carry. If `asked` names no margin or no block, the default ones of the scene are used.
+    /// Analyses a scene, and also computes what a figure of this kind shows: margins, the sensitivity of a margin, and
+    /// the forces that a block can carry. If `asked` names no margin or block, those that suit the scene are used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         let mut asked = *asked;
@@ -164,13 +164,14 @@ impl Kind {
         self.content().about().needs_capacity
     }
 
-    /// True if it needs the derivatives of a margin, which the analysis only computes on request
+    /// True if the figure needs the derivatives of a margin. The analysis computes them only on request
     /// ([`analysis::Options::sensitivity`](crate::analysis::Options::sensitivity)).
     pub fn needs_sensitivity(self) -> bool {
         self.content().about().needs_sensitivity
     }
 
-    /// Returns a copy of the options in which the values that the kind determines itself are replaced.
+    /// Returns a copy of the options for a figure of this kind. A kind whose panels share one scale of arrows overrides
+    /// the option `scale`.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
         if self.content().about().shares_arrow_scale {
@@ -179,7 +180,8 @@ impl Kind {
         options
     }
 
-    /// Computes the data that all panels of a figure of this kind share.
+    /// Computes the data that all panels of a figure of this kind have in common, such as the arrows and the shown part
+    /// of the scene.
     pub(crate) fn context<'a>(
         self,
         analysis: &'a Analysis,

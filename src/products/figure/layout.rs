@@ -1,4 +1,4 @@
-//! [`Layout`]: the number of columns of panels, their width and their scale.
+//! [`Layout`]: chooses the number of columns, the width and the scale of the panels of a figure.
 
 use super::context::FigureContext;
 use super::dimension;
@@ -56,17 +56,18 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Computes a layout of `count` panels that fits on one page if possible.
+    /// Computes a layout for `count` panels that fits on one page if possible.
     pub fn new(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Page)
     }
 
-    /// Computes a layout of `count` panels whose rows may fill several pages.
+    /// Computes a layout for `count` panels whose rows may be distributed over several pages.
     pub fn roomy(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// Returns a layout whose panels also fit `other`: it has the larger width and the smaller scale of both.
+    /// Combines this layout with `other`: the result has the larger panel width and the smaller scale of the two, so
+    /// the panels of both fit.
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;
@@ -78,7 +79,7 @@ impl Layout {
         }
     }
 
-    /// Returns lower bounds of the width and height of the page, pixels.
+    /// Returns lower bounds for the width and the height of the page, pixels.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -138,17 +139,18 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Returns the width available for each panel, pixels.
+    /// Returns the width available for each panel in a row of `columns` panels, pixels.
     fn room(&self, columns: usize) -> f64 {
         ((self.across - (columns - 1) as f64 * self.gap) / columns as f64).max(1.0)
     }
 
-    /// Returns the number of columns: the largest number for which panels are not too small. If the figure is then too
-    /// high for a page, there are more columns: the least number for which the figure fits. If no number fits, the
-    /// result is the number with the least height.
+    /// Chooses the number of columns: the largest number up to 3 for which the panels are not too small. If the figure
+    /// is then too high for a page, chooses the smallest larger number for which it fits, or the number with the least
+    /// height if none fits.
     fn columns(&self, fit: Fit) -> usize {
         let (count, across) = (self.count, self.across);
-        // If the rows may fill several pages, panels may have a small scale, but they must not be narrow.
+        // If the rows may be distributed over several pages, panels may have a small scale, but they must not be
+        // narrow.
         let fits = |columns: usize| {
             (fit == Fit::Rows || self.scale(columns) * self.context.unit >= MIN_UNIT_EDGE)
                 && self.room(columns) >= MIN_PANEL_WIDTH.min(across)
@@ -177,14 +179,14 @@ impl Row<'_> {
         enough.or(least).copied().unwrap_or(roomy)
     }
 
-    /// Returns the height of all rows of the figure, pixels.
+    /// Returns the height of all rows of panels together, pixels, if a row has `columns` panels.
     fn height(&self, columns: usize) -> f64 {
         let words = words(self.context, self.count, self.room(columns)) + VERDICT_HEIGHT;
         let panel = self.context.view.height() * self.scale(columns) + words;
         self.count.div_ceil(columns) as f64 * panel
     }
 
-    /// Returns the scale of the panels, pixels per metre.
+    /// Returns the scale of the panels in pixels per metre, if a row has `columns` panels.
     fn scale(&self, columns: usize) -> f64 {
         let (context, count) = (self.context, self.count);
         let room = self.room(columns);
@@ -195,8 +197,8 @@ impl Row<'_> {
             _ => 360.0,
         };
         let high = f64::min(high, context.options.height.unwrap_or(f64::INFINITY));
-        // With a given page width or many columns, the available width limits the scale. Otherwise panels are at least
-        // as wide as captions need.
+        // If the page width is given or there are many columns, the available width limits the scale. Otherwise panels
+        // are at least as wide as their captions need.
         let wide = match context.options.width {
             Some(_) => room,
             None if columns > 3 => room,
@@ -205,12 +207,13 @@ impl Row<'_> {
         let scale = ((wide - dimensions(context)).max(1.0) / context.view.width())
             .min(high / context.view.height())
             .min(MAX_UNIT_EDGE / context.unit);
-        // If a scene is so small that its scale is infinite, use 1.
+        // The scale is infinite if the size of the scene is 0 or tiny. Use 1 in this case.
         if scale.is_finite() { scale } else { 1.0 }
     }
 }
 
-/// Returns the total width that dimension lines need next to a picture, pixels.
+/// Returns the total width of the spaces for dimension lines on both sides of a picture, pixels; 0 without dimension
+/// lines.
 fn dimensions(context: &FigureContext<'_>) -> f64 {
     if context.options.dimensions {
         2.0 * dimension::ASIDE
@@ -219,8 +222,8 @@ fn dimensions(context: &FigureContext<'_>) -> f64 {
     }
 }
 
-/// Returns the height of the longest caption, pixels; 0 if there are no captions. `panel` is the width of a panel in
-/// pixels.
+/// Returns the height of the caption with the most lines, pixels; 0 if there are no captions. `panel` is the width of a
+/// panel in pixels.
 fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     let (scene, size) = (&context.analysis.scene, context.options.theme.sizes.caption);
     if !context.options.captions || count < 2 {
@@ -233,7 +236,7 @@ fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     lines.max().unwrap_or(0) as f64 * 1.3 * size
 }
 
-/// Returns the margin of a figure, pixels. `width` is the width of the page in pixels.
+/// Returns the width of the margin around a figure on a page of this width, both in pixels.
 fn margin(width: f64) -> f64 {
     (0.025 * width).min(MAX_MARGIN)
 }

@@ -69,8 +69,8 @@ const SAME_SHARE: f64 = 1e-6;
 /// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// Returns the joints to mark: all joints at their limit. If no joint is at its limit, returns the joint nearest to its
-/// limit, if the figure names this joint.
+/// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
+/// its limit, provided that the text of the figure names it.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);
@@ -95,7 +95,8 @@ impl<'a> Marked<'a> {
         Self { contact, reached }
     }
 
-    /// Returns the diamond that marks the joint: filled at the limit, open otherwise. `radius` is in pixels.
+    /// Returns the diamond that marks the joint at `at`: filled if the joint is at its limit, otherwise open. `radius`
+    /// is in pixels.
     pub(crate) fn sign(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
         match self.reached {
             true => sign(at, radius, theme),
@@ -106,22 +107,23 @@ impl<'a> Marked<'a> {
 
 /// Returns the joint nearest to its limit; `None` if every joint is far from its limit.
 fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
-    // If several shares are equal except for rounding, take the first, so that rounding errors do not change the name.
+    // If several joints are equally near to their limits except for rounding, take the first, so that rounding errors
+    // do not change the result.
     let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
     let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
 }
 
-/// True if a figure names the joint nearest to its limit. False for printed or zoomed figures, and for several panels,
-/// which have no space for the sentence.
+/// True if the text of a figure names the joint nearest to its limit. False for printed or zoomed figures. Also false
+/// for several panels, because they have no space for this text.
 fn names_nearest(context: &FigureContext<'_>) -> bool {
     let options = context.options;
     context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
 }
 
-/// Describes the joints at their limit. If no joint is at its limit, describes the joint nearest to its limit. Empty if
-/// every joint is far from its limit. Also empty for printed or zoomed figures and for several frames, whose panels
-/// have no space for the sentence.
+/// Describes the joints at their limit, or the joint nearest to its limit if none is at its limit. The text is empty if
+/// every joint is far from its limit. It is also empty for printed or zoomed figures, and for several frames, whose
+/// panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, found);
@@ -145,12 +147,12 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     }
 }
 
-/// Returns the sign of a joint at its limit: a diamond. `radius` is in pixels.
+/// Returns the symbol of a joint at its limit: a filled diamond. `radius` is in pixels.
 fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(diamond(at, 1.5 * radius), theme.ink).cased(theme.page, 0.35 * radius)
 }
 
-/// Returns the sign of the joint nearest to its limit: an open diamond.
+/// Returns the symbol of the joint nearest to its limit: an open diamond. `radius` is in pixels.
 fn open_sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     let outline = diamond(at, 1.5 * radius);
     Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
@@ -161,7 +163,7 @@ fn diamond(at: PagePoint, r: f64) -> Outline {
     Outline::ring(corners.map(|(x, y)| at.moved(x, y)))
 }
 
-/// Draws the sign of a joint at its limit for the legend.
+/// Draws the symbol of a joint at its limit for the legend.
 pub(crate) fn key_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![sign(at.moved(5.5, 0.0), 3.2, theme).into()]
 }

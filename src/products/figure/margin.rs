@@ -1,5 +1,5 @@
-//! Draws a collapse margin: the structure in its present position, and with dashed lines how it would fall just beyond
-//! the margin.
+//! Draws a collapse margin: the structure in its present position, and dashed lines that show how it would fall just
+//! beyond the margin.
 //!
 //! The options choose the [parameter](Toward). The figure shows the end of the interval that is nearer to the present
 //! state. If gravity is turned, a dashed line shows its present direction, and an arrow shows its direction at the
@@ -53,7 +53,7 @@ impl PanelContent for CollapseMargin {
             frame,
             options,
         } = of;
-        // If the loads grow, they are drawn as in a figure of the line of thrust.
+        // Loads are drawn in the same way as in a figure of the line of thrust.
         thrust::marks(analysis, frame, options, newtons_per_unit)
     }
 
@@ -112,7 +112,7 @@ impl PanelContent for CollapseMargin {
                 let along = (there.x - from.x, there.y - from.y);
                 let group = Group::with_class("gravity").titled(match toward {
                     Toward::HorizontalLoad => {
-                        format!("In addition to gravity, {} of it across", percent_of(edge))
+                        format!("In addition to gravity, a horizontal load of {} of each weight", percent_of(edge))
                     }
                     _ => format!("Gravity turned by {}", degrees(edge.abs())),
                 });
@@ -145,12 +145,12 @@ impl PanelContent for CollapseMargin {
             entries.extend(mechanism::joint_entries(&joints.concat()));
             match toward {
                 Toward::Tilt => {
-                    let gravity = "gravity turned as far as it may".to_owned();
+                    let gravity = "direction of gravity at the margin".to_owned();
                     entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
                 }
                 Toward::HorizontalLoad => {
                     let push =
-                        "largest push perpendicular to gravity, in addition to it".to_owned();
+                        "largest additional load perpendicular to gravity".to_owned();
                     entries.push(Entry::Sign(push_sign, 26.0, push));
                 }
                 Toward::LoadFactor => {}
@@ -168,15 +168,15 @@ impl PanelContent for CollapseMargin {
     }
 }
 
-/// Returns the value of the parameter at the margin, and the mechanism just beyond it. Returns `None` if the frame does
-/// not stand or if no margin was found.
+/// Returns the value of the parameter at the margin, and the mechanism just beyond the margin. `toward` selects the
+/// parameter. Returns `None` if the frame does not stand or if no margin was found.
 fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
     let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
     analysis.edge(frame, toward).filter(|_| stands)
 }
 
-/// Returns a copy of the analysis in which the frame falls with the mechanism at the margin, and the value of the
-/// parameter at the margin. Returns `None` if there is no margin.
+/// Returns a copy of the analysis in which the frame falls by the mechanism just beyond its margin, and the value of
+/// the parameter at the margin. Returns `None` if there is no margin.
 fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
@@ -186,8 +186,8 @@ fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis,
     Some((ghost, edge))
 }
 
-/// Returns the displacements of the blocks at the margin, indexed by block, and the value of the parameter at the
-/// margin. Returns `None` if there is no margin. `unit` is the unit edge in metres.
+/// Returns how the blocks are displaced by the mechanism just beyond the margin, indexed by block, and the value of the
+/// parameter at the margin. Returns `None` if there is no margin. `unit` is the unit edge in metres.
 fn gone(
     analysis: &Analysis,
     frame: usize,
@@ -218,11 +218,11 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
             let (sin, cos) = sin_cos_degrees(edge);
             Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
         }
-        // The ratio of the lengths of both arrows is the ratio of horizontal load and weight.
+        // The arrow of the horizontal load is to the arrow of gravity as the load is to the weight.
         Toward::HorizontalLoad => quarter_turn(down) * edge,
         Toward::LoadFactor => return None,
     };
-    // If the arrow points to the right, move it to the left, so that the arrow does not touch the structure.
+    // If the arrow extends to the right, move its tail to the left, so that the arrow does not touch the structure.
     let beyond = (down.x.max(there.x)).max(0.0);
     let left = structure.min.x
         - GRAVITY_DISTANCE * diagonal

@@ -170,7 +170,7 @@ fn the_figure_of_a_margin_tells_the_interval_of_the_result() {
                 "{interval}"
             );
             assert!(
-                words.contains("without end; falls once they are 0.3333 times"),
+                words.contains("without limit; falls once they are 0.3333 times"),
                 "{words}"
             );
         }

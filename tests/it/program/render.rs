@@ -265,8 +265,8 @@ fn every_kind_of_figure_says_what_it_shows() {
         ),
         (
             "kernel",
-            "no forces balance it",
-            "safe stretch of an interface",
+            "no forces balance the structure",
+            "safe part of an interface",
         ),
         (
             "utilisation",

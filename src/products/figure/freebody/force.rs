@@ -1,4 +1,5 @@
-//! [`Force`]: a force on the block with its name, as it is listed. [`forces`] collects all of them.
+//! [`Force`]: a force on a block with the name that a free-body diagram gives it. [`forces`] collects all forces on the
+//! block.
 
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
@@ -41,7 +42,8 @@ impl Force {
         cross(self.at - about, self.force) + self.torque
     }
 
-    /// Describes the force and its magnitude; `on` is the name of the block.
+    /// Describes the force and its magnitude, such as `Weight mg on block a: 6 N at 270°`. `on` is the name of the
+    /// block.
     pub(super) fn title(&self, on: &str, units: UnitsEntry) -> String {
         let amount = if self.force.norm() > 0.0 || self.torque == 0.0 {
             amount(self.force, units)
@@ -67,7 +69,7 @@ pub(super) enum Detail {
     Resultants,
 }
 
-/// Returns the level of detail for a block with `count` interfaces.
+/// Returns how detailed the forces of interfaces are drawn for a block with `count` interfaces.
 pub(super) fn detail(count: usize, options: &Options) -> Detail {
     match (options.corners, count) {
         (_, 0..=1) => Detail::Parts,
@@ -113,7 +115,7 @@ struct ForceSource<'a> {
 }
 
 impl ForceSource<'_> {
-    /// Returns the weight of the block, if it has one.
+    /// Returns the weight of the block; `None` if the weight is 0.
     fn weight(&self) -> Option<Force> {
         let scene = &self.analysis.scene;
         let block = &scene.blocks[self.block.0];
@@ -128,7 +130,7 @@ impl ForceSource<'_> {
         })
     }
 
-    /// Returns the loads on the block. A load with a force and a torque has an entry for each.
+    /// Returns the loads on the block. A load with a force and a torque has two entries, one for each.
     fn loads(&self) -> Vec<Force> {
         let loads = self.analysis.scene.loads.iter();
         let loads = loads.filter(|load| load.block == self.block);
@@ -157,7 +159,8 @@ impl ForceSource<'_> {
         forces
     }
 
-    /// Returns the forces of an interface in the level of detail of the figure. `number` counts interfaces from 1.
+    /// Returns the forces of an interface on the block, at the level of detail of the figure. `number` is the number of
+    /// the interface, from 1.
     fn interface(&self, number: usize, contact: &Contact) -> Vec<Force> {
         match detail(self.contacts.len(), self.options) {
             Detail::Parts => self.normal_and_friction(contact),
@@ -166,8 +169,9 @@ impl ForceSource<'_> {
         }
     }
 
-    /// Returns the normal and the friction forces at both ends of an interface. Friction has two names, one for each
-    /// direction. With [`Corners::All`] both names are listed; the friction that does not act has magnitude 0.
+    /// Returns the normal force and the friction force at each end of an interface. A friction force is named by its
+    /// direction: `fl` to the left, `fr` to the right. With [`Corners::All`] both names are listed, and the force that
+    /// does not act is 0.
     fn normal_and_friction(&self, contact: &Contact) -> Vec<Force> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -193,7 +197,7 @@ impl ForceSource<'_> {
         forces
     }
 
-    /// Returns the force at each end of an interface: the sum of the normal and the friction force at this end.
+    /// Returns one force for each end of an interface: the sum of the normal and the friction force there.
     fn corner_forces(&self, number: usize, contact: &Contact) -> Vec<Force> {
         let (letter, accent) = match self.options.corners {
             Corners::All => ("x", Accent::None),
@@ -208,8 +212,7 @@ impl ForceSource<'_> {
         self.ends(contact).map(force).collect()
     }
 
-    /// Returns the sum of the forces of an interface on the block, N. The sum acts at the point of action of the
-    /// interface's resultant.
+    /// Returns the resultant of the forces that an interface exerts on the block.
     fn resultant(&self, number: usize, contact: &Contact) -> Force {
         let ends = corners(contact, self.block);
         let normal = inward(contact, self.block);
@@ -218,13 +221,14 @@ impl ForceSource<'_> {
         self.of_contact(contact, "Force", symbol, (contact.resultant.at, sum))
     }
 
-    /// Returns the distinct ends of an interface with their forces on the block. The ends are numbered from 1.
+    /// Returns the ends of an interface with their forces on the block, numbered from 1. If the two ends coincide,
+    /// returns only one end.
     fn ends(&self, contact: &Contact) -> impl Iterator<Item = (usize, Corner)> {
         let count = distinct(contact).len();
         (1..).zip(corners(contact, self.block)).take(count)
     }
 
-    /// Makes the entry of a force (N) that an interface exerts at a point.
+    /// Creates the entry for a force (N) that the interface `contact` exerts on the block at the point `at`.
     fn of_contact(
         &self,
         contact: &Contact,
@@ -243,7 +247,7 @@ impl ForceSource<'_> {
         }
     }
 
-    /// Returns the force of each robot that holds the block, and its torque if the robot can turn the block.
+    /// Returns the force of each robot that holds the block, and its torque if the robot can exert torques.
     fn robots(&self) -> Vec<Force> {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut forces = Vec::new();
@@ -271,7 +275,7 @@ impl ForceSource<'_> {
         forces
     }
 
-    /// Returns the missing forces on the block, numbered from 1.
+    /// Returns the missing forces and torques on the block, with the names X1, X2 and so on.
     fn missing(&self) -> Vec<Force> {
         let failures = self.found.failures.iter();
         let missing = failures.filter_map(|failure| self.missing_force(failure));
@@ -289,7 +293,8 @@ impl ForceSource<'_> {
         numbered.collect()
     }
 
-    /// Returns the missing force of a failure, without a number; `None` if it does not act on the block.
+    /// Returns the missing force or torque of a failure, still without its number. Returns `None` if it does not act on
+    /// the block.
     fn missing_force(&self, failure: &Failure) -> Option<Force> {
         let own = BodyId::Block(self.block);
         let (force, torque) = failure.on(own)?;
@@ -319,7 +324,7 @@ impl ForceSource<'_> {
         })
     }
 
-    /// Returns the name of a body for the list.
+    /// Returns the name of a body for the list of forces: `ground`, or the name of the block.
     fn named(&self, body: BodyId) -> String {
         match body {
             BodyId::Ground(_) => "ground".to_owned(),
@@ -328,8 +333,8 @@ impl ForceSource<'_> {
     }
 }
 
-/// Returns the force of the longest arrow, N. A torque counts as torque divided by `edge`, the unit edge in metres.
-/// Returns 0 if the lengths of the arrows do not show magnitudes.
+/// Returns the force that the longest arrow shows, N. A torque counts as the force torque / `edge`, where `edge` is the
+/// unit edge in metres. Returns 0 if the lengths of arrows do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
     match options.corners {
@@ -338,7 +343,7 @@ pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     }
 }
 
-/// Returns the symbol of a weight.
+/// Returns the symbol m·g of a weight.
 pub(super) fn weight() -> Symbol {
     Symbol::new("m", Accent::None, "").then(Symbol::new("g", Accent::Arrow, ""))
 }

@@ -1,4 +1,5 @@
-//! Writes the heading of a free-body diagram: the title of the scene, the block and the step.
+//! Writes the heading of a free-body diagram: the title of the scene, the name of the block, and the step of the
+//! construction.
 
 use super::{HEADING, MARGIN, SUBHEADING};
 use crate::analysis::Analysis;
@@ -7,7 +8,7 @@ use crate::figure::option::Options;
 use crate::figure::words::letter;
 use crate::scene::BlockId;
 
-/// Returns the lines of the heading, each with its face and its font size in pixels. `width` is the width of the page
+/// Returns the lines of the heading, each with its font and its font size in pixels. `width` is the width of the page
 /// in pixels.
 pub(super) fn heading(
     analysis: &Analysis,

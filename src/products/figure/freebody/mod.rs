@@ -1,12 +1,12 @@
-//! [`freebody`]: draws the free-body diagram of a block: all forces on it with their names, and a list of the forces
-//! with their sum.
+//! [`freebody`]: draws the free-body diagram of a block: all forces on the block with their names, and a table of these
+//! forces with their sum.
 //!
 //! Weight, loads, forces of other bodies and robots, and missing forces each have an arrow and a row in the list. The
 //! length of the arrow shows the magnitude. A block with one interface has separate normal and friction forces at each
 //! end, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). With two or three interfaces
 //! each end has one force, numbered as in its figure 2. With more, each interface has one force. With
 //! [`Corners::All`](super::option::Corners) the arrows name every unknown of the program instead, even if it is zero.
-//! All arrows of a kind then have the same length.
+//! All arrows of the same kind then have the same length.
 //!
 //! Bodies that touch the block are outlined, and ground is hatched.
 
@@ -124,7 +124,8 @@ impl<'a> Sheet<'a> {
         let guided = guided(analysis, frame, block, &contacts);
         let left = if guided { MARGIN + ASIDE } else { MARGIN };
         let room = (width - MARGIN - left).max(60.0);
-        // Arrows and their names need space (`pads`) around the shown part. Compute the scale for the remaining space.
+        // Arrows and their names need margins (`pads`) around the shown part of the scene. Compute the scale for the
+        // space between these margins.
         let fitted = |pads: [f64; 4]| {
             let across = (room - pads[0] - pads[2]).max(40.0) / view.width();
             let scale = across.min(LARGEST / view.height());

@@ -19,7 +19,7 @@ impl Sheet<'_> {
         requests: &[(Symbol, LabelRequest)],
     ) -> (Group, usize) {
         let mut group = Group::with_class("labels");
-        // A picture has no space for more names, so do not try to place them.
+        // The picture has no space for more than [`MAX_NAMES`] names, so do not try to place the others.
         let (requests, beyond) = requests.split_at(requests.len().min(MAX_NAMES));
         let mut nameless = beyond.len();
         ink.index();
@@ -36,7 +36,7 @@ impl Sheet<'_> {
         (group, nameless)
     }
 
-    /// Returns the part of the page on which names may be placed.
+    /// Returns the part of the page, in pixels, in which names may be placed.
     fn page_of_names(&self) -> PageRect {
         PageRect {
             at: PagePoint::new(4.0, self.picture.at.y - 6.0),
@@ -70,7 +70,8 @@ impl Sheet<'_> {
         nameless
     }
 
-    /// Draws the name of a body. `others` are the bodies that touch the block. Returns false if there is no space.
+    /// Draws the name of a body. `others` are the bodies that touch the block. Returns false if the picture has no
+    /// space for the name.
     ///
     /// The name of the block itself may be placed outside the block, with a leader. The names of other bodies are only
     /// placed inside these bodies.
@@ -92,7 +93,8 @@ impl Sheet<'_> {
         } else {
             self.camera.rect(self.view)
         };
-        // Inside another body, the name would seem to be the name of that body. The heading also names the block.
+        // Never place the name inside another body, because it would look like the name of that body. A name may be
+        // left out, because the heading also names the block.
         let covers_other_block = |_: usize, rect: PageRect| {
             let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
             let at = self.camera.back(at);
@@ -122,7 +124,8 @@ impl Sheet<'_> {
         Path::stroked(Outline::line(ends), stroke)
     }
 
-    /// Returns positions on the page inside the visible part of a body, sorted by distance from its middle.
+    /// Returns positions on the page inside the visible part of a body, sorted by their distances from the middle of
+    /// this part.
     fn inside(&self, polygon: &Polygon) -> Vec<PagePoint> {
         let (bounds, view) = (polygon.bounds(), self.view);
         let (min, max) = (bounds.min.sup(&view.min), bounds.max.inf(&view.max));

@@ -1,5 +1,5 @@
 //! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, and the
-//! lines that show coordinates. Each function adds its shapes to the ink, so that names do not cover these shapes.
+//! lines that show coordinates. Each function adds its shapes to the ink, which names must not cover.
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;
@@ -17,7 +17,7 @@ use crate::scene::BodyId;
 const HATCH: f64 = 7.0;
 
 impl Sheet<'_> {
-    /// Draws the bodies that touch the block; ground is hatched.
+    /// Draws the outlines of the bodies that touch the block. Ground is hatched.
     pub(super) fn neighbours(&self, ink: &mut Ink) -> Group {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut group = Group::with_class("neighbours");
@@ -49,7 +49,7 @@ impl Sheet<'_> {
         group
     }
 
-    /// Draws the block.
+    /// Draws the outline of the block. The colour of the page fills it.
     pub(super) fn body(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
         self.bar(ink, self.polygon(), self.camera.rect(self.view));
@@ -69,8 +69,8 @@ impl Sheet<'_> {
         }
     }
 
-    /// Draws dashed lines from the application points and the centroid to the edges of the picture. Adds the names of
-    /// their coordinates to `requests`.
+    /// Draws dashed lines from the application points and the centroid to the left and lower edges of the picture. Adds
+    /// the names of their coordinates, such as `c_x`, to `requests`.
     pub(super) fn guide_lines(
         &self,
         ink: &mut Ink,
@@ -102,7 +102,7 @@ impl Sheet<'_> {
                 ink.line(end, p, 1.2);
                 let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
                 let (wide, high) = symbol.size(NAME);
-                // Names that would overlap are placed in rows.
+                // Names that would overlap on the axis get different distances from it (rows).
                 let place = |row: f64| match axis {
                     "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
                     _ => end.moved(0.0, 1.0 + high / 2.0 + row * (0.7 * high)),
@@ -130,7 +130,8 @@ impl Sheet<'_> {
         arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
     }
 
-    /// Draws the arrows of the forces. Adds the names of the forces to `requests`.
+    /// Draws the arrows of the forces and torques that are long enough to be visible. Adds the names of the forces to
+    /// `requests`.
     pub(super) fn drawn(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("forces");
@@ -176,7 +177,7 @@ impl Sheet<'_> {
         group
     }
 
-    /// Draws the x and y axes below the picture.
+    /// Draws the directions of the x and y axes below the picture.
     pub(super) fn axes(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
         let origin = PagePoint::new(

@@ -48,8 +48,8 @@ struct Column {
 }
 
 impl Column {
-    /// Chooses the prefix for a column so that its largest number has one to three digits before the decimal point.
-    /// Prefixes range from 10⁻⁶ to 10⁶. A unit that the scene chooses has no prefix.
+    /// Chooses the unit prefix (µ, m, k or M) of a column so that its largest number has one to three digits before the
+    /// decimal point, if possible. A unit that the scene selects has no prefix.
     fn new(largest: f64, unit: Unit) -> Column {
         let largest = unit.value_from_si(largest);
         let digits = if largest > 0.0 && largest.is_finite() {
@@ -81,7 +81,8 @@ impl Column {
 }
 
 impl Table {
-    /// Creates the list of these forces. Moments are about `centroid`; `size` is the size of the block in metres.
+    /// Creates the table of these forces. Moments are about `centroid`. `size` is the size of the block in metres;
+    /// moments that are tiny compared with it count as 0.
     pub(super) fn new(forces: &[Force], centroid: Point, size: f64, units: UnitsEntry) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
@@ -133,7 +134,7 @@ impl Table {
         }
     }
 
-    /// Returns a sentence for each row.
+    /// Returns each row of the table as text, such as `F_1 = 6 N: (0; 6) N, moment 0 N·m, ground`.
     pub(super) fn stated(&self) -> Vec<String> {
         let (force, moment) = (&self.heads[0].1, &self.heads[3].1);
         let row = |row: &Row| {
@@ -151,8 +152,8 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// Draws the table at most `room` pixels wide, with the font size `size`. The middle of its upper edge is at `top`.
-    /// Also returns the height of the table in pixels.
+    /// Draws the table, at most `room` pixels wide, with the font size `size` in pixels. The middle of its upper edge
+    /// is at `top`. Also returns the height of the table in pixels.
     pub(super) fn draw(&self, top: PagePoint, room: f64, size: f64, theme: &Theme) -> (Group, f64) {
         let writer = TableWriter {
             table: self,
@@ -174,7 +175,8 @@ impl Table {
             }
             y += ROW * size;
         }
-        // Leave space of half a row below the table.
+        // `y` is the baseline of a further row. Subtract most of it, so that only half a row of space remains below the
+        // table.
         (group, y - top.y - 0.9 * size)
     }
 }
@@ -194,8 +196,9 @@ struct Columns {
 }
 
 impl Columns {
-    /// Makes each column as wide as its widest entry. If the table is then wider than `room`, the last column becomes
-    /// narrower. The table is centred at `middle`.
+    /// Computes the positions of the columns. Each column is as wide as its widest entry. If the table would be wider
+    /// than `room`, the last column is narrower. The table is centred at the x coordinate `middle`. All lengths are in
+    /// pixels.
     fn new(table: &Table, middle: f64, room: f64, size: f64) -> Columns {
         let wide = |words: &str| text::width(words, Face::Serif, size);
         let named = |symbol: &Symbol| symbol.size(size).0;
@@ -239,7 +242,7 @@ struct TableWriter<'a> {
 }
 
 impl TableWriter<'_> {
-    /// Writes the headings of the columns with their units.
+    /// Writes the headings of the columns, with the units below them. `y` is the baseline of the headings.
     fn head(&self, y: f64) -> Vec<Item> {
         let mut items = Vec::new();
         for ((head, unit), x) in self.table.heads.iter().zip(&self.columns.numbers) {
@@ -250,8 +253,8 @@ impl TableWriter<'_> {
         items
     }
 
-    /// Writes a row of the table. The row of the sum has a line above it. Also returns the number of text lines in its
-    /// last column, at least 1.
+    /// Writes a row of the table at the baseline `y`. The row of the sum has a line above it. Also returns the number
+    /// of text lines in the last column of the row, at least 1.
     fn row(&self, row: &Row, y: f64) -> (Vec<Item>, usize) {
         let columns = &self.columns;
         let mut items = Vec::new();
@@ -293,7 +296,7 @@ impl TableWriter<'_> {
         symbol.draw(rect, self.size, self.theme.ink).into()
     }
 
-    /// Draws a line across the table.
+    /// Draws a horizontal line across the table at the height `y`.
     fn rule(&self, y: f64) -> Item {
         let (left, right) = (self.columns.left, self.columns.left + self.columns.total);
         let line = Outline::line([PagePoint::new(left, y), PagePoint::new(right, y)]);
@@ -301,7 +304,7 @@ impl TableWriter<'_> {
     }
 }
 
-/// Breaks a name into lines for its column, between words or between code points. A name with too many lines is
+/// Breaks a name into lines of at most `room` pixels. If the name needs more than [`MOST_LINES`] lines, it is
 /// shortened.
 fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
     if text::width(name, Face::Serif, size) <= room {

@@ -1,4 +1,4 @@
-//! [`places`]: lists the coordinates of the points at which forces act, and of the unit normals.
+//! [`places`]: lists the coordinates of the points at which forces act, and the components of the unit normals.
 
 use super::around::{corners, distinct, inward};
 use crate::analysis::{Analysis, Contact};
@@ -27,8 +27,8 @@ impl Piece {
         }
     }
 
-    /// Draws the piece. `at` is the left end of its baseline. Also returns the width of the piece. The font size and
-    /// the width are in pixels.
+    /// Draws a symbol or a text. `at` is the left end of its baseline, and `size` is the font size in pixels. Also
+    /// returns its width in pixels.
     pub(super) fn draw(&self, at: PagePoint, size: f64, theme: &Theme) -> (Vec<Item>, f64) {
         let items = match self {
             Piece::Symbol(symbol) => {
@@ -57,12 +57,12 @@ impl Piece {
     }
 }
 
-/// Returns the width of a row, pixels. `size` is the font size in pixels.
+/// Returns the width of a row of symbols and texts, pixels. `size` is the font size in pixels.
 pub(super) fn width(row: &[Piece], size: f64) -> f64 {
     row.iter().map(|p| p.width(size)).sum()
 }
 
-/// Breaks values into rows of at most `room` pixels. `size` is the font size in pixels.
+/// Distributes values over rows of at most `room` pixels. `size` is the font size in pixels.
 pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece>> {
     let mut rows: Vec<Vec<Piece>> = Vec::new();
     for value in values {
@@ -77,8 +77,8 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
     rows
 }
 
-/// Returns the coordinates of the centroid, of the application points and of the unit normals into the block, as pieces
-/// of text.
+/// Returns the coordinates of the centroid and of the application points, and the components of the unit normals into
+/// the block. Each value is a list of symbols and texts, such as `c = (1; 2) m`.
 pub(super) fn places(
     analysis: &Analysis,
     block: BlockId,
@@ -106,7 +106,7 @@ pub(super) fn places(
     places
 }
 
-/// Formats a coordinate with at most three decimals.
+/// Formats a coordinate with at most three decimals, without trailing zeros.
 fn coordinate(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

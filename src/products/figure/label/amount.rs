@@ -1,4 +1,4 @@
-//! Makes the labels with the magnitudes of loads, forces and torques.
+//! Creates the labels that show the magnitudes of loads, forces and torques.
 
 use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::super::pen::{DOT_RADIUS, Pen};
@@ -26,14 +26,14 @@ pub(crate) struct Callout {
     pub colour: Colour,
 }
 
-/// Returns the font size of magnitudes, pixels.
+/// Returns the font size of labels with magnitudes, pixels. Small unit edges have smaller labels.
 fn amount_size(pen: &Pen<'_>) -> f64 {
     (0.2 * pen.unit())
         .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.amount)
 }
 
-/// Converts a callout to a label. If there is no space for the label, it is left out and counted.
+/// Converts a callout to a label. If the picture has no space for the label, the label is left out and counted.
 pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     let request = LabelRequest {
         anchor: callout.at,
@@ -50,8 +50,8 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     }
 }
 
-/// Returns the labels with the magnitudes of arrows. If `few` is false (the frame has many blocks), only the largest
-/// loads and missing forces have labels.
+/// Returns the labels with the magnitudes of arrows. `few` is true if the frame has few blocks. Otherwise only the
+/// largest loads and missing forces have labels.
 pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let marks = &pen.context.marks[pen.number];
     let options = pen.context.options;
@@ -80,8 +80,8 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         .collect()
 }
 
-/// True if the magnitude of a force is written at this arrow. The two opposite forces between two blocks have the same
-/// magnitude, which is written only once.
+/// True unless the magnitude of the force is written at the opposite arrow. The two opposite forces between two blocks
+/// have the same magnitude, which is written only once.
 fn is_first_of_pair(arrow: &ForceArrow) -> bool {
     match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
@@ -89,7 +89,7 @@ fn is_first_of_pair(arrow: &ForceArrow) -> bool {
     }
 }
 
-/// Makes the label of the arrow of a force.
+/// Creates the label of the arrow of a force, with the text `words`.
 fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
     let size = amount_size(pen);
     let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
@@ -108,7 +108,7 @@ fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
     }
 }
 
-/// Makes the label of the arrow of a torque.
+/// Creates the label with the magnitude of a torque next to its arrow.
 fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     let request = LabelRequest {
         anchor: pen.camera.place(turn.at),
@@ -125,8 +125,8 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     }
 }
 
-/// True if the magnitude of an arrow is written. Magnitudes of loads and missing forces of at least `least` N are
-/// written even if the options do not request magnitudes.
+/// True if the magnitude of a force is written next to its arrow. Loads and missing forces of at least `least` newtons
+/// have labels even if the options do not request magnitudes.
 fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool {
     let options = pen.context.options;
     let missing = arrow.kind.is_failure() && !options.printed();
@@ -134,8 +134,8 @@ fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool 
     (options.amounts && few) || (options.labels && given && arrow.force.norm() >= least)
 }
 
-/// Returns the arrows of the largest force between two bodies and of the largest force of a robot. The list is empty if
-/// arrows are too small or if the options exclude labels.
+/// Returns the arrow of the largest force between two bodies and the arrow of the largest force of a robot. The list is
+/// empty if arrows are too small to read or if the options exclude labels.
 fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let context = pen.context;
     let small = context.arrows_too_small(pen.camera.length(1.0));
@@ -160,8 +160,8 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     contact.into_iter().chain(robot).collect()
 }
 
-/// Returns the least magnitude of a load or a missing force that is written in a frame, N. If `few` is false (the frame
-/// has many blocks), only about `MAX_WRITTEN` magnitudes are at least as large.
+/// Returns the magnitude, in newtons, from which loads and missing forces have labels. It is 0 if `few` is true (the
+/// frame has few blocks). Otherwise it is chosen so that about `MAX_WRITTEN` of them have labels.
 fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     if few {
         return 0.0;
@@ -173,8 +173,8 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
 }
 
-/// Returns preferred centres of a label with this size, in pixels. They are on both sides of the arrow's shaft, and
-/// beyond its tip.
+/// Returns the preferred centres of a label on the page: on both sides of the arrow's shaft, and beyond its tip. The
+/// width and height of the label are in pixels.
 fn centres_along(
     from: PagePoint,
     along: (f64, f64),
@@ -186,8 +186,8 @@ fn centres_along(
         return Vec::new();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
-    // `reach` returns the distance of a label's centre from a line that touches the label. (x, y) is the normal of the
-    // line.
+    // `reach` returns the distance from the centre of a label to a line that touches the label. (x, y) is the unit
+    // normal of the line.
     let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
     let mut middles = Vec::new();
     for share in [0.5, 0.7, 0.3, 0.9, 0.1] {

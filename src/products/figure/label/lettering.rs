@@ -1,4 +1,5 @@
-//! [`Label`]: a text with its face, its size and its request for a position. Breaks it into lines, and draws it.
+//! [`Label`]: a text in a figure, with its font, its font size and the positions that it prefers. The functions break a
+//! label into lines and draw it.
 
 use super::super::pen::Pen;
 use crate::drawing::placement::{LabelRequest, Placed};
@@ -34,7 +35,7 @@ pub(super) struct Label {
     pub of: Option<BlockId>,
 }
 
-/// Makes a label with one line of text.
+/// Creates a label with one line of text. Sets the size of `request` to the size of this line.
 pub(super) fn label(
     words: String,
     face: Face,
@@ -58,8 +59,9 @@ pub(super) fn label(
     }
 }
 
-/// Breaks a name of several words into lines of at most `across` pixels, if one line is too wide. Lines can also be
-/// broken between code points. Returns the label unchanged if it would need too many lines or if a word would be split.
+/// Breaks a name into lines of at most `across` pixels if it is wider. A line ends between two words, or between two
+/// characters that are spelled as code points (`U+05D0`). Returns the label unchanged if it would need too many lines
+/// or if a word would be split.
 pub(super) fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
     if label.request.size.0 <= across {
@@ -70,7 +72,8 @@ pub(super) fn broken(label: Label, across: f64) -> Label {
         false => (name, MAX_LINES),
     };
     let lines = text::balanced(&name, label.face, label.size, across, most + 1);
-    // A name with a split word is not readable.
+    // `balanced` splits a word that is too wide for a line. A name with a split word is hard to read, so it stays in
+    // one line.
     let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
     if !whole || lines.len() > most {
         return label;
@@ -91,24 +94,25 @@ pub(super) fn broken(label: Label, across: f64) -> Label {
     }
 }
 
-/// Draws a label at its position.
+/// Draws a label at the position that was found for it, with a leader line if the position has one.
 pub(super) fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.context.options.theme;
     let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
-        // A thin grey line is not visible on a dark fill, so draw a border in the colour of the page.
+        // A thin grey line is not visible on a dark block, so draw a wider line in the colour of the page below it.
         let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
         let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
         group = group.with(seam.with_opacity(0.7)).with(line);
     }
-    // A label does not cross outlines, so its background has one colour.
+    // A label does not cross outlines, so the whole label has one background colour.
     let below = pen.below(middle(placed.rect));
     let colour = theme.letters_on(below, label.colour);
     let halo = pen.context.lines_cross_names.then_some(below);
     lettered(group, label, middle(placed.rect), colour, halo)
 }
 
-/// Draws a label at its anchor, for a label that has no free position. Its letters have a halo.
+/// Draws a label for which no free position was found. It is drawn at its anchor, over other shapes, so its letters
+/// have a border in the colour of the background.
 pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.request.anchor);
     let colour = pen.context.options.theme.letters_on(below, label.colour);
@@ -116,7 +120,8 @@ pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
-/// Adds the lines of a label to a group, centred at `middle`. With a `halo`, the letters have a border of this colour.
+/// Adds the text lines of a label to a group, centred at `middle`. If `halo` is a colour, the letters have a border of
+/// this colour.
 fn lettered(
     mut group: Group,
     label: &Label,

@@ -47,13 +47,13 @@ const AMBIGUITY_RATIO: f64 = 1.5;
 /// The class of the group of a frame's labels. The description of the group counts labels without a position.
 pub(crate) const CLASS: &str = "labels";
 
-/// Draws the labels of a frame, so that they do not cover `ink`. `ink` is only computed if there are labels. `view` is
-/// the shown part of the scene, metres.
+/// Draws the labels of a frame. `ink` returns the shapes that the labels must not cover; it is called only if there are
+/// labels. `view` is the shown part of the scene, metres.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
     labels_with(pen, view, Vec::new(), ink)
 }
 
-/// Like [`labels`], with callouts. Callouts are placed before all other labels.
+/// Like [`labels`], with additional texts (`callouts`), which are placed before all other labels.
 pub(crate) fn labels_with(
     pen: &Pen<'_>,
     view: Bounds,
@@ -114,8 +114,8 @@ pub(crate) fn labels_with(
     group
 }
 
-/// True if a name lies outside its block and could be taken for the name of another block. This is so if the centroid
-/// of another block is nearly as close to the name.
+/// True if a name lies outside its block and a reader could take it for the name of another block, because the centroid
+/// of that block is nearly as close to the name or closer.
 fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {
@@ -136,8 +136,7 @@ fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
 }
 
-/// Returns the note on labels that are left out because a frame has too many blocks. Returns `None` if no labels are
-/// left out.
+/// Returns a note such as `80 blocks: names left out` if a frame has too many blocks for labels; otherwise `None`.
 pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     let options = context.options;
     let frames = &context.analysis.scene.frames;
@@ -178,7 +177,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         labels.extend(robots(pen, view));
         if few {
             let others = frame.placed.iter().filter(|id| !first.contains(id));
-            // Long leaders in a crowded frame would hide the figure.
+            // In a crowded frame, keep names close to their blocks, because long leader lines would hide the figure.
             let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || frame.placed.len() <= FEW_BLOCKS;
             let names = others.filter_map(|id| name(pen, *id, view));
             labels.extend(names.map(|label| {
@@ -195,7 +194,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     labels
 }
 
-/// Returns the blocks that the text below a frame mentions, in placing order.
+/// Returns the blocks whose names occur in the text below the verdict of a frame, in placing order.
 fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
     let scene = &context.analysis.scene;
     let stated = &context.statements[frame];

@@ -1,4 +1,4 @@
-//! Makes the labels with the names of blocks and robots.
+//! Creates the labels with the names of blocks and robots.
 
 use super::super::pen::Pen;
 use super::super::view;
@@ -34,7 +34,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
-    // The name of a large block among small blocks is larger.
+    // The name of a block that is much larger than the unit edge has a larger font size.
     let own = pen
         .camera
         .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
@@ -43,7 +43,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     } else {
         name_size(pen, pen.unit())
     };
-    // The first positions for the name of a small block are nearer to the block.
+    // The search for a position of the name begins closer to the centroid if the block is small.
     let extent = block.body.polygon.bounds().diagonal();
     let request = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
@@ -68,7 +68,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
-    // Names of robots are slightly smaller than names of blocks, but not below the least size.
+    // Names of robots have a slightly smaller font than names of blocks, but not below the least font size.
     let size = (0.9 * size).max(size.min(MIN_SIZE));
     let named = |hold: &Hold| {
         let request = LabelRequest {
@@ -94,8 +94,8 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     shown.map(named).collect()
 }
 
-/// Returns preferred centres of a label inside a polygon, sorted by distance from `middle`. With a `view`, they are
-/// inside its visible part.
+/// Returns preferred centres of a label inside a polygon, sorted by their distances from `middle`. If there is a
+/// `view`, only points inside the visible part of the polygon are returned.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
     let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
@@ -108,8 +108,8 @@ fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    // Round the distances, so that distances that differ only by rounding errors are equal. The sort is stable, so
-    // equal distances keep the order of the grid.
+    // Round the distances, so that distances that differ only by rounding errors become equal. The sort is stable, so
+    // points at equal distances keep the order of the grid.
     let step = DISTANCE_STEP * whole.diagonal();
     let rank = |p: &Point| ((p - middle).norm() / step).round();
     let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();

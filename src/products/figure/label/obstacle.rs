@@ -6,7 +6,8 @@ use crate::figure::arrow::{ArrowKind, TurnArrow};
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 use crate::geometry::Polygon;
 
-/// Returns the ink of ground, blocks, planned blocks, discs and arrows.
+/// Returns the shapes that labels must not cover: the outlines of ground, blocks and planned blocks, the discs of
+/// robots, and the arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
     let scene = &pen.context.analysis.scene;
@@ -40,7 +41,7 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     ink
 }
 
-/// Adds the outline of a torque arrow, as wide lines between its points.
+/// Adds the arrow of a torque to the ink, as wide lines between the points of its outline.
 fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
     let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
     let centre = pen.camera.place(turn.at);

@@ -1,4 +1,5 @@
-//! [`Solids`]: blocks and ground. A reader takes a name inside such a body for the name of this body.
+//! [`Solids`]: tests whether a label lies inside a block or the ground that it does not name. A reader would take it
+//! for the name of this body.
 
 use super::middle;
 use crate::drawing::PageRect;
@@ -34,7 +35,8 @@ impl Solids {
         }
     }
 
-    /// True if a label lies in the ground or in a block that it does not name.
+    /// True if a label with the rectangle `rect` lies in the ground or in a block other than `own`, the block that it
+    /// names.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
         let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {
@@ -43,7 +45,7 @@ impl Solids {
                 && rect.at.y < other.at.y + other.height
                 && other.at.y < rect.at.y + rect.height
         };
-        // Labels do not cross outlines, so the centre of a label that overlaps a body lies in this body.
+        // A label does not cross outlines. If it overlaps a body, its centre therefore lies in this body.
         let at = pen.camera.back(middle(rect));
         let inside = |id: BlockId| {
             let at = pen.displacement(id).map_or(at, |d| d.back(at));

@@ -1,9 +1,9 @@
-//! [`names`]: tests whether a sentence contains the name of a block, even if the name is a number.
+//! [`names`]: tests whether a text mentions the name of a block, even if the name is a number.
 
 use crate::drawing::text::NO_BREAK;
 
-/// True if a text contains a name as a separate word. A number before a unit or a noun is not a name, because it is a
-/// quantity or a count. A number with decimals is not a name either.
+/// True if a text contains `name` as a separate word. In `3 N` or `3 hinges`, the number is a quantity or a count and
+/// not a name. A number with decimals is not a name either.
 pub(super) fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());

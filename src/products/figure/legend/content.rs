@@ -1,4 +1,4 @@
-//! Creates the entries of the legend for all signs that occur in a figure.
+//! Creates the entries of the legend for all symbols that occur in a figure.
 
 use super::super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks, TurnKind};
 use super::super::context::FigureContext;
@@ -22,7 +22,7 @@ const MAX_NAMED_BLOCKS: usize = 6;
 /// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.
 const MAX_NAME_LENGTH: usize = 12;
 
-/// Returns the entries for all signs that occur in a figure of forces. `unit` is the unit edge in pixels.
+/// Returns the legend entries for all symbols that occur in a figure of forces. `unit` is the unit edge in pixels.
 pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let options = context.options;
     let mut entries = Vec::new();
@@ -31,7 +31,8 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     }
     let drawn = DrawnArrows::new(context, unit);
     entries.extend(block_colours(context, &drawn));
-    // In small figures, weights have no ring at their tails, so the legend does not explain this ring.
+    // The arrow of a weight has a small circle at its tail. Small figures omit this circle, so their legend does not
+    // explain it.
     if !options.printed()
         && unit >= MIN_READABLE_UNIT_EDGE
         && drawn.any(|kind| kind == ArrowKind::Weight)
@@ -88,21 +89,22 @@ impl<'a> DrawnArrows<'a> {
         arrow.reach().norm() * self.scale >= LEAST_SEEN
     }
 
-    /// True if a visible arrow has one of these kinds, so that the legend has to explain it. False if arrows are too
-    /// small in general.
+    /// True if the figure shows an arrow for which `kind` is true, so that the legend has to explain it. False if the
+    /// figure shows no arrows because they are too small.
     fn any(&self, kind: fn(ArrowKind) -> bool) -> bool {
         !self.too_small && self.arrows().any(|a| kind(a.kind) && self.is_seen(a))
     }
 
-    /// True if an arrow of one of these kinds is drawn as a dot.
+    /// True if the figure draws an arrow for which `kind` is true as a dot.
     fn any_dot(&self, kind: fn(ArrowKind) -> bool) -> bool {
         self.arrows()
             .any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
     }
 }
 
-/// Returns the entry for the colours of the forces on blocks. It names the blocks if they are few, their names are
-/// short, and each colour belongs to one block. Returns `None` if no colour needs an explanation.
+/// Returns the legend entry for the colours of arrows: all forces on a block have the same colour. The entry names the
+/// blocks if there are few, their names are short, and each colour belongs to one block. Returns `None` if no colour
+/// needs an explanation.
 fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut seen: Vec<(Colour, String)> = Vec::new();
@@ -126,7 +128,7 @@ fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option
     }
 }
 
-/// Returns the entry for missing forces and torques; `None` if no frame shows any.
+/// Returns the legend entry for missing forces and torques; `None` if no frame shows any of them.
 fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry> {
     let mut forces = drawn.arrows();
     let mut turns = context.marks.iter().flat_map(|m| &m.turns);
@@ -135,8 +137,8 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
     any.then_some(Entry::Missing)
 }
 
-/// Returns the entry with an arrow that shows the scale of a panel. An arrow of `newtons` N is one unit edge (`unit`
-/// pixels) long, and the largest force is `largest` N. Returns `None` if there is no force.
+/// Returns the legend entry for the scale of arrows: a sample arrow for a round force. The arrow of `newtons` N is one
+/// unit edge (`unit` pixels) long, and `largest` is the largest force in N. Returns `None` if there are no forces.
 pub(crate) fn scale(
     newtons: f64,
     largest: f64,
@@ -147,7 +149,7 @@ pub(crate) fn scale(
     let largest = if options.printed() { newtons } else { largest };
     let amount = round_below_in(largest, units.force());
     let width = options.theme.widths.force * unit;
-    // The arrow of the scale has the same form as the other arrows.
+    // In printed figures, the length of the shaft shows the force. The sample arrow is longer by its head.
     let beyond = if options.printed() {
         HEAD_LENGTH * width
     } else {
@@ -159,7 +161,7 @@ pub(crate) fn scale(
     })
 }
 
-/// Returns the entry for the scale that the arrows of all panels share; `None` if there are no forces. `unit` is the
+/// Returns the legend entry for the scale of arrows that all panels share; `None` if there are no forces. `unit` is the
 /// unit edge in pixels.
 pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
     let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
@@ -168,14 +170,14 @@ pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Ent
     scale(newtons, most(Marks::largest), unit, context.options, units)
 }
 
-/// Returns the entry with a scale bar of a round number of metres. The bar is at most a quarter of `content` pixels
+/// Returns the legend entry with a scale bar for a round length. The bar is at most a quarter of `content` (pixels)
 /// long; `scale` is in pixels per metre.
 pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entry> {
     let metres = round_below_in(0.25 * content / scale, units.length());
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, units.length())))
 }
 
-/// Returns the entry for joints at their limit; `None` if no frame has such a joint.
+/// Returns the legend entry for joints at their limit; `None` if no frame has such a joint.
 pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
@@ -183,7 +185,7 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
 }
 
-/// Returns the entry for loads, with their magnitudes; `None` if no frame shows a load.
+/// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
@@ -213,7 +215,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     Some(Entry::Sign(load_sign, SAMPLE, words))
 }
 
-/// True if the arrows of loads have a larger scale than other forces in any frame.
+/// True if, in at least one frame, an arrow of a load is drawn at a larger scale than other forces.
 fn own_scale(context: &FigureContext<'_>) -> bool {
     let longer = |marks: &Marks, arrow: &ForceArrow| {
         let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
@@ -223,7 +225,7 @@ fn own_scale(context: &FigureContext<'_>) -> bool {
     frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
 }
 
-/// Returns the entries for the robots that hold or plan a block in any frame, and for planned blocks.
+/// Returns the legend entries for the robots that hold or plan a block in at least one frame, and for planned blocks.
 pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();

@@ -1,4 +1,4 @@
-//! [`Entry`]: an entry of the legend, which consists of a sign and a text.
+//! [`Entry`]: an entry of the legend, which consists of a symbol and a text.
 
 use super::sign::{self, BAR_LENGTH, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
@@ -39,8 +39,8 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// Returns a version of the entry that fits into `room` pixels. If the names of blocks do not fit, only the colours
-    /// of their arrows remain.
+    /// Returns the entry in a form that fits into `room` pixels. If the names of blocks do not fit, the result shows
+    /// only the colours of their arrows.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         match self {
             Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
@@ -48,7 +48,7 @@ impl Entry {
         }
     }
 
-    /// True if both entries have the same meaning.
+    /// True if the two entries explain the same symbol with the same text, so that a legend needs only one of them.
     pub(super) fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
@@ -72,7 +72,7 @@ impl Entry {
         }
     }
 
-    /// Returns the width of the sign to the left of the text, including the gap between them, pixels.
+    /// Returns the width of the symbol to the left of the text, including the gap between symbol and text, pixels.
     pub(super) fn sign_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
@@ -94,7 +94,8 @@ impl Entry {
         }
     }
 
-    /// Returns the width of the columns of the numbered list that it belongs to, pixels; `None` for other entries.
+    /// Returns the column width of the numbered list to which the entry belongs, pixels; `None` if it does not belong
+    /// to a numbered list.
     pub(super) fn column(&self) -> Option<f64> {
         match self {
             Entry::Numbered(.., column) => Some(*column),
@@ -102,7 +103,7 @@ impl Entry {
         }
     }
 
-    /// Returns the text to the right of the sign.
+    /// Returns the text to the right of the symbol.
     pub(super) fn words(&self) -> String {
         match self {
             Entry::Blocks(_) => String::new(),
@@ -120,13 +121,13 @@ impl Entry {
         }
     }
 
-    /// Returns the width of the entry in one line, pixels.
+    /// Returns the width of the entry, pixels, if its text is written in one line.
     pub(super) fn width(&self, theme: &Theme) -> f64 {
         let words = text::width(&self.words(), Face::Sans, theme.sizes.key);
         self.sign_width(theme) + words
     }
 
-    /// Draws the entry in one line. `at` is the middle of its left edge.
+    /// Draws the entry in one line: its symbol and its text. `at` is the middle of its left edge on the page.
     pub(super) fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let mut items = self.sign(at, theme);
         let words = self.words();
@@ -140,7 +141,7 @@ impl Entry {
         items
     }
 
-    /// Draws the sign of the entry. `at` is the middle of its left edge.
+    /// Draws the symbol of the entry. `at` is the middle of the left edge of the symbol on the page.
     pub(super) fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         match self {
             Entry::Blocks(blocks) => sign::blocks(blocks, at, theme),
@@ -164,7 +165,8 @@ impl Entry {
     }
 }
 
-/// Returns the name of a robot in the legend. `robot` is written before the name, unless the name begins with `robot`.
+/// Returns the text for a robot in the legend: `robot` followed by its name, or only its name if this begins with
+/// `robot`.
 fn robot(id: &str) -> String {
     match id
         .get(..5)

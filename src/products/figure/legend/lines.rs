@@ -31,7 +31,7 @@ struct Laid<'e> {
 }
 
 impl<'e> Laid<'e> {
-    /// Breaks the text of an entry so that the entry fits into `room` pixels.
+    /// Breaks the text of an entry into lines, so that the entry is at most `room` pixels wide.
     fn new(entry: &'e Entry, room: f64, theme: &Theme) -> Laid<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
         let sign = entry.sign_width(theme);
@@ -51,12 +51,12 @@ impl<'e> Laid<'e> {
         }
     }
 
-    /// Returns the height by which the entry is higher than an entry of one line, pixels.
+    /// Returns the additional height of the entry, pixels, compared with an entry of one text line.
     fn extra_height(&self, theme: &Theme) -> f64 {
         self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
     }
 
-    /// Draws the entry. `at` is the middle of the left edge of its first line.
+    /// Draws the entry with all its text lines. `at` is the middle of its left edge on the page.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let mut items = self.entry.sign(at, theme);
         let first = at.moved(
@@ -79,14 +79,15 @@ struct KeyLine<'e> {
 }
 
 impl KeyLine<'_> {
-    /// Whether it is a line of a numbered list. Such lines have no other entries.
+    /// True if the line belongs to a numbered list. Such a line contains no other entries.
     fn is_list(&self) -> bool {
         let mut entries = self.entries.iter();
         entries.any(|laid| laid.entry.column().is_some())
     }
 }
 
-/// Puts each entry into the first line that has space for it. A line is at most `room` pixels wide.
+/// Distributes the entries over lines: each entry goes into the first line that has space for it. A line is at most
+/// `room` pixels wide, unless a single entry is wider.
 fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
@@ -127,7 +128,7 @@ pub(crate) fn draw(
     for key_line in lines {
         let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
         let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
-        // The columns of a list begin below each other.
+        // All lines of a numbered list begin at the same x coordinate, so that its columns are aligned.
         let width = if key_line.is_list() {
             list
         } else {

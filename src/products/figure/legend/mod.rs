@@ -1,4 +1,4 @@
-//! The legend: explains the colours and signs that occur in a figure.
+//! The legend of a figure: explains the colours and symbols that occur in it.
 
 mod content;
 mod entry;
@@ -16,8 +16,8 @@ pub(crate) const LINE: f64 = 2.08;
 /// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
 pub(crate) const NARROW_LINE: f64 = 1.7;
 
-/// Joins several legends to one, without duplicate entries. If the arrow colours of these legends name different
-/// blocks, only the colours remain.
+/// Joins several legends into one without duplicate entries. If the legends assign the colours of arrows to different
+/// blocks, the result shows the colours without names of blocks.
 pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for entry in keys.into_iter().flatten() {
@@ -33,12 +33,12 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     all
 }
 
-/// Draws one entry. `at` is the middle of its left edge.
+/// Draws a single legend entry in one line. `at` is the middle of its left edge on the page.
 pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> Vec<Item> {
     entry.draw(at, theme)
 }
 
-/// Returns the width of the widest entry, pixels.
+/// Returns the width of the widest of these legend entries, pixels.
 pub(crate) fn widest(entries: &[Entry], theme: &Theme) -> f64 {
     let widths = entries.iter().map(|entry| entry.width(theme));
     widths.fold(0.0, f64::max)

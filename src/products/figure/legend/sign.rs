@@ -1,4 +1,4 @@
-//! Draws the signs of the legend. `at` is the middle of the left edge of a sign.
+//! Draws the symbols of the legend. `at` is the middle of the left edge of a symbol on the page.
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
@@ -19,19 +19,19 @@ pub(super) const ON_BLOCK: &str = "force on block";
 /// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
 const COLOUR_ARROW: (f64, f64) = (22.0, 2.6);
 
-/// Returns a text of the legend. `at` is the left end of the text, at half the height of the line.
+/// Returns a text of the legend as a drawing item. `at` is the left end of the text, at half the height of its line.
 pub(super) fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
     let size = theme.sizes.key;
     let at = at.moved(0.0, 0.36 * size);
     Text::new(at, words, Face::Sans, size, theme.faint).into()
 }
 
-/// Draws an arrow that points to the right. `size` is its length and the width of its shaft, pixels.
+/// Draws an arrow from `at` to the right. `size` is its length and the width of its shaft, pixels.
 pub(super) fn arrow(at: PagePoint, size: (f64, f64), colour: Colour) -> Item {
     Path::filled(straight(at, (size.0, 0.0), size.1), colour).into()
 }
 
-/// Draws arrows in the colours of blocks, each followed by the name of its block.
+/// Draws one arrow for each block in the colour of the forces on this block, followed by the name of the block.
 pub(super) fn blocks(blocks: &[(Colour, String)], at: PagePoint, theme: &Theme) -> Vec<Item> {
     let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
     let mut items = vec![written(ON_BLOCK, at, theme)];
@@ -46,7 +46,7 @@ pub(super) fn blocks(blocks: &[(Colour, String)], at: PagePoint, theme: &Theme) 
     items
 }
 
-/// Draws arrows in all colours of blocks.
+/// Draws one arrow in each of the colours that forces on blocks can have.
 pub(super) fn colours(colours: &[Colour], at: PagePoint) -> Vec<Item> {
     let colours = colours.iter().enumerate();
     let arrows =
@@ -54,14 +54,14 @@ pub(super) fn colours(colours: &[Colour], at: PagePoint) -> Vec<Item> {
     arrows.collect()
 }
 
-/// Draws the disc of a robot.
+/// Draws the disc that marks the grip of a robot.
 pub(super) fn robot(colour: Colour, at: PagePoint, theme: &Theme) -> Item {
     let disc = Outline::circle(at.moved(SIGN_GAP, 0.0), 0.8 * SIGN_GAP);
     let edge = Stroke::new(colour.mixed(theme.ink, 0.35), 0.8);
     Path::filled(disc, colour).with_stroke(edge).into()
 }
 
-/// Draws the outline of a planned block as a hexagon.
+/// Draws the symbol of a planned block: the outline of a hexagon.
 pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     let hexagon = [
         (-1.0, 0.0),
@@ -76,8 +76,8 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
 
-/// Draws a bar with the colours of all shares from 0 to 1. `low` and `high` are the labels at its ends. `ramp` converts
-/// a share to a colour.
+/// Draws a bar with the colours of all shares from 0 to 1. `low` and `high` are the texts at its left and right end.
+/// `ramp` converts a share to a colour.
 pub(super) fn amplitudes(
     [low, high]: &[String; 2],
     ramp: fn(&Theme, f64) -> Colour,
@@ -88,7 +88,8 @@ pub(super) fn amplitudes(
     let mut items = vec![written(low, at, theme)];
     let parts = 64;
     for part in 0..parts {
-        // Each part extends to the end of the bar, and the next part covers it. The bar therefore has no gaps.
+        // Each part is drawn up to the end of the bar, and the next part covers most of it, so there are no gaps
+        // between the parts.
         let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
         let rect = PageRect {
             at: at.moved(start + x, -5.0),
@@ -103,7 +104,7 @@ pub(super) fn amplitudes(
     items
 }
 
-/// Draws a number that ends at `right`.
+/// Draws a number in bold type. `right` is its right end.
 pub(super) fn number(number: usize, colour: Colour, right: PagePoint, theme: &Theme) -> Item {
     let size = theme.sizes.key;
     let at = right.moved(0.0, 0.36 * size);
@@ -111,13 +112,13 @@ pub(super) fn number(number: usize, colour: Colour, right: PagePoint, theme: &Th
     text.anchored(Anchor::End).into()
 }
 
-/// Draws a short line; `width` is in pixels.
+/// Draws a short horizontal line of this width (pixels).
 pub(super) fn line(colour: Colour, width: f64, at: PagePoint) -> Item {
     let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
     Path::stroked(line, Stroke::new(colour, width).mitred()).into()
 }
 
-/// Draws a scale bar; `length` is in pixels.
+/// Draws a scale bar of this length (pixels).
 pub(super) fn metres(length: f64, at: PagePoint, theme: &Theme) -> Item {
     let mut bar = Outline::line([at, at.moved(length, 0.0)]);
     for x in [0.0, length] {

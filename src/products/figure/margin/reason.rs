@@ -1,4 +1,4 @@
-//! Writes the sentence below the verdict: for which values of the parameter the frame stands.
+//! Writes the text below the verdict in a figure of a margin: for which values of the parameter the frame stands.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
 use crate::wording::margin::{Parameter, stands};
@@ -6,7 +6,8 @@ use crate::wording::number::digits;
 
 use super::super::words::{degrees, percent};
 
-/// Describes for which rotations of gravity, horizontal loads or load factors a frame stands.
+/// Describes for which tilts of gravity, horizontal loads or load factors a frame stands. `toward` selects the
+/// parameter.
 pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> String {
     let found = &analysis.frames[frame];
     let Some(margins) = &found.margins else {
@@ -34,14 +35,14 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
             };
             let what = match toward {
                 Toward::Tilt => "with gravity turned: ",
-                Toward::HorizontalLoad => "with a share of the weights across gravity: ",
+                Toward::HorizontalLoad => "with a horizontal load, as a share of each weight: ",
                 Toward::LoadFactor => "",
             };
             format!("{now} as it is; {what}{}", stands(stated(toward), interval))
         }
         (_, Interval::Empty(_)) => format!("falls at every {}", parameter(toward)),
         (_, Interval::Undecided) => {
-            format!("no {} was confirmed at which it stands", parameter(toward))
+            format!("no {} is known at which it stands", parameter(toward))
         }
     }
 }
@@ -56,16 +57,16 @@ fn stated(toward: Toward) -> Parameter {
 
 fn parameter(toward: Toward) -> &'static str {
     match toward {
-        Toward::Tilt => "turn of gravity",
-        Toward::HorizontalLoad => "push across gravity",
+        Toward::Tilt => "tilt of gravity",
+        Toward::HorizontalLoad => "horizontal load",
         Toward::LoadFactor => "factor on its loads",
     }
 }
 
-/// Describes the margin of a frame that stands: the end of the interval nearest to the present value. For the load
-/// factor, also describes the least factor.
+/// Describes the margin of a frame that stands: the value nearest to the present value at which the frame begins to
+/// fall. For the load factor, also describes the least factor at which the frame stands.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
-    // The frame also falls below the least factor on its loads. That factor does not limit how much the loads may grow.
+    // The frame may also fall below a least load factor, but this factor does not limit how much the loads may grow.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {
@@ -95,25 +96,25 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     }
     match (interval, toward) {
         (Interval::Between { low, high }, _) if is_open(low) || is_open(high) => {
-            "how far it is from falling was not confirmed by a verdict on either side".to_owned()
+            "its margin was not confirmed by the verdicts on both sides of it".to_owned()
         }
-        (Interval::Between { .. }, Toward::Tilt) => "no turn of gravity makes it fall".to_owned(),
+        (Interval::Between { .. }, Toward::Tilt) => "no tilt of gravity makes it fall".to_owned(),
         (Interval::Between { .. }, Toward::HorizontalLoad) => {
             "no horizontal push makes it fall".to_owned()
         }
         (Interval::Between { .. }, Toward::LoadFactor) => match least_factor(interval) {
-            None => "its loads may grow without end".to_owned(),
+            None => "its loads may grow without limit".to_owned(),
             Some(low) => format!(
-                "its loads may grow without end; falls once they are {} times as large",
+                "its loads may grow without limit; falls once they are {} times as large",
                 digits(low)
             ),
         },
-        _ => "how far it is from falling was not found".to_owned(),
+        _ => "its margin was not found".to_owned(),
     }
 }
 
-/// Describes the end `edge` of an interval around 0, and the end on the other side of 0 if its value is known. `amount`
-/// formats a value.
+/// Describes the two ends of an interval around 0, such as `14° to the right, or by 9° to the left`. `edge` is the
+/// nearer end. The other end is left out if its value is not known. `amount` formats a value.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     let ends = [interval.low(), interval.high()].into_iter().flatten();
@@ -139,7 +140,7 @@ fn is_open(end: &End) -> bool {
     matches!(end, End::Unconfirmed { .. })
 }
 
-/// Returns the least load factor at which the frame stands, if it is above 0.
+/// Returns the least load factor at which the frame stands. Returns `None` if this factor is 0 or not known.
 fn least_factor(interval: &Interval) -> Option<f64> {
     let low = interval.low().and_then(End::value);
     low.filter(|low| *low > 0.0)
