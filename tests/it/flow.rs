@@ -166,7 +166,7 @@ fn what_is_missing_is_red_and_has_its_amount() {
     assert!(!failures[0].items.is_empty());
     let text = svg::write(&drawing);
     assert!(text.contains("from a missing force"), "{text}");
-    assert!(text.contains("what cannot be carried"));
+    assert!(text.contains("force that cannot be carried"));
     let amounts = groups(&drawing.items, "amount");
     assert!(amounts.len() >= 2, "the largest force and what is missing");
 }

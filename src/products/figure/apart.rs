@@ -1,4 +1,4 @@
-//! [`apart`]: moves parallel arrows that overlap sideways, so that they are drawn next to each other.
+//! [`apart`]: moves overlapping parallel arrows sideways, so that they are drawn next to each other.
 //!
 //! The ground often pushes a block up on the same line on which its weight pulls it down. On this line, the two arrows
 //! would look like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
@@ -38,7 +38,7 @@ const OFFSET_RESOLUTION: f64 = 1e-6;
 /// Relative tolerance of the least distance, because candidates lie exactly at it.
 const CLEAR_TOL: f64 = 1e-6;
 
-/// Moves parallel arrows of a frame that overlap sideways, so that they are drawn next to each other.
+/// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other.
 pub(crate) fn apart(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {

@@ -22,7 +22,7 @@ pub(crate) const FORCES: Forces = Forces {
 /// The forces in the steps of a construction. All panels have the same scale, so that steps can be compared.
 pub(crate) const BUILD: Forces = Forces {
     name: "build",
-    help: "The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other",
+    help: "The steps of a construction, with one scale of arrows for all steps; --animate shows the steps one after the other",
     shares_arrow_scale: true,
 };
 

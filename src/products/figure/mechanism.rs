@@ -1,5 +1,5 @@
-//! Draws the mechanism of a structure that falls: displaced blocks, dashed outlines of their present positions, hinges
-//! and sliding joints.
+//! Draws the mechanism of a structure that falls: the displaced blocks, their present positions as dashed outlines,
+//! hinges and sliding joints.
 //!
 //! Blocks move along their velocities in finite rigid motions, so they keep their shapes. The amplitude is chosen for
 //! visibility, but blocks never overlap. For each part that falls one elementary mechanism is drawn
@@ -53,7 +53,7 @@ impl PanelContent for Mechanism {
     fn about(&self) -> About {
         About {
             name: "mechanism",
-            help: "How it falls: blocks displaced along the mechanism, hinges and slips",
+            help: "How the structure falls: blocks displaced along the mechanism, hinges and slips",
             title: "How a dry-laid structure falls",
             needs_elementary_mechanisms: true,
             ..About::default()
@@ -120,9 +120,9 @@ impl PanelContent for Mechanism {
             .clone()
             .any(|f| !analysis.frames[f].mechanism.is_empty())
         {
-            let stood = "where it stands now".to_owned();
+            let stood = "where the blocks stand now".to_owned();
             entries.push(Entry::Sign(ghost_sign, SIGN_WIDTH, stood));
-            let goes = "how it begins to move, enlarged".to_owned();
+            let goes = "how the blocks begin to move, enlarged".to_owned();
             entries.push(Entry::Sign(moved_sign, SIGN_WIDTH, goes));
         }
         entries.extend(joint_entries(&joints));
@@ -132,8 +132,8 @@ impl PanelContent for Mechanism {
     }
 }
 
-/// Draws the marks of the mechanism in `analysis`: the sliding joints, then the hinges. `pen` determines where the
-/// blocks are drawn.
+/// Draws the symbols of the mechanism in `analysis`: one group for sliding joints, one group for hinges. `pen`
+/// determines where the blocks are drawn.
 pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> [Group; 2] {
     let mut slips = Group::with_class("slips");
     let mut hinges = Group::with_class("hinges");
@@ -155,7 +155,7 @@ pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> 
     }
 }
 
-/// Returns the legend entries for the marks of these joints.
+/// Returns the legend entries for the symbols of these joints.
 pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     let mut entries = Vec::new();
     if joints.iter().any(|j| j.hinge.is_some()) {
@@ -163,7 +163,7 @@ pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     }
     if joints.iter().any(|j| j.slip != 0.0) {
         let slides = if joints.iter().any(|j| j.lift != 0.0) {
-            "slides, and lifts by its friction coefficient"
+            "slides, and lifts by friction coefficient × distance"
         } else {
             "slides along its joint"
         };
@@ -172,8 +172,8 @@ pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     entries
 }
 
-/// Joins all marks of a kind into few paths, for frames with very many blocks. The n-th paths of all marks become one
-/// path.
+/// Joins many symbols of the same kind into a few paths, for frames with very many blocks. The n-th paths of all
+/// symbols become one path.
 fn joined(marks: Group) -> Group {
     let mut paths: Vec<Path> = Vec::new();
     for mark in marks.items {
@@ -196,7 +196,7 @@ fn joined(marks: Group) -> Group {
     }
 }
 
-/// Returns the blocks that are drawn displaced, with their motions.
+/// Returns the blocks that are drawn in displaced positions, with their motions in the mechanism.
 fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
     let motions = pen.context.analysis.frames[pen.number].mechanism.iter();
     motions
@@ -213,7 +213,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     }
     let width = pen.line.clamp(0.6, 1.1);
     let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
-    // Many small outlines must not hide the displaced blocks.
+    // Small outlines are partly transparent, so that many of them do not hide the displaced blocks.
     let opacity = if pen.unit() < MIN_READABLE_UNIT_EDGE {
         0.6
     } else {
@@ -224,7 +224,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
 }
 
-/// Draws the displaced blocks.
+/// Draws the moving blocks in their displaced positions.
 fn displaced(pen: &Pen<'_>) -> Vec<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let edge = theme.motion.mixed(theme.ink, 0.25);
@@ -260,7 +260,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         .collect()
 }
 
-/// Returns the position at which a point of an interface is drawn, metres. The position is halfway between its
+/// Returns the position at which a point of an interface is drawn after the displacement, metres: halfway between its
 /// displaced positions on the two bodies.
 fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
     let [a, b] = contact.interface.bodies.map(|body| taken(pen, body, at));
@@ -279,7 +279,7 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
     (HINGE_RADIUS * pen.unit()).clamp(2.6, 6.0)
 }
 
-/// Draws a ring at a hinge, which is the end of an interface that stays in contact.
+/// Draws a ring at a hinge. `at` is the end of the interface that stays in contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let (centre, radius) = (
@@ -299,8 +299,8 @@ fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(centre, radius), theme.page).with_stroke(stroke)
 }
 
-/// Draws a half-arrow on each side of an interface. It shows the direction in which the body on this side slides
-/// relative to the other body.
+/// Draws a half-arrow on each side of a sliding interface. Each half-arrow shows the direction in which the body on its
+/// side slides relative to the other body.
 fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let interface = &contact.interface;
@@ -334,8 +334,8 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
     group.into()
 }
 
-/// Returns an arrow with one barb, on the side to which `aside` points, and the arrow's border in the colour of the
-/// page. All lengths are in pixels.
+/// Returns a half-arrow with its barb on the side to which `aside` points, and its border in the colour of the page.
+/// All lengths are in pixels.
 fn half_arrow(
     from: PagePoint,
     along: (f64, f64),

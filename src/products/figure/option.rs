@@ -1,4 +1,4 @@
-//! [`Options`]: the options of a figure.
+//! [`Options`]: the options of a figure, such as its colours, its scale of arrows and its size.
 
 use crate::analysis::Toward;
 use crate::drawing::Theme;
@@ -28,7 +28,7 @@ pub enum Normalisation {
     Source,
 }
 
-/// Which panels have a common scale of arrows.
+/// Whether each panel has its own scale of arrows or all panels share one scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ArrowScale {
@@ -80,7 +80,7 @@ pub struct Options {
     pub style: ForceStyle,
     /// The force whose arrow is one unit edge long.
     pub normalisation: Normalisation,
-    /// Which panels have a common scale of arrows.
+    /// Whether each panel has its own scale of arrows or all panels share one scale.
     pub scale: ArrowScale,
     /// The quantity that the colours of blocks show.
     pub fill: Fill,
@@ -88,7 +88,7 @@ pub struct Options {
     pub corners: Corners,
     /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
     pub toward: Toward,
-    /// The share of the path at which a mechanism is drawn, 0 to 1.
+    /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
     pub way: f64,
     /// The number of panels in a row; `None` to choose it by the shape of the panels.
     pub columns: Option<usize>,
@@ -98,7 +98,7 @@ pub struct Options {
     pub titles: bool,
     /// Whether the captions of frames are drawn.
     pub captions: bool,
-    /// Whether verdicts and the lines below them are drawn.
+    /// Whether verdicts and the texts below them are drawn.
     pub verdicts: bool,
     /// Whether the scale of arrows and the legend are drawn.
     pub keys: bool,
@@ -115,9 +115,10 @@ pub struct Options {
     pub labels: bool,
     /// Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.
     pub amounts: bool,
-    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on it.
+    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width.
     pub width: Option<f64>,
-    /// Greatest height of the picture of a frame without its legend, pixels; `None` to choose it by the number of frames.
+    /// Largest height of the picture of a frame without its legend, pixels. `None` to choose it by the number of
+    /// frames.
     pub height: Option<f64>,
 }
 
@@ -153,31 +154,32 @@ impl Options {
     setters! {
         style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
         normalisation: Normalisation, "The force whose arrow is one unit edge long.";
-        scale: ArrowScale, "Which panels have a common scale of arrows.";
-        fill: Fill, "The quantity that the colours of blocks show.";
+        scale: ArrowScale, "Whether each panel has its own scale of arrows or all panels share one scale.";
+        fill: Fill, "The quantity that the colours of blocks show, such as stresses.";
         corners: Corners, "Which forces of interfaces a free-body diagram shows.";
         toward: Toward, "The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.";
-        way: f64, "The share of the path at which a mechanism is drawn, 0 to 1.";
+        way: f64, "How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.";
         theme: Theme, "Colours, widths and font sizes.";
         titles: bool, "Whether the title of the figure is drawn.";
         captions: bool, "Whether the captions of frames are drawn.";
-        verdicts: bool, "Whether verdicts and the lines below them are drawn.";
+        verdicts: bool, "Whether verdicts and the texts below them are drawn.";
         keys: bool, "Whether the scale of arrows and the legend are drawn.";
         scale_bar: bool, "Whether a scale bar in metres is drawn.";
         dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
-        with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) has its force polygon next to it.";
+        with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon.";
         labels: bool, "Whether blocks and robots have labels with their names, in frames with at most 60 blocks.";
         amounts: bool, "Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.";
     }
 
     optional_setters! {
         columns: usize, "The number of panels in a row.";
-        zoom: BlockId, "The block to whose surroundings the picture is limited.";
-        width: f64, "Width of the page, pixels. Font sizes do not depend on it.";
-        height: f64, "Greatest height of the picture of a frame without its legend, pixels.";
+        zoom: BlockId, "The block in the centre of a zoomed picture, which shows only its surroundings.";
+        width: f64, "Width of the page, pixels. Font sizes do not depend on this width.";
+        height: f64, "Largest height of the picture of a frame without its legend, pixels.";
     }
 
-    /// True if arrows look as in the figures of the thesis: separate components at the scale of the thesis.
+    /// True if arrows look as in the printed figures of the thesis: separate components of forces at the scale of the
+    /// thesis.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
     }

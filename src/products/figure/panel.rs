@@ -1,4 +1,5 @@
-//! Composes the picture of one frame: ground, blocks, plans, robots, arrows or other marks, and labels on top.
+//! Composes the picture of one frame from its layers: ground, blocks, planned blocks, robots, arrows or other marks,
+//! and labels on top.
 
 use super::description;
 use super::label::{self, Callout};
@@ -8,7 +9,8 @@ use crate::drawing::placement::Ink;
 use crate::drawing::{Group, Item};
 use crate::geometry::Bounds;
 
-/// Draws the forces of a frame. Ground is cut at the edge of `view` (metres).
+/// Draws the picture of a frame with the arrows of its forces. `view` is the shown part of the scene in metres; ground
+/// outside it is cut off.
 pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     let (context, camera) = (pen.context, pen.camera);
     let many = pen.many();
@@ -47,7 +49,8 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     group
 }
 
-/// Draws the signs of joints at their limit, or of the joint nearest to its limit.
+/// Draws diamonds at the joints at their limit. If there are none, draws an open diamond at the joint nearest to its
+/// limit.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
@@ -66,8 +69,8 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// Composes the picture of a frame: ground, the given blocks, plans, robots, the given marks, and labels that do not
-/// cover `ink`. Ground is cut at the edge of `view` (metres).
+/// Composes the picture of a frame: ground, `blocks`, planned blocks, robots, `marks`, and labels that do not cover
+/// `ink`. `view` is the shown part of the scene in metres; ground outside it is cut off.
 pub(crate) fn composed(
     pen: &Pen<'_>,
     view: Bounds,
@@ -78,7 +81,7 @@ pub(crate) fn composed(
     composed_with(pen, view, blocks, marks, Vec::new(), ink)
 }
 
-/// Like [`composed`], with callouts, which are placed before other labels.
+/// Like [`composed`], with additional texts (`callouts`), which are placed before other labels.
 pub(crate) fn composed_with(
     pen: &Pen<'_>,
     view: Bounds,

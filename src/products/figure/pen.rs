@@ -1,4 +1,5 @@
-//! [`Pen`]: draws the parts of a frame's picture: ground, blocks, plans and robots here, arrows in `pen/stroke`.
+//! [`Pen`]: draws the ground, the blocks, the planned blocks and the robots of a frame. The module `stroke` draws the
+//! arrows.
 
 mod listed;
 mod stroke;
@@ -31,13 +32,13 @@ const FULL_CASING_UNIT_EDGE: f64 = 0.9 / 0.012;
 /// Least width of a shaft, pixels, if blocks are large enough for it.
 const LEAST_SHAFT: f64 = 2.5;
 
-/// Converts a colour of the scene.
+/// Converts a colour of a scene file to a colour of a drawing.
 pub(crate) fn colour(rgb: Rgb) -> Colour {
     Colour(rgb.0)
 }
 
-/// Returns the lines between the lattice cells of a body. Each edge that two cells share is drawn once. The outline is
-/// empty for a body without cells.
+/// Returns the lines between the lattice cells of a body on the page. An edge that two cells share is one line. The
+/// outline is empty for a body without cells.
 pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
@@ -97,7 +98,7 @@ impl<'a> Pen<'a> {
             camera,
             line: (unit / FULL_OUTLINE_UNIT_EDGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
             casing: (unit / FULL_CASING_UNIT_EDGE).clamp(1.0 / 9.0, 1.0) * widths.casing,
-            // With very small blocks, wider arrows would hide the whole picture.
+            // If blocks are very small on the page, wider arrows would hide them.
             wider: if unit < MIN_READABLE_UNIT_EDGE {
                 1.0
             } else {
@@ -139,7 +140,7 @@ impl<'a> Pen<'a> {
         self.displacement(id).map_or(point, |d| d.moved(point))
     }
 
-    /// True if the frame has so many blocks that all shapes of one colour are joined and have no names.
+    /// True if the frame has so many blocks that all shapes of one colour are drawn as one path without tooltips.
     pub(crate) fn many(&self) -> bool {
         self.context.analysis.scene.frames[self.number].placed.len() > MANY_BLOCKS
     }
@@ -162,7 +163,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns the colour at a position: the colour of the block, of the ground or of the page.
+    /// Returns the colour of the block, the ground or the page at a position on the page. Labels need it for their
+    /// contrast.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let at = self.camera.back(at);
@@ -183,7 +185,8 @@ impl<'a> Pen<'a> {
         self.context.options.theme.widths.disc * self.unit()
     }
 
-    /// Returns the width of an arrow's shaft as it is drawn, pixels.
+    /// Returns the drawn width of an arrow's shaft, pixels. At small scales, shafts are wider, so that their colours
+    /// can be distinguished.
     pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
         let wider = if arrow.kind.is_failure() {
             1.0
@@ -200,7 +203,7 @@ impl<'a> Pen<'a> {
         )
     }
 
-    /// Draws the blocks that are not displaced.
+    /// Draws the blocks that are not displaced. Each block has a tooltip.
     pub(crate) fn blocks(&self) -> Group {
         if self.many() {
             return self.blocks_by_colour();
@@ -235,7 +238,7 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// Like [`Pen::blocks`], for frames with very many blocks: draws one path for all blocks of a colour.
+    /// Like [`Pen::blocks`], for frames with very many blocks: draws all blocks of one colour as one path.
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];

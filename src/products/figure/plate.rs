@@ -1,4 +1,4 @@
-//! [`plate`]: draws frames of several scenes on one page at one scale, with one legend below.
+//! [`plate`]: draws frames of several scenes on one page, all at the same scale and with one legend below.
 
 use super::context::FigureContext;
 use super::forces::FORCES;
@@ -19,7 +19,8 @@ pub(crate) struct Panel {
     pub caption: &'static str,
 }
 
-/// Draws these panels in their order, in rows of `columns` panels. All structures in a row are at the same height.
+/// Draws these panels on one page in their order, in rows of `columns` panels. All panels of a row show the same
+/// heights of their scenes, so their structures can be compared.
 pub(crate) fn plate(
     analyses: &[Analysis],
     panels: &[Panel],

@@ -1,4 +1,5 @@
-//! Draws the force polygon next to the structure: the external forces on the structure, placed tip to tail.
+//! Draws the force polygon next to the structure: the external forces on the structure as arrows, each of which begins
+//! at the tip of the previous arrow.
 //!
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
 //! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If it
@@ -39,7 +40,7 @@ fn outside(arrow: &ForceArrow) -> bool {
     !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
 }
 
-/// Returns the forces that are sides of a frame's polygon, in their order.
+/// Returns the forces that are sides of the force polygon of a frame, in drawing order.
 fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
     marks.arrows.iter().filter(|arrow| outside(arrow))
 }
@@ -93,7 +94,7 @@ impl PanelContent for ForcePolygon {
         let mut ink = label::ink(pen);
         let polygon = drawn_polygon(pen, &mut ink);
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // Cut the ground before the polygon, so that the polygon does not seem to stand on it.
+        // Cut off the ground to the left of the polygon. Otherwise the polygon would seem to stand on the ground.
         let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {
             return composed(pen, view, pen.blocks(), parts, ink);
         };
@@ -118,7 +119,7 @@ impl PanelContent for ForcePolygon {
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let mut entries = legend::entries(context, unit);
-        // Blocks are plain here, so their colours need no explanation.
+        // In this figure, the colours of blocks show no quantity, so the legend does not explain them.
         entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
@@ -149,9 +150,9 @@ impl PanelContent for ForcePolygon {
                 "the force polygon closes only with the missing forces"
             }
             (Verdict::Unstable, true) => {
-                "the force polygon closes only if the forces missing inside the structure are given"
+                "the force polygon closes only with the forces that are missing inside the structure"
             }
-            (Verdict::Undecided, true) => "the force polygon of what was found is closed",
+            (Verdict::Undecided, true) => "the force polygon of the forces found is closed",
         };
         if why.is_empty() {
             how.to_owned()
@@ -161,8 +162,8 @@ impl PanelContent for ForcePolygon {
     }
 }
 
-/// Draws the polygon of a frame: its sides, dashed lines that join its two parts if they are drawn apart, and a dashed
-/// line across the gap of an open polygon.
+/// Draws the force polygon of a frame. If actions and reactions are drawn apart, dashed lines connect their ends. If
+/// the polygon is open, a dashed line closes the gap.
 fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (context, camera) = (pen.context, pen.camera);
     let theme = &context.options.theme;
@@ -190,18 +191,18 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let drawn = Group::with_class(class).titled(title);
         drawn.with(Path::stroked(line, stroke)).into()
     };
-    // If the polygon is drawn in two parts, dashed lines join positions that are the same point. In an open polygon,
-    // the second of these lines would look like the gap.
+    // If actions and reactions are drawn apart, two dashed lines connect positions that stand for the same point. In an
+    // open polygon, the second line would look like the line of the gap, so it is left out.
     let closed = closed(marks);
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
         let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
-        let title = "One place, drawn as two";
+        let title = "The same point, drawn at two positions";
         polygon.items.push(dashed("join", title, *join, stroke));
     }
     let ends = (chain.sides.last(), chain.sides.first());
     if let ((Some(last), Some(first)), false) = (ends, closed) {
         let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
-        let title = "What is missing for a balance";
+        let title = "The force that is missing for equilibrium";
         let gap = [last[1], first[0]];
         polygon.items.push(dashed("gap", title, gap, stroke));
     }
@@ -223,15 +224,16 @@ struct Chain {
     times: f64,
 }
 
-/// True if the sides of reactions would cover the sides of actions, because they lie on the same lines. `acting` and
-/// `answering` are the corners of the two parts of the polygon. `size` is the size of the polygon.
+/// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` and `answering`
+/// are the corners of the actions (weights and loads) and of the reactions. `size` is the size of the polygon, in the
+/// same unit.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Two sides overlap if two points of one side nearly lie on the other side: its middle and its first quarter point.
+    // Two sides overlap if the middle and the first quarter point of one side both nearly lie on the other side.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
@@ -255,8 +257,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     })
 }
 
-/// Computes the polygon of the forces of `marks`, to the right of the blocks of a frame. Returns `None` if the polygon
-/// has fewer than two sides or no size.
+/// Computes the force polygon of a frame from its arrows `marks`. The polygon is placed to the right of the blocks.
+/// Returns `None` if there are fewer than two forces or all of them are 0.
 fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
@@ -288,8 +290,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     };
     let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // The left edge of the polygon is next to the structure and its ground. The middle of the polygon is at the height
-    // of the middle of the structure.
+    // Place the polygon to the right of the structure and its ground, at the height of the middle of the structure.
     let right = view::ground_shown(scene, unit(scene, None))
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
@@ -317,7 +318,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     })
 }
 
-/// Formats a scale factor as a whole number or as its inverse: `3` or `1/3`.
+/// Formats a scale factor as a whole number or as a fraction: `3` or `1/3`.
 fn larger(times: f64) -> String {
     if times >= 1.0 {
         format!("{times:.0}")
@@ -333,7 +334,7 @@ fn closed(marks: &Marks) -> bool {
     sum.norm() <= CLOSURE_TOL * all
 }
 
-/// Returns the dashed path of a missing force as a side of the polygon.
+/// Returns the path of a missing force in the polygon: a hollow arrow with a dashed outline.
 fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
     let edge = Stroke::new(colour, 1.2).dashed([3.0, 2.0]);
     Path::filled(outline, theme.page).with_stroke(edge)
@@ -344,8 +345,8 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// Describes how much larger arrows are in the polygons than on the structure. `times` lists frames with their factors.
-/// Returns `None` if `times` is empty.
+/// Describes how much larger arrows are in the force polygons than on the structure. `times` lists each frame with its
+/// scale factor. Returns `None` if the list is empty.
 fn scales(times: &[(usize, f64)]) -> Option<String> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, times) in times {
@@ -356,10 +357,10 @@ fn scales(times: &[(usize, f64)]) -> Option<String> {
         }
     }
     let how = |times: f64| match times {
-        1.0 => "to the same scale".to_owned(),
+        1.0 => "at the same scale".to_owned(),
         times => format!("{} times as large", larger(times)),
     };
-    let what = "the same forces tip to tail";
+    let what = "the same forces, tip to tail";
     match &groups[..] {
         [] => None,
         [(times, _)] => Some(format!("force polygon: {what}, {}", how(*times))),
@@ -379,9 +380,9 @@ mod tests {
     #[test]
     fn the_key_tells_the_scale_of_every_polygon_by_its_panel() {
         assert_eq!(scales(&[]), None);
-        let one = "force polygon: the same forces tip to tail, 5 times as large";
+        let one = "force polygon: the same forces, tip to tail, 5 times as large";
         assert_eq!(scales(&[(0, 5.0), (2, 5.0)]).as_deref(), Some(one));
-        let several = "force polygons: the same forces tip to tail; 2 times as large in (a), (c) and (d); to the same scale in (b)";
+        let several = "force polygons: the same forces, tip to tail; 2 times as large in (a), (c) and (d); at the same scale in (b)";
         let times = [(0, 2.0), (1, 1.0), (2, 2.0), (3, 2.0)];
         assert_eq!(scales(&times).as_deref(), Some(several));
     }

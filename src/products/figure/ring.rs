@@ -1,5 +1,5 @@
-//! [`ring`]: draws the arrow colours as a wheel. Its sectors list the blocks of each colour; the colours of robots and
-//! failures are below the wheel.
+//! [`ring`]: draws the colours of arrows as a colour wheel. Each sector lists the blocks with its colour. The colours
+//! of robots and of missing forces are below the wheel.
 
 use core::f64::consts::TAU;
 
@@ -16,8 +16,8 @@ const RING: (f64, f64) = (58.0, 112.0);
 /// Font size, pixels.
 const WORDS: f64 = 14.0;
 
-/// Draws the colour wheel of the forces on blocks. Its sectors are anticlockwise from the right, entry 0 first. Each
-/// sector lists the numbers of its blocks, from 1 in the order of placing.
+/// Draws the colour wheel of the forces on blocks. The sectors begin at the right with entry 0 of the theme's colours
+/// and continue anticlockwise. Each sector lists the numbers of its blocks, counted from 1 in placing order.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {
@@ -57,13 +57,14 @@ pub fn ring(theme: &Theme) -> Drawing {
     }
 }
 
-/// Draws the sector of a colour. It has the numbers of the first blocks with this colour.
+/// Draws the sector of a colour with the numbers of the first two blocks that have this colour. `entry` is the index of
+/// the colour in the theme.
 fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
     let count = theme.arrows.len();
     let colour = theme.arrows[entry];
     let sweep = TAU / count as f64;
     let from = sweep * entry as f64;
-    // With n colours, block i has entry i mod n, so the first block has the second colour.
+    // With n colours, block i (from 1) has the colour with the index i mod n, so block 1 has the second colour.
     let first = if entry == 0 { count } else { entry };
     let blocks = format!("{first}, {}, …", first + count);
     let sector = Path::filled(sector(centre, from, sweep), colour);

@@ -1,4 +1,5 @@
-//! Draws how a margin changes if corners move: at each corner an arrow in the direction in which to move it.
+//! Draws how a margin changes if corners of blocks move: an arrow at each corner shows the direction in which to move
+//! it.
 //!
 //! The arrow points where the interval of the margin grows most, and its length is in proportion to the growth per metre.
 //! Corners that move together have one arrow. The most effective changes have numbers, and the legend lists what they do;
@@ -80,7 +81,7 @@ impl PanelContent for CornerEffects {
         let plans: Vec<Plan> = frames.filter_map(|f| Plan::new(analysis, f)).collect();
         let mut entries = Vec::new();
         if plans.iter().any(|plan| !plan.arrows.is_empty()) {
-            let words = "where to move a corner, as long as its effect";
+            let words = "direction in which to move a corner; the length shows the effect";
             entries.push(Entry::Sign(arrow_sign, 26.0, words.into()));
         }
         let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
@@ -96,7 +97,7 @@ impl PanelContent for CornerEffects {
             entries.push(Entry::Sign(numbered_sign, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words = "weight, load or joint, listed below";
+            let words = "change of a weight, load or joint, listed below";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Sign(disc_sign, wide, words.into()));
         }
@@ -106,7 +107,7 @@ impl PanelContent for CornerEffects {
         if kinks > 0 {
             let corners = counted(kinks, "corner");
             entries.push(Entry::Note(format!(
-                "{corners} at a kink, without an arrow"
+                "{corners} without an arrow, because the margin has a kink there"
             )));
         }
         if let [only] = &plans[..]
@@ -153,7 +154,7 @@ impl PanelContent for CornerEffects {
     }
 }
 
-/// Draws the arrows, the most effective ones last.
+/// Draws the arrows at the corners. The most effective arrows are drawn last, so that no other arrow covers them.
 fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let (context, theme) = (pen.context, &pen.context.options.theme);
     let scale = scale(context.analysis, context.unit);
@@ -191,13 +192,13 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
     group
 }
 
-/// Draws discs with the numbers that no arrow has.
+/// Draws a disc with a number for each numbered change that has no arrow: changes of weights, loads and friction.
 fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     let theme = &pen.context.options.theme;
     let radius = disc_radius(theme);
     let mut group = Group::with_class("changes");
     let loads = &pen.context.marks[pen.number].arrows;
-    // What a number must not cover if there is no empty place.
+    // `marks` are the shapes that a number must not cover even if there is no empty position for it.
     let mut marks = Ink::default();
     for load in loads {
         let (from, along) = (pen.camera.place(load.at), pen.camera.turn(load.vector));
@@ -223,7 +224,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
             }
             None => pen.camera.place(at),
         };
-        // A number of a joint lies across it.
+        // The number of a change of friction is drawn on its joint, so it may cover other shapes.
         let near = free(ink, wanted, radius, 1.2).filter(|_| !change.is_joint);
         let at = near.or_else(|| free(&marks, wanted, radius, 3.0));
         let at = at.unwrap_or(wanted);
@@ -237,7 +238,8 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     group
 }
 
-/// Returns the nearest of several places at which a disc covers nothing, up to `most` radii from the wanted one.
+/// Returns the position nearest to `wanted` at which a disc covers nothing in `ink`. Positions up to `most` radii from
+/// `wanted` are tried. Returns `None` if none of them is free.
 fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
     let side = 2.0 * radius;
     let is_free = |centre: &PagePoint| {
@@ -247,7 +249,8 @@ fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoin
             height: side,
         })
     };
-    // Rings of twelve places, at multiples of a fifth of the radius.
+    // Candidates lie on circles around `wanted`, twelve on each circle. The radii of the circles are multiples of a
+    // fifth of the disc's radius.
     let place = |k: usize| {
         let far = 0.2 * radius * k.div_ceil(12) as f64;
         let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / 12.0);
@@ -257,7 +260,7 @@ fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoin
     (0..=last).map(place).find(is_free)
 }
 
-/// Returns the numbered list of the changes.
+/// Returns the legend entries of the numbered list of changes.
 fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
     let size = theme.sizes.key;
     let widths = plan.changes.iter();
@@ -270,9 +273,10 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
     plan.changes.iter().map(entry).collect()
 }
 
-/// Returns the scale of the arrows. `pixels` is the length of an arrow for a growth of 1 per metre.
+/// Returns the legend entry for the scale of the arrows. `pixels` is the length of the arrow of a corner at which the
+/// margin grows by 1 per metre.
 fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
-    // The longest arrow stays longer than that of the scale.
+    // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
     let amount = round_below(longest.min(SCALE_ARROW) / pixels * plan.step);
     let drawn = amount / plan.step * pixels;
@@ -289,7 +293,7 @@ fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }
 
-/// Writes a round change of a margin.
+/// Formats a change of a margin that has been rounded, with ° for a tilt.
 fn plain(kind: MarginKind, amount: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", digits(amount)),
@@ -321,7 +325,7 @@ fn disc_radius(theme: &Theme) -> f64 {
     DISC * theme.sizes.amount
 }
 
-/// Draws a disc with a number.
+/// Draws a disc with the number of a change.
 fn numbered(at: PagePoint, number: usize, theme: &Theme) -> Group {
     let size = 0.92 * theme.sizes.amount;
     let disc = Path::filled(

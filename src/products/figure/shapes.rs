@@ -1,5 +1,5 @@
-//! [`shapes`]: draws a sheet of shapes that consist of lattice cells. Each shape has its name, the lines between its
-//! cells, and its origin.
+//! [`shapes`]: draws an overview of shapes that consist of lattice cells. Each shape is drawn with its name, the lines
+//! between its cells, and its origin.
 
 use super::layout::MAX_MARGIN;
 use super::pen::seams;
@@ -12,7 +12,7 @@ use crate::scene::{Body, shape};
 const UNIT: f64 = 46.0;
 const ACROSS: f64 = 900.0;
 
-/// Draws a sheet of the built-in shapes of the triangular lattice.
+/// Draws an overview of the built-in shapes on the triangular lattice.
 pub fn shapes(theme: &Theme) -> Drawing {
     let lattice = Lattice {
         kind: LatticeKind::Triangular,
@@ -31,7 +31,7 @@ struct SheetShape<'n> {
 }
 
 impl<'n> SheetShape<'n> {
-    /// Makes a body of lattice cells; `None` if the cells have no outline.
+    /// Creates a shape from lattice cells; `None` if the cells do not form a valid polygon.
     fn new(lattice: Lattice, name: &'n str, cells: &[Cell]) -> Option<SheetShape<'n>> {
         let polygon = lattice.polygon(cells)?;
         let origin = Bounds {
@@ -52,7 +52,8 @@ impl<'n> SheetShape<'n> {
         Some(SheetShape { name, body, view })
     }
 
-    /// Draws the outline, the lines between the cells, and a small cross at the origin. The name is at `caption`.
+    /// Draws the outline of the shape, the lines between its cells, and a small cross at its origin. Its name is
+    /// centred at `caption`.
     fn draw(&self, lattice: Lattice, camera: &Camera, caption: PagePoint, theme: &Theme) -> Group {
         let fill = theme.amplitude(0.02);
         let outline = camera.polygon(&self.body.polygon);
@@ -76,8 +77,8 @@ impl<'n> SheetShape<'n> {
     }
 }
 
-/// Draws each named set of cells: its outline, the lines between its cells, and a small cross at its lattice origin.
-/// The key `at` of a scene is the position of this origin.
+/// Draws all shapes: for each of them its outline, the lines between its cells, and a small cross at its lattice
+/// origin. The key `at` of a block in a scene file is the position of this origin.
 fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
     let shapes = named.iter();
     let shapes = shapes.filter_map(|(name, cells)| SheetShape::new(lattice, name, cells));

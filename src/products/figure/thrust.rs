@@ -81,7 +81,7 @@ impl PanelContent for ThrustLine {
         let scene = &context.analysis.scene;
         let found = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
-        // Show the most central state if it is known.
+        // Draw the line of thrust of the most central state if it is known, otherwise that of the analysis.
         let found = family.central.as_ref().map_or(found, |state| &state.frame);
         let segments = segments(scene, &scene.frames[frame], found);
         let mut ink = label::ink(pen);
@@ -132,7 +132,7 @@ impl PanelContent for ThrustLine {
             entries.push(Entry::Line(colour(theme), widest(unit), line));
         }
         if falls {
-            let line = format!("what is carried where it falls, this thick for {largest}");
+            let line = format!("forces carried in a frame that falls, this thick for {largest}");
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if stands || falls {
@@ -161,14 +161,14 @@ impl PanelContent for ThrustLine {
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }
-            Verdict::Unstable => "what is carried is no line of equilibrium".into(),
+            Verdict::Unstable => "the path of the carried forces is no line of equilibrium".into(),
             Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
         }
     }
 }
 
-/// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. An arrow of
-/// `newtons_per_unit` N is one unit edge long.
+/// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. The arrow of a
+/// load of `newtons_per_unit` newtons is one unit edge long.
 pub(crate) fn marks(
     analysis: &Analysis,
     frame: usize,
@@ -189,7 +189,7 @@ pub(crate) fn marks(
         turns: turns.collect(),
         newtons_per_unit,
     };
-    // Without arrows the legend needs no scale.
+    // If there are no arrows, return no scale either, so that the legend shows none.
     if loads.arrows.is_empty() && loads.turns.is_empty() {
         Marks::default()
     } else {
@@ -197,7 +197,7 @@ pub(crate) fn marks(
     }
 }
 
-/// Returns the largest force of the listed loads of a frame, N; weights are not included.
+/// Returns the magnitude of the largest load on the blocks of a frame, N. Weights are not included.
 pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     let loads = scene
         .loads
@@ -206,7 +206,7 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
-/// Returns the largest force of a joint or a robot in all panels, N.
+/// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
     let frames = given.map(|(number, found)| {
@@ -222,8 +222,8 @@ fn largest(context: &FigureContext<'_>) -> f64 {
     forces.map(|f| f.norm()).fold(0.0, f64::max)
 }
 
-/// Returns the force polygon of the state that the figure shows. Returns `None` if the frame does not stand, or if no
-/// chain of blocks has a thrust.
+/// Returns the force polygon for the line of thrust that the figure shows. Returns `None` if the frame does not stand,
+/// or if no chain of blocks has a horizontal thrust. `unit` is the unit edge in metres.
 fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
     let scene = &analysis.scene;
     let found = &analysis.frames[frame];
@@ -233,7 +233,7 @@ fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> 
         .flatten()
 }
 
-/// Returns the legend's note on the force polygon.
+/// Returns the note in the legend that explains the force polygon, or why there is none.
 fn polygon_note(context: &FigureContext<'_>) -> &'static str {
     let mut frames = 0..context.analysis.frames.len();
     let any = frames.any(|frame| {
@@ -242,8 +242,8 @@ fn polygon_note(context: &FigureContext<'_>) -> &'static str {
     });
     match any {
         true => {
-            "force polygon: each ray from the pole O is the force in the joint of the same number"
+            "force polygon: each ray from the pole O is the force in the joint with the same number"
         }
-        false => "no force polygon: no chain of blocks that stands has a thrust",
+        false => "no force polygon: no chain of blocks in a standing frame has a horizontal thrust",
     }
 }

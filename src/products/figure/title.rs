@@ -1,4 +1,4 @@
-//! [`lines`]: breaks the title of a figure into lines that fit into its page.
+//! [`lines`]: breaks the title of a figure into lines that fit the width of its page.
 
 use crate::drawing::{Face, Theme, text};
 
@@ -12,7 +12,8 @@ const MAX_LINES: usize = 5;
 /// The face of titles.
 pub(crate) const FACE: Face = Face::SerifBold;
 
-/// Breaks a title into lines of at most `room` pixels. Also returns the font size in pixels.
+/// Breaks a title into lines of at most `room` pixels. Long titles have a smaller font. Also returns the font size in
+/// pixels.
 pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64) {
     let least = theme.sizes.caption.min(theme.sizes.title);
     let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));

@@ -1,4 +1,4 @@
-//! [`unit`]: computes the unit edge from the sizes of the blocks. Arrows and labels are scaled with it.
+//! [`unit`]: computes the unit edge, a typical size of the blocks. Arrows and labels are scaled with this length.
 
 use super::view;
 use crate::scene::{Block, BlockId, Scene};
@@ -6,10 +6,9 @@ use crate::scene::{Block, BlockId, Scene};
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// Returns the unit edge in metres. On a lattice, the unit edge is the side of a cell, unless the blocks are far
-/// larger. Otherwise it is 0.6·√area of the median block, which is about the edge of a regular hexagon of that area. If
-/// √(mean area) is far larger than √area, it replaces √area. With `zoom`, the smallest block in the surroundings of
-/// that block replaces the median block.
+/// Returns the unit edge in metres. On a lattice, this is the side of a cell, unless the blocks are larger. Otherwise
+/// it is 0.6·√A, about the edge of a regular hexagon of area A. A is the area of the median block, or the mean area if
+/// this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its surroundings.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::around(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
@@ -22,7 +21,7 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     sizes.sort_by(f64::total_cmp);
     let squares: f64 = sizes.iter().map(|s| s * s).sum();
     let mean = libm::sqrt(squares / sizes.len().max(1) as f64);
-    // In a zoomed picture use the smallest block, because small blocks must be visible next to large neighbours.
+    // A zoomed picture uses its smallest block, because small blocks must be visible next to large neighbours.
     let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
     let middle = sizes.get(middle).copied().unwrap_or(1.0);
     // If there are small blocks next to a very large block, arrows as long as a small block would be nearly invisible.

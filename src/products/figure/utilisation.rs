@@ -1,5 +1,5 @@
-//! Draws the utilisation: the used share of the available friction at each interface, and the used share of the limits
-//! of each robot.
+//! Draws the utilisation of a structure: the used share of the available friction at each interface, and the used share
+//! of the limits of each robot.
 //!
 //! The forces shown are one of many equilibrium states. In another state, some joints may use less friction, and other
 //! joints more.
@@ -83,7 +83,7 @@ impl PanelContent for Utilisation {
             let all = if spent {
                 "all of it".to_owned()
             } else {
-                "all of it: at the edge of sliding".to_owned()
+                "all of it: about to slide".to_owned()
             };
             entries.push(Entry::Sign(full_sign, SIGN_WIDTH, all));
         }
@@ -103,10 +103,10 @@ impl PanelContent for Utilisation {
 
         let used = most_used(scene, found);
         match found.verdict {
-            Verdict::Stable => format!("in the balance shown: {used}"),
+            Verdict::Stable => format!("in the forces shown: {used}"),
             Verdict::Unstable => format!("with the missing forces added, {used}"),
             Verdict::Undecided => format!(
-                "in what was found: {used}; {}",
+                "in the forces found: {used}; {}",
                 verdict::reason(scene, found)
             ),
         }
@@ -123,7 +123,8 @@ fn limited(scene: &Scene, robot: usize) -> bool {
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
-/// Describes the interface and the robot with the largest utilisation.
+/// Describes the interface that uses the largest share of its friction, and the robot that uses the largest share of
+/// its limits.
 fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
     let bearings = bearings(scene, found);
@@ -153,7 +154,8 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     let robots = || found.robots.iter().filter(|r| limited(scene, r.robot.0));
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
-    // Robots with equal utilisation are mentioned together, so that rounding errors do not select one of them.
+    // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
+    // one of them.
     let giving = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
     let giving: Vec<_> = giving.into_iter().flatten().collect();
     match giving.as_slice() {
@@ -169,7 +171,7 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
         )),
     }
     if stated.is_empty() {
-        "nothing is limited".to_owned()
+        "no interface has friction and no robot has limits".to_owned()
     } else {
         stated.join("; ")
     }
@@ -180,7 +182,7 @@ fn bold(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of the line of an interface. It shows the used share of the friction.
+/// Returns the colour of the line of an interface, which shows the used share of the available friction.
 fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
     match bearing.friction {
         Some(share) => theme.amplitude(share),
@@ -197,7 +199,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
     Stroke::new(theme.faint, width).dashed([3.0 * width, 2.4 * width])
 }
 
-/// Draws two groups of lines: interfaces without force, and interfaces with force.
+/// Draws the interfaces as lines in two groups: interfaces without force, and interfaces with force.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let scene = &pen.context.analysis.scene;
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
@@ -217,7 +219,8 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     (idle, used)
 }
 
-/// Draws the interfaces of very many blocks as few paths: one path for each colour, without titles.
+/// Draws the interfaces of a frame with very many blocks: all lines of one colour are one path without a tooltip. Adds
+/// interfaces without force to `idle`, and the others to `used`.
 fn joined_interfaces<'c>(
     pen: &Pen<'_>,
     bearings: impl Iterator<Item = (&'c Contact, Option<Bearing>)>,
@@ -260,7 +263,7 @@ fn line_of(pen: &Pen<'_>, contact: &Contact) -> Outline {
     Outline::line(contact.interface.ends.map(|p| pen.camera.place(p)))
 }
 
-/// Draws an interface without force.
+/// Draws an interface without force as a thin dashed line.
 fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let pair = description::pair(scene, contact.interface.bodies);
@@ -270,7 +273,8 @@ fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
         .with(path)
 }
 
-/// Draws an interface with force. Its colour shows the used share of the friction.
+/// Draws an interface with force as a line whose colour shows the used share of the available friction. A bar across
+/// the line shows that all friction is used.
 fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -297,7 +301,7 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
     drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))))
 }
 
-/// Returns the width of the border of a line, pixels. `bold` is the width of the line in pixels.
+/// Returns the width of the border on each side of a line, pixels. `bold` is the width of the line in pixels.
 fn rim(bold: f64) -> f64 {
     (0.16 * bold).clamp(0.4, 0.9)
 }
@@ -306,18 +310,17 @@ fn bar_width(bold: f64) -> f64 {
     (0.3 * bold).clamp(0.8, 1.6)
 }
 
-/// Returns the border of a line of width `bold`. The border is `rim` pixels wide on both sides, and makes the line
-/// visible on blocks of any colour.
+/// Returns a wider line below a line of width `bold`. It appears as a border of `rim` pixels on both sides, which makes
+/// the line visible on blocks of any colour.
 fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
     Path::stroked(line, Stroke::new(edge(theme), bold + 2.0 * rim))
 }
 
-/// Returns the ends of the bar that is drawn across an interface.
+/// Returns the two ends of the bar across an interface that uses all its friction.
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
-    // The scale of the page is the same in all directions, so a unit normal of the scene is also a unit normal on the
-    // page.
+    // The page has the same scale in both directions, so a unit normal in the scene is also a unit normal on the page.
     let (x, y) = (
         contact.interface.normal.x * half,
         -contact.interface.normal.y * half,
@@ -325,7 +328,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
-/// Draws discs for the robots with limits. The colour of a disc shows the used share of the limits.
+/// Draws a disc at the grip of each robot that has limits. The colour of the disc shows the used share of these limits.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");

@@ -1,11 +1,11 @@
-//! Draws the mark of a verdict. Its text comes from [`wording`](crate::wording). The verdict is also clear without
-//! colours.
+//! Draws the symbol of a verdict: a disc with a tick, a cross or a question mark, so that the verdict is clear without
+//! colours. Its text comes from [`wording`](crate::wording).
 
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 pub(crate) use crate::wording::verdict::{plain as word, reason};
 
-/// Returns the colour of the mark of a verdict.
+/// Returns the colour of the symbol of a verdict.
 pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     match verdict {
         Verdict::Stable => theme.stands,
@@ -14,7 +14,7 @@ pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
     }
 }
 
-/// Returns the text next to the mark of a frame's verdict.
+/// Returns the text next to the symbol of the verdict of a frame, such as `stands` or `stands only by wedging`.
 pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
     match found.only_by_wedging {
         Some(true) if found.verdict == Verdict::Stable => "stands only by wedging",
@@ -22,7 +22,7 @@ pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
     }
 }
 
-/// Returns the colour of the mark of a frame's verdict. A frame that stands only by wedging has the colour of an
+/// Returns the colour of the symbol of the verdict of a frame. A frame that stands only by wedging has the colour of an
 /// undecided frame.
 pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
     match found.only_by_wedging {
@@ -31,12 +31,13 @@ pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
     }
 }
 
-/// Draws the mark of a verdict in the colour of this verdict. `r` is its radius in pixels.
+/// Draws the symbol of a verdict in the colour of this verdict. `r` is the radius of the symbol in pixels.
 pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
     mark_in(colour(verdict, theme), verdict, centre, r, theme)
 }
 
-/// Draws a disc of radius `r` pixels with a tick, a cross or a question mark.
+/// Draws the symbol of a verdict in a given colour: a disc of radius `r` pixels with a tick (stable), a cross
+/// (unstable) or a question mark (undecided).
 pub(crate) fn mark_in(
     colour: Colour,
     verdict: Verdict,

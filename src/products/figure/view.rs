@@ -1,4 +1,4 @@
-//! [`shown`]: computes the part of the scene that each frame shows. Ground far from the blocks is cut.
+//! [`shown`]: computes the part of the scene that the panel of each frame shows. Ground far from the blocks is cut off.
 
 use super::arrow::Marks;
 use crate::drawing::arrow::HEAD_WIDTH;
@@ -15,9 +15,9 @@ const ZOOM_REACH: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
 
-/// Returns a box in metres for each frame. The box contains the blocks, planned blocks, arrows (`marks`) and robots of
-/// the frame, and the box `reach` of other marks. It also contains the ground near the blocks of any frame. `disc` is
-/// the radius of a robot's disc in unit edges; `unit` is the unit edge in metres.
+/// Returns, for each frame, a box in metres around everything that the frame shows: blocks, planned blocks, arrows
+/// (`marks`), robots, the box `reach` of other items, and the ground near the blocks of any frame. `disc` is the radius
+/// of a robot's disc in unit edges; `unit` is the unit edge in metres.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
@@ -95,7 +95,7 @@ pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))
 }
 
-/// True if a point lies in a box or on its edge.
+/// True if a point lies in a box or on its boundary.
 pub(crate) fn holds(bounds: Bounds, p: Point) -> bool {
     (bounds.min.x..=bounds.max.x).contains(&p.x) && (bounds.min.y..=bounds.max.y).contains(&p.y)
 }
@@ -104,7 +104,7 @@ fn near(p: Point, radius: f64) -> Bounds {
     Bounds { min: p, max: p }.grown(radius)
 }
 
-/// Returns the intersection of two boxes; `None` if they do not touch.
+/// Returns the intersection of two boxes; `None` if they neither overlap nor touch.
 pub(crate) fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
     let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
     let size: Vector = max - min;

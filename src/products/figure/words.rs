@@ -1,4 +1,4 @@
-//! The number formats of figures. They are defined in [`wording`](crate::wording).
+//! Reexports the number formats that figures use from [`wording`](crate::wording).
 
 pub use crate::wording::number::quantity;
 pub(crate) use crate::wording::number::{

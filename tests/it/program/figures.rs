@@ -294,7 +294,7 @@ fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
     assert!(ran.err.contains(files), "{}", ran.err);
     let ran = bench.run("render stands.json --zoom elephant -o no.svg");
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("; its blocks are "), "{}", ran.err);
+    assert!(ran.err.contains("; the blocks are "), "{}", ran.err);
     let ran = bench.run("render stands.json --margin load-factor -o no.svg");
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("--kind margin"), "{}", ran.err);

@@ -271,7 +271,7 @@ fn every_kind_of_figure_says_what_it_shows() {
         (
             "utilisation",
             "with the missing forces added",
-            "in the balance shown",
+            "in the forces shown",
         ),
     ] {
         let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));

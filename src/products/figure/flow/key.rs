@@ -32,7 +32,7 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(legend::loads(context));
     entries.extend(legend::robots(context));
     if all.iter().any(|s| !s.1.exact) {
-        let words = "inside a block the lines are schematic; widths are exact".to_owned();
+        let words = "inside a block, paths are schematic and widths are exact".to_owned();
         entries.push(Entry::Note(words));
     }
     entries
@@ -51,12 +51,12 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         let width = widest(unit) * amount / largest.max(f64::MIN_POSITIVE);
         let what = match verdict {
             Verdict::Stable => "force",
-            _ => "what is carried",
+            _ => "carried force",
         };
         let thin = LEAST_WIDTH / widest(unit) * largest;
         let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
         let least = match all.iter().any(|s| thinner(&s.1)) {
-            true => format!(", equally thin under {}", quantity(thin, newtons)),
+            true => format!("; all forces under {} have the same width", quantity(thin, newtons)),
             false => String::new(),
         };
         let words = format!("{what}, this wide for {}{least}", quantity(amount, newtons));
@@ -68,7 +68,7 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
     }
     if any(StrandKind::Missing).is_some() {
         let red = colour(theme, Verdict::Unstable, StrandKind::Missing);
-        let words = "what cannot be carried".to_owned();
+        let words = "force that cannot be carried".to_owned();
         entries.push(Entry::Line(red, 4.0, words));
         entries.push(Entry::Missing);
     }

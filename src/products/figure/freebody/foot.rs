@@ -140,7 +140,7 @@ impl Sheet<'_> {
         let found = &self.analysis.frames[self.frame];
         if found.unsupported.contains(&self.block) {
             notes.push(
-                "the forces on this block do not balance, because no adhesion could hold it"
+                "the forces on this block do not balance, because not even adhesion could hold it"
                     .to_owned(),
             );
         }

@@ -19,7 +19,7 @@ impl Sheet<'_> {
         requests: &[(Symbol, LabelRequest)],
     ) -> (Group, usize) {
         let mut group = Group::with_class("labels");
-        // The picture has no space for more than [`MAX_NAMES`] names, so do not try to place the others.
+        // The picture has no space for more than `MAX_NAMES` names, so do not try to place the others.
         let (requests, beyond) = requests.split_at(requests.len().min(MAX_NAMES));
         let mut nameless = beyond.len();
         ink.index();

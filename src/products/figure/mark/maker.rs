@@ -1,4 +1,4 @@
-//! [`ArrowMaker`]: makes the arrows of weights, loads, interfaces and robots.
+//! [`ArrowMaker`]: creates the arrows of weights, loads, and forces of interfaces and robots.
 
 use super::super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::super::option::{Normalisation, Options};
@@ -28,8 +28,8 @@ pub(super) struct ArrowMaker<'a> {
 }
 
 impl ArrowMaker<'_> {
-    /// Adds the arrow of a force, unless the force is too small. `look` is the colour of the arrow, and its width in
-    /// unit edges.
+    /// Adds the arrow of a force on the body `on`, unless the force is so small that it may be an error of the solver.
+    /// `look` is the colour of the arrow, and the width of its shaft in unit edges.
     pub(super) fn straight(
         &self,
         marks: &mut Marks,
@@ -39,7 +39,7 @@ impl ArrowMaker<'_> {
         force: Vector,
         look: (Colour, f64),
     ) {
-        // Loads are input, so even a very small load is not noise.
+        // Loads are input of the user. Even a very small load is not an error of the solver.
         let least = match kind {
             ArrowKind::Load => 0.0,
             _ => FORCE_TOL * marks.newtons_per_unit,
@@ -59,8 +59,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the position of an arrow's head: beyond the end of its vector in printed figures, otherwise within its
-    /// length.
+    /// Returns the position of the heads of arrows: beyond the end of the vector in printed figures, otherwise within
+    /// the vector.
     pub(super) fn head(&self) -> Head {
         if self.options.printed() {
             Head::Beyond
@@ -82,8 +82,8 @@ impl ArrowMaker<'_> {
         full * share * self.edge
     }
 
-    /// Adds the arrow of a torque. In printed figures, a torque of a robot is drawn as in the thesis: as two vertical
-    /// arrows, half a unit edge to the left and right of the point.
+    /// Adds the arrow of a torque on the body `on`. In printed figures, the torque of a robot is drawn as in the
+    /// thesis: as two vertical arrows, half a unit edge to the left and to the right of the point `at`.
     pub(super) fn torque(
         &self,
         marks: &mut Marks,
@@ -128,7 +128,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Adds the arrows of weights, loads and forces of interfaces, block by block in placing order.
+    /// Adds the arrows of weights, loads and forces of interfaces to `marks`, block by block in placing order.
     pub(super) fn blocks(&self, frame: &Frame, found: &FrameAnalysis, marks: &mut Marks) {
         let (scene, theme) = (self.scene, &self.options.theme);
         let touching = self.contacts_of_blocks(found);
@@ -171,7 +171,7 @@ impl ArrowMaker<'_> {
         touching
     }
 
-    /// Adds the arrows of the forces and torques of robots.
+    /// Adds the arrows of the forces and torques of robots to `marks`.
     pub(super) fn robots(&self, found: &FrameAnalysis, marks: &mut Marks) {
         let theme = &self.options.theme;
         for robot in &found.robots {

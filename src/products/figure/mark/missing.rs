@@ -1,4 +1,4 @@
-//! Makes the arrows of missing forces.
+//! Creates the arrows of missing forces, without which the frame falls.
 
 use super::super::apart;
 use super::super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
@@ -25,7 +25,7 @@ enum MissingScale {
 }
 
 impl ArrowMaker<'_> {
-    /// Adds the arrows of missing forces.
+    /// Adds the arrows of missing forces and torques to `marks`.
     pub(super) fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
         let look = (self.failure_colour(), self.options.theme.widths.failure);
         let scale = self.missing_scale(found);
@@ -49,7 +49,7 @@ impl ArrowMaker<'_> {
                 }
                 let vector = self.missing_vector(&scale, block, force);
                 let width = self.width(look.1, vector);
-                // In the figures of the thesis, every arrow begins at its point of action.
+                // In printed figures, as in the thesis, every arrow begins at the point where its force acts.
                 let at = match self.options.printed() {
                     true => at,
                     false => self.on_own_side(kind, block, at, vector, width),
@@ -69,7 +69,7 @@ impl ArrowMaker<'_> {
     }
 
     /// Returns the colour of missing forces. Printed figures with the theme of the thesis use the red of the thesis.
-    /// Other figures use a darker red, which differs from green in a grey print.
+    /// Other figures use a darker red, which a grey print distinguishes from green.
     fn failure_colour(&self) -> Colour {
         let theme = &self.options.theme;
         if self.options.printed() && *theme == Theme::thesis() {
@@ -89,7 +89,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Converts a missing force (N) on a block to the vector of its arrow, in metres.
+    /// Converts a missing force (N) on a block to the vector of its arrow in metres, at the scale of missing forces.
     fn missing_vector(&self, scale: &MissingScale, block: BlockId, force: Vector) -> Vector {
         match scale {
             MissingScale::OfBlocks(acting) if acting[block.0] > 0.0 => {
@@ -106,8 +106,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the point, in metres, at which the arrow of a missing force begins. The arrow then lies on the block on
-    /// which it acts.
+    /// Returns the point, in metres, at which the arrow of a missing force begins, so that the arrow lies on the block
+    /// on which the force acts.
     ///
     /// A missing pull is moved along its line of action until its head is at the joint. If it began at the joint, it
     /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction, by
@@ -122,7 +122,7 @@ impl ArrowMaker<'_> {
     ) -> Point {
         match kind {
             ArrowKind::MissingPull(_) => {
-                // The heads of both arrows are apart by a little more than the gap between arrows.
+                // The arrows on the two blocks end a little before the joint, so that their heads do not touch.
                 let length = vector.norm();
                 at - vector * ((length + 0.6 * apart::GAP * width) / length)
             }
@@ -140,7 +140,8 @@ impl ArrowMaker<'_> {
     }
 }
 
-/// Returns the missing forces of a failure, in N. Each force comes with the body on which it would act.
+/// Returns the missing forces of a failure: the kind of the arrow, the body on which the force would act, and the force
+/// in N.
 fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     match *failure {
         Failure::Tension {
@@ -173,8 +174,8 @@ fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     }
 }
 
-/// Returns, for each block, the largest weight, force component or robot force component on it, in N. The list is
-/// indexed by block. The thesis scales missing forces with these values.
+/// Returns, for each block, the largest of its weight, the normal and friction forces on it, and the force components
+/// of its robots, in N. The list is indexed by block. The thesis scales missing forces by these values.
 fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);

@@ -1,4 +1,4 @@
-//! [`marks`]: computes the data of all arrows of a frame, before they are drawn.
+//! [`marks`]: computes the positions, lengths and colours of all arrows of a frame.
 //!
 //! An arrow shows a force *on* a block and has the colour of this block; no arrows are drawn on the ground. Two blocks
 //! in contact have opposite arrows. Both begin at the moment-equivalent point Σ N_k p_k / Σ N_k of their interface
@@ -18,8 +18,8 @@ use crate::geometry::Point;
 use maker::ArrowMaker;
 use part::parts;
 
-/// Returns the straight arrows of frame `frame` (from 0) at the scale of this frame, as in [`marks`]. The list is empty
-/// if the frame does not exist.
+/// Returns the straight arrows of [`marks`] for frame `frame` (from 0). The scale is chosen for this frame: the arrow
+/// of its largest force is one unit edge long. The list is empty if the frame does not exist.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
     if frame >= analysis.frames.len() {
         return Vec::new();
@@ -28,7 +28,7 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
     marks(analysis, frame, options, reference).arrows
 }
 
-/// Returns the force, in N, whose arrow is one unit edge long at the scale of this frame.
+/// Returns the force, in N, whose arrow is one unit edge long if the scale is chosen for this frame.
 ///
 /// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit edge.
 /// With [`Normalisation::Source`], this is the largest single unknown, weight or load.
@@ -82,8 +82,8 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     most
 }
 
-/// Returns all arrows of frame `frame` (from 0). A force of `newtons_per_unit` N has an arrow
-/// as long as the unit edge.
+/// Returns all arrows of frame `frame` (from 0). The arrow of a force of `newtons_per_unit` newtons is one unit edge
+/// long.
 ///
 /// The unit edge is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
 /// exist or `newtons_per_unit` is not above 0.

@@ -1,4 +1,4 @@
-//! [`parts`]: returns the forces of an interface that are drawn as arrows.
+//! [`parts`]: divides the force of an interface into the forces that are drawn as arrows.
 
 use super::super::arrow::ArrowKind;
 use super::super::option::ForceStyle;
@@ -16,8 +16,8 @@ pub(super) struct Part {
     pub at: Point,
 }
 
-/// Returns the forces of an interface on its first body: the resultant, or the normal and the friction force, as
-/// `style` selects.
+/// Returns the forces of an interface on its first body. `style` selects the resultant, or the normal and the friction
+/// force.
 pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
     let at = contact.resultant.at;
     let part = |kind, force| Part { kind, force, at };

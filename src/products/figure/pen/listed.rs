@@ -1,5 +1,5 @@
-//! Draws the contacts that a scene lists, with their normals and friction cones, and the centres of blocks without an
-//! outline.
+//! Draws contacts that the scene file lists one by one, with their normals and friction cones. Also draws the centres
+//! of blocks without an outline.
 
 use super::Pen;
 use crate::drawing::{Group, Outline, Path, Stroke};
@@ -13,7 +13,8 @@ const HEAD: f64 = 0.18;
 const DOT: f64 = 2.2;
 
 impl Pen<'_> {
-    /// Draws each contact that the scene lists in the frame: a dot with its normal and its friction cone.
+    /// Draws each contact of the frame that the scene lists: a dot with its normal and its friction cone. The group is
+    /// empty if the scene lists no contacts.
     pub(super) fn listed_contacts(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let mut group = Group::with_class("contacts");
@@ -54,7 +55,7 @@ impl Pen<'_> {
         group
     }
 
-    /// Returns the mark of the point at which a weight acts: a circle with a cross.
+    /// Returns the symbol of the point at which the weight of a block acts: a circle with a cross.
     pub(super) fn centre(&self, at: Point) -> Path {
         let (theme, at) = (&self.context.options.theme, self.camera.place(at));
         let mut mark = Outline::circle(at, 2.0 * DOT);

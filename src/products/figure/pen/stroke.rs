@@ -22,13 +22,13 @@ impl Pen<'_> {
         self.camera.length(arrow.reach().norm()) >= LEAST_SEEN
     }
 
-    /// True if the arrow of a torque is long enough to be visible. Always true for loads.
+    /// True if the arrow of a torque is long enough to be visible. Always true for torques of loads.
     pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
         self.camera.length(turn.arc.abs()) >= LEAST_SEEN || turn.kind == TurnKind::Load
     }
 
-    /// Returns the loads and missing forces whose arrows are too small, without duplicates. A dot shows the point where
-    /// each of them acts.
+    /// Returns the loads and missing forces whose arrows are too small to be visible. Each of them is drawn as a dot at
+    /// the point where it acts; two opposite forces have only one dot.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
         let marks = &self.context.marks[self.number];
         marks
@@ -62,7 +62,7 @@ impl Pen<'_> {
             self.width(arrow),
         );
         if arrow.kind == ArrowKind::Load {
-            // Loads are hollow, so that a grey print also shows the difference from other forces.
+            // Arrows of loads are hollow, so that they differ from other forces also in a grey print.
             let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
             return Path::filled(outline, self.context.options.theme.page)
                 .with_stroke(edge.mitred());
@@ -70,8 +70,8 @@ impl Pen<'_> {
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
 
-    /// Returns the ring at the tail of a weight, which distinguishes it from other forces. Returns `None` for other
-    /// forces and in small or printed figures.
+    /// Returns the small circle at the tail of the arrow of a weight, which distinguishes it from other forces. Returns
+    /// `None` for other forces, and in small or printed figures.
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
             && !self.context.options.printed()
@@ -95,8 +95,8 @@ impl Pen<'_> {
         }
     }
 
-    /// Draws the heads of all arrows again, above all shafts. Arrows on one line overlap, and a shaft must not hide the
-    /// head of another arrow. Loads and missing forces are not drawn again.
+    /// Draws the heads of arrows again, on top of all shafts, because a shaft must not hide the head of another arrow
+    /// on the same line. Loads and missing forces are not drawn again.
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
@@ -132,8 +132,9 @@ impl Pen<'_> {
         Path::filled(outline, turn.colour).cased(self.context.options.theme.casing, self.casing)
     }
 
-    /// Returns the signed angle of a torque's arrow, radians. `radius` is in metres. The arrow of a load has a least
-    /// angle, so that its direction is visible; its magnitude is written next to it.
+    /// Returns the angle of the arrow of a torque in radians, with the sign of the torque. `radius` is the radius of
+    /// the arrow in metres. The arrow of a load has at least a minimum angle, so that its direction is visible; its
+    /// magnitude is written next to it.
     fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
         let sweep = turn.arc / radius;
         if turn.kind != TurnKind::Load || turn.torque == 0.0 {
@@ -142,8 +143,9 @@ impl Pen<'_> {
         sweep.abs().max(LEAST_SWEEP).copysign(turn.torque)
     }
 
-    /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
-    /// is farthest from straight arrows. If several directions are equally good, the result is upwards.
+    /// Returns the direction from the centre of a torque arrow to the middle of its arc, radians. The direction is
+    /// chosen so that the arc is as far as possible from straight arrows. It is upwards unless another direction is
+    /// clearly better.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let ends = [-0.5 * sweep, 0.5 * sweep];
@@ -171,8 +173,8 @@ impl Pen<'_> {
         best.1
     }
 
-    /// Draws the arrows of missing forces and torques, or with `missing` = false all other arrows. The title of each
-    /// arrow states its magnitude.
+    /// Draws arrows and dots of forces and torques: the missing ones if `missing` is true, otherwise all others. The
+    /// tooltip of each arrow gives its magnitude.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
@@ -206,7 +208,7 @@ impl Pen<'_> {
         group
     }
 
-    /// Draws only the arrows of loads.
+    /// Draws only the arrows and dots of loads, for a figure whose other arrows would be too small.
     pub(crate) fn loads(&self) -> Group {
         let mut group = Group::with_class("forces");
         let loads = self.context.marks[self.number].arrows.iter();
@@ -220,8 +222,8 @@ impl Pen<'_> {
         group
     }
 
-    /// Like [`Pen::arrows`] without missing forces, for frames with very many blocks. Draws one path for all arrows of
-    /// a colour.
+    /// Draws all arrows except those of missing forces, for frames with very many blocks. All arrows of one colour are
+    /// one path.
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();

@@ -1,4 +1,4 @@
-//! [`Plan`]: the arrows at the corners of a frame, and its numbered changes.
+//! [`Plan`]: computes the arrows at the corners of a frame, and its most effective changes with their numbers.
 
 use crate::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::geometry::{Bounds, Point, Vector};
@@ -54,7 +54,7 @@ pub(super) struct Numbered {
 }
 
 impl Plan {
-    /// Plans the drawing of a frame; `None` if its margin has no derivatives.
+    /// Computes the arrows and the numbered changes of a frame; `None` if the derivatives of its margin are not known.
     pub fn new(analysis: &Analysis, frame: usize) -> Option<Plan> {
         let (scene, found) = (&analysis.scene, analysis.frames.get(frame)?);
         let sensitivity = found.sensitivity.as_ref()?;
@@ -104,31 +104,34 @@ impl Plan {
         })
     }
 
-    /// Returns the largest growth per metre of an arrow; 0 without arrows.
+    /// Returns the largest growth of the margin, per metre of displacement, that an arrow shows; 0 if there are no
+    /// arrows.
     pub fn strongest(&self) -> f64 {
         let effects = self.arrows.iter().map(|arrow| arrow.effect.norm());
         effects.fold(0.0, f64::max)
     }
 
-    /// Returns the tip of an arrow. `scale` is the length of an arrow in metres for a growth of 1 per metre.
+    /// Returns the tip of an arrow, metres. `scale` is the length in metres of an arrow that shows a growth of 1 per
+    /// metre.
     pub fn tip(arrow: &CornerArrow, scale: f64) -> Point {
         arrow.at + arrow.effect * scale
     }
 
-    /// Returns a box around all arrows.
+    /// Returns a box around all arrows, metres; `None` if there are no arrows. `scale` is as in [`Plan::tip`].
     pub fn bounds(&self, scale: f64) -> Option<Bounds> {
         let ends = self.arrows.iter();
         Bounds::from_points(ends.flat_map(|arrow| [arrow.at, Plan::tip(arrow, scale)]))
     }
 
-    /// Whether a number stands where no arrow is.
+    /// True if a numbered change has no arrow, so that its number is drawn in a disc.
     pub fn has_marks(&self) -> bool {
         self.changes
             .iter()
             .any(|change| self.mark(change).is_some())
     }
 
-    /// Returns the place of a number that no arrow has.
+    /// Returns the position of the number of a change in the scene. Returns `None` if an arrow has the number, or if
+    /// the change has no position.
     pub fn mark(&self, change: &Numbered) -> Option<Point> {
         let mut arrows = self.arrows.iter();
         match arrows.any(|arrow| arrow.number == Some(change.number)) {
@@ -138,7 +141,8 @@ impl Plan {
     }
 }
 
-/// Returns the length of an arrow in metres for a growth of 1 per metre. It is the same in all frames. 0 without arrows.
+/// Returns the length, in metres, of an arrow that shows a growth of the margin of 1 per metre. The scale is the same
+/// in all frames; it is 0 if there are no arrows.
 pub(super) fn scale(analysis: &Analysis, unit: f64) -> f64 {
     let scene = &analysis.scene;
     let frames = 0..analysis.frames.len();
@@ -155,7 +159,7 @@ pub(super) fn scale(analysis: &Analysis, unit: f64) -> f64 {
     }
 }
 
-/// True if a corner has no unique derivatives.
+/// True if the margin has no unique derivatives with respect to the position of a corner.
 fn is_kink(moves: CornerMoves) -> bool {
     let is_open = |slope: Slope| slope.unique().is_none();
     match moves {
@@ -175,7 +179,7 @@ struct Sketch<'a> {
 }
 
 impl Sketch<'_> {
-    /// Describes a change and finds the place of its number.
+    /// Describes a change in words and finds the position of its number.
     fn numbered(&self, number: usize, change: &EffectiveChange) -> Numbered {
         let (scene, found) = (self.scene, self.found);
         let by = length(change.amount);
@@ -225,7 +229,7 @@ impl Sketch<'_> {
     }
 }
 
-/// The step of a friction coefficient with its sign.
+/// Returns the change of a friction coefficient with its sign.
 fn rubbed(change: &EffectiveChange) -> String {
     let sign = if change.words.starts_with("raising") {
         '+'

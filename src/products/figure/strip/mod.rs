@@ -1,5 +1,5 @@
-//! [`Strip`]: draws a page of panels, one per frame, with one legend below all panels. Each panel has a caption and a
-//! verdict. [`PanelContent`] draws the content of a panel.
+//! [`Strip`]: a figure with one panel for each frame and one legend below all panels. Each panel has a caption and a
+//! verdict. [`PanelContent`] draws the picture of a panel.
 //!
 //! This file decides which panels are on which page. `page` draws a page, `panel` a panel, and `words` has their texts.
 
@@ -19,7 +19,7 @@ use crate::drawing::Drawing;
 /// Space around a panel for names that need it, pixels: on both sides, and above and below.
 const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
 
-/// Draws a figure with a panel of this content for each frame.
+/// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels.
 pub(crate) fn strip(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -42,8 +42,8 @@ pub(crate) fn strip(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
-    // Some names do not fit into their blocks. Draw the figure again with space around the structure. Keep this figure
-    // if it has space for at least half of these names.
+    // Some labels have no good position. Draw the figure again with more space around the structure. Use the second
+    // figure if at least half of these labels have a good position there.
     let (across, up) = SPACE_FOR_NAMES;
     let roomy = context.with_room(across / scale, up / scale);
     let (roomier, still, _) = drawn(&roomy);
@@ -54,8 +54,8 @@ pub(crate) fn strip(
     }
 }
 
-/// Draws the panels of [`strip`] for these frames, each on a separate page. All pages have the same size and scale, as
-/// an animation needs.
+/// Draws the panels of [`strip`] for these frames, each on a separate page. All pages have the same size and scale, so
+/// that they can be the pictures of an animation.
 pub(crate) fn pages(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -66,7 +66,8 @@ pub(crate) fn pages(
     steps_of(analysis, content, options, steps)
 }
 
-/// Like [`pages`], for pairs of a frame and a share from 0 to 1. The blocks are displaced by this share of their paths.
+/// Like [`pages`], for each pair of a frame and a share from 0 to 1. The blocks are displaced by this share of their
+/// paths.
 pub(crate) fn steps_of(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -93,8 +94,8 @@ pub(crate) fn steps_of(
     pages
 }
 
-/// Draws the panels of [`strip`] on several pages at one scale. The height of a page is at most `high` times its width,
-/// unless a single row is higher.
+/// Draws the panels of [`strip`] on several pages at the same scale. The height of a page is at most `high` times its
+/// width, unless a single row is higher.
 pub(crate) fn split(
     analysis: &Analysis,
     content: &'static dyn PanelContent,

@@ -28,8 +28,8 @@ struct Gaps {
 }
 
 impl Gaps {
-    /// Returns the gaps of a page. The gaps are smaller if the page is only as wide as a column of print, so that text
-    /// does not fill half of the page.
+    /// Returns the gaps between the parts of a page. The gaps are smaller on a page that is narrower than
+    /// [`PRINT_COLUMN`], because title and legend need more lines there. `width` is the width of the page in pixels.
     fn new(width: Option<f64>) -> Gaps {
         match width.is_some_and(|width| width < PRINT_COLUMN) {
             true => Gaps {
@@ -48,8 +48,8 @@ impl Gaps {
     }
 }
 
-/// Draws a page of panels with one legend below them. `order` has, for each panel, the index of its strip and its
-/// frame. All strips have the same layout. All structures in a row are at the same height.
+/// Draws a page of panels with one legend below them. `order` lists the panels: the index of the strip and the index of
+/// the frame. All strips have the same layout. All panels of a row show the same heights of their scenes.
 pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &str) -> Drawing {
     let Some(first) = strips.first() else {
         return Drawing::default();
@@ -95,8 +95,8 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     }
 }
 
-/// Returns the width of a page without its margins, pixels. The page is wide enough for the legend, even if the picture
-/// is narrow.
+/// Returns the width of a page without its margins, pixels. If the options set no width, the page is wide enough for
+/// the legend even if the picture is narrow.
 fn inner_width(options: &Options, layout: &Layout, entries: &[Entry]) -> f64 {
     match options.width {
         Some(width) => (width - 2.0 * layout.margin).max(1.0),
@@ -130,7 +130,7 @@ impl PageWriter<'_> {
         self.width() / 2.0
     }
 
-    /// Writes the title of the page.
+    /// Writes the title of the page and moves `y` below it.
     fn heading(&mut self, heading: &str) {
         let theme = &self.options.theme;
         let (lines, size) = title::lines(heading, self.inner, theme);
@@ -145,8 +145,8 @@ impl PageWriter<'_> {
         self.y += self.gaps.below_title;
     }
 
-    /// Draws a row of panels. All panels of the row show the same heights of the scene. Their verdicts are at the same
-    /// height, below the longest caption.
+    /// Draws a row of panels and moves `y` below it. All panels of the row show the same heights of the scene. Their
+    /// verdicts are on the same line, below the longest caption.
     fn row(&mut self, row: &[(usize, usize)]) {
         let views = row.iter();
         let views = views.map(|(strip, frame)| self.strips[*strip].shows(*frame));
@@ -181,7 +181,7 @@ impl PageWriter<'_> {
         self.y = bottom;
     }
 
-    /// Draws a thin line, and the legend below it.
+    /// Draws a thin horizontal line and the legend below it, and moves `y` below the legend.
     fn legend(&mut self, entries: &[Entry]) {
         let theme = &self.options.theme;
         self.y += self.gaps.above_rule;

@@ -1,4 +1,5 @@
-//! Draws a panel: the picture, and below it the caption, the verdict and the reason for the verdict.
+//! Draws a panel of a figure: the picture of a frame, and below it the caption, the verdict and the reason for the
+//! verdict.
 
 use super::super::dimension;
 use super::super::label;
@@ -32,7 +33,7 @@ pub(super) struct Place {
 }
 
 impl Strip<'_> {
-    /// Draws the panel of a frame: picture, caption and verdict. Also returns the y coordinate of its lower end,
+    /// Draws the panel of a frame: picture, caption, verdict and reason. Also returns the y coordinate below the panel,
     /// pixels.
     pub(super) fn panel(&self, frame: usize, place: Place) -> (Group, f64) {
         let (context, layout) = (self.context, self.layout);
@@ -73,8 +74,8 @@ impl Strip<'_> {
         (group, below.y)
     }
 
-    /// Writes the caption of a frame below the point `top`. The space for the caption has `captions` lines. Also
-    /// returns the point below this space.
+    /// Writes the caption of a frame below the point `top`. Space for `captions` lines is reserved. Also returns the
+    /// point below this space.
     fn caption_at(&self, frame: usize, top: PagePoint, captions: usize) -> (Vec<Item>, PagePoint) {
         let theme = &self.context.options.theme;
         let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);
@@ -93,8 +94,9 @@ impl Strip<'_> {
         )
     }
 
-    /// Draws the mark and the text of a verdict and the scale of arrows in one line, centred at `centre`. If the panel
-    /// is too narrow, the scale is on a second line. Also returns the additional height in pixels.
+    /// Draws the symbol and the text of a verdict, followed by the scale of arrows, in one line centred at `centre`. If
+    /// the panel is too narrow, the scale is on a second line. Also returns the height of the second line in pixels, or
+    /// 0.
     fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let options = self.context.options;
         let theme = &options.theme;
@@ -133,8 +135,8 @@ impl Strip<'_> {
         (items, below)
     }
 
-    /// Returns the legend entry with the arrow scale of a panel. `None` if all panels share one scale, if there is no
-    /// legend, or if the panel shows no arrows.
+    /// Returns the legend entry for the scale of arrows of a panel. Returns `None` if all panels have the same scale,
+    /// if there is no legend, or if the panel shows no arrows.
     fn scale_of_panel(&self, frame: usize) -> Option<Entry> {
         let (context, options) = (self.context, self.context.options);
         let too_small = context.arrows_too_small(self.layout.scale);
@@ -153,7 +155,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Draws the mark of a verdict and its text. `start` is the middle of the left edge of the mark.
+    /// Draws the symbol of a verdict and the text `words` to its right. `start` is the middle of the left edge of the
+    /// symbol.
     fn marked_verdict(&self, frame: usize, words: String, start: PagePoint) -> [Item; 2] {
         let theme = &self.context.options.theme;
         let found = &self.context.analysis.frames[frame];
@@ -168,8 +171,8 @@ impl Strip<'_> {
         ]
     }
 
-    /// Writes the reason for a verdict below the point `top`. Notes follow: on arrows that are too small, and on labels
-    /// without space (`cramped`). Also returns the point below the text.
+    /// Writes the reason for a verdict below the point `top`. Notes follow it: on arrows that are too small to be
+    /// visible, and on labels without space (`cramped`). Also returns the point below the text.
     fn reason(
         &self,
         frame: usize,
@@ -208,12 +211,13 @@ impl Strip<'_> {
     }
 }
 
-/// Returns the radius of the mark of a verdict with this font size, pixels.
+/// Returns the radius of the symbol of a verdict, pixels. `size` is the font size of the verdict.
 fn mark_radius(size: f64) -> f64 {
     size * 7.5 / 13.5
 }
 
-/// Returns the note on labels for which the picture has no space; `None` if there is no such label.
+/// Returns the note on labels for which the picture has no space, such as `no room for 2 names`. Returns `None` if
+/// there are no such labels.
 fn without_room(picture: &Group) -> Option<String> {
     let groups = picture.items.iter().filter_map(|item| match item {
         Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),

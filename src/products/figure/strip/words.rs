@@ -1,4 +1,4 @@
-//! The texts of a strip: legend, captions, verdicts and descriptions of its panels.
+//! Writes the texts of a figure with panels: the legend, and the captions, verdicts and descriptions of the panels.
 
 use super::super::arrow::{ArrowKind, ForceArrow};
 use super::super::label;
@@ -13,7 +13,7 @@ use crate::geometry::Bounds;
 const MAX_CAPTION_LINES: usize = 8;
 
 impl Strip<'_> {
-    /// Returns the entries of the legend.
+    /// Returns the entries of the legend of this figure, including notes on arrows and labels that are left out.
     pub(super) fn entries(&self) -> Vec<legend::Entry> {
         let options = self.context.options;
         let unit = self.layout.scale * self.context.unit;
@@ -41,8 +41,8 @@ impl Strip<'_> {
         entries
     }
 
-    /// Returns the part of the scene that the panel of a frame shows, metres. It is as wide as all frames need, so that
-    /// structures are aligned in columns.
+    /// Returns the part of the scene that the panel of a frame shows, metres. The panels of all frames show the same
+    /// width, so that structures are aligned in columns.
     pub(super) fn shows(&self, frame: usize) -> Bounds {
         if self.alike {
             self.context.view
@@ -51,7 +51,8 @@ impl Strip<'_> {
         }
     }
 
-    /// Returns a text about a frame: the caption, if the frame has one, followed by `what`.
+    /// Returns `what` with the caption of the frame before it, such as `(a) First step: falls`. `between` separates the
+    /// parts of the caption.
     pub(super) fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
         let caption = self.caption(frame, between);
         if caption.is_empty() {
@@ -61,7 +62,7 @@ impl Strip<'_> {
         }
     }
 
-    /// Returns the lines of the caption; empty if the options exclude captions.
+    /// Returns the lines of the caption of a frame; empty if the options exclude captions.
     pub(super) fn caption_lines(&self, frame: usize) -> Vec<String> {
         if !self.context.options.captions {
             return Vec::new();
@@ -75,8 +76,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Returns the text next to the mark of a verdict. If this text is wider than the panel, the first part is only the
-    /// verdict, and the second part is the rest of the text.
+    /// Returns the text next to the symbol of a verdict. If this text is wider than the panel, it is divided: the first
+    /// part is only the verdict, and the second part is the rest.
     pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
         let found = &self.context.analysis.frames[frame];
@@ -96,9 +97,9 @@ impl Strip<'_> {
         (badge.to_owned(), Some(rest).filter(|rest| !rest.is_empty()))
     }
 
-    /// Returns the caption of a frame, such as `(a) Initial situation`. The letter is left out if there is only one
-    /// frame, and the title if the heading already has this title. In a zoomed figure, the caption names the block in
-    /// the centre.
+    /// Returns the caption of a frame, such as `(a) Initial situation`. If there is only one frame, the letter is left
+    /// out, and also the title if it is the title of the scene. In a zoomed figure, the caption names the block in the
+    /// centre.
     fn caption(&self, frame: usize, between: &str) -> String {
         let scene = &self.context.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
@@ -118,7 +119,7 @@ impl Strip<'_> {
         parts.join(between)
     }
 
-    /// Describes a frame in a sentence.
+    /// Returns a sentence for screen readers about a frame: its blocks, its weight, its verdict and the reason.
     pub(super) fn described(&self, frame: usize) -> String {
         let (scene, found) = (
             &self.context.analysis.scene,

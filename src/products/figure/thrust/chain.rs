@@ -1,4 +1,4 @@
-//! [`Chain`]: a sequence of blocks, each between two joints, and the forces in these joints.
+//! [`Chain`]: a sequence of blocks in which forces pass from one joint to the next, such as the blocks of an arch.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::geometry::{Vector, quarter_turn};
@@ -25,8 +25,8 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    /// Returns the largest component of the forces perpendicular to gravity, N. `across` is the unit vector
-    /// perpendicular to gravity.
+    /// Returns the thrust of the chain, N: the largest component of its joint forces perpendicular to gravity. `across`
+    /// is the unit vector perpendicular to gravity.
     pub fn thrust(&self, across: Vector) -> f64 {
         let amounts = self.forces.iter().map(|f| f.dot(&across).abs());
         amounts.fold(0.0, f64::max)
@@ -37,7 +37,8 @@ impl Chain {
     }
 }
 
-/// Returns the chains of a frame that have a thrust. The chain with the greatest thrust comes first.
+/// Returns the chains of a frame that have a thrust, at most [`MAX_CHAINS`]. The chain with the greatest thrust comes
+/// first.
 pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Chain> {
     let bearings = bearings(scene, found);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
@@ -60,7 +61,8 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
             }
         }
     }
-    // Each chain has been found twice, once from each end. Keep only one of both.
+    // Each chain has been found twice, once from each end. Keep the copy that runs from left to right, if it is long
+    // enough and has a thrust.
     let place = |joint: usize| across.dot(&found.contacts[joint].resultant.at.coords);
     chains.retain(|chain| {
         let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);
@@ -73,7 +75,8 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
     chains
 }
 
-/// Follows a chain from the joint `first` of the block `start` to its other end. Returns `None` if the chain is closed.
+/// Follows a chain of blocks from the joint `first` of the block `start` to the other end of the chain. Returns `None`
+/// if the blocks form a closed ring.
 fn walked(
     start: BlockId,
     first: usize,
@@ -102,13 +105,13 @@ fn walked(
     }
 }
 
-/// Returns the body on the other side of a contact.
+/// Returns the other body of a contact, which is not `body`.
 fn other(contact: &Contact, body: BodyId) -> BodyId {
     let [a, b] = contact.interface.bodies;
     if a == body { b } else { a }
 }
 
-/// Returns the force of a contact on one of its bodies, N.
+/// Returns the resultant force of a contact on `body`, which is one of its two bodies, N.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
     let force = contact.resultant.force;
     if contact.resultant.on == body {

@@ -1,6 +1,6 @@
-//! Draws the force polygon next to the line of thrust, in the classical form: a load line, a pole, and a ray for each
-//! joint. Rays begin at the pole. A ray is the force in the joint with the same number. The weight and the loads of a
-//! block connect the ends of the rays of its two joints.
+//! Draws the force polygon next to the line of thrust in the classical form: a load line, a pole, and a ray from the
+//! pole for each joint. A ray shows the force in the joint with the same number. The weight and the loads of a block
+//! connect the tips of the rays of its two joints.
 
 use super::chain::{Chain, chains};
 use crate::analysis::FrameAnalysis;
@@ -57,8 +57,8 @@ pub(crate) struct Fans {
 }
 
 impl Fans {
-    /// Computes the fans of a frame, to the right of the structure. Returns `None` if no chain of blocks has a thrust.
-    /// `unit` is the unit edge in metres.
+    /// Computes the force polygons of a frame, one fan of rays for each chain of blocks, to the right of the structure.
+    /// Returns `None` if no chain of blocks has a thrust. `unit` is the unit edge in metres.
     pub fn new(scene: &Scene, frame: &Frame, found: &FrameAnalysis, unit: f64) -> Option<Fans> {
         let blocks = frame.placed.iter();
         let structure = blocks
@@ -113,7 +113,8 @@ impl Fans {
         })
     }
 
-    /// Draws the fans, and the numbers of the joints on the structure. Labels do not cover `ink`.
+    /// Draws the force polygons, and the numbers of the joints on the structure. Adds both to `ink`, so that labels do
+    /// not cover them.
     pub fn draw(
         &self,
         scene: &Scene,
@@ -136,7 +137,7 @@ impl Fans {
         group
     }
 
-    /// Draws a scale bar for a round force below the fans.
+    /// Draws a scale bar for a round force below the force polygons.
     fn draw_scale(
         &self,
         camera: &Camera,
@@ -173,7 +174,7 @@ impl Fans {
 }
 
 impl Fan {
-    /// Draws the load line, and the rays with their numbers. The first number is `before` + 1.
+    /// Draws the load line, the rays with their numbers, and the thrust H. The number of the first ray is `before` + 1.
     fn draw(
         &self,
         scene: &Scene,
@@ -216,7 +217,7 @@ impl Fan {
                 below = at.y;
             }
         }
-        // The distance of the pole from the load line is the thrust.
+        // The thrust H is the distance of the pole from the load line.
         let across = quarter_turn(scene.down());
         let thrust = quantity(self.chain.thrust(across), scene.units.force());
         let ends = self.vertices.iter().copied().chain([self.pole]);
@@ -233,7 +234,8 @@ impl Fan {
         }
     }
 
-    /// Draws the weights, the loads and the forces of robots from the end of each ray to the next.
+    /// Draws the load line: the weight, the loads and the robot forces of each block, from the tip of one ray to the
+    /// tip of the next.
     fn draw_load_line(&self, scene: &Scene, camera: &Camera, theme: &Theme, group: &mut Group) {
         for (k, id) in self.chain.blocks.iter().enumerate() {
             let block = &scene.blocks[id.0];
@@ -267,7 +269,8 @@ impl Fan {
         }
     }
 
-    /// Writes the number of each joint next to the outer or upper end of the joint.
+    /// Writes the number of each joint on the structure, next to the outer or upper end of the joint. The first number
+    /// is `before` + 1.
     fn number_joints(
         &self,
         found: &FrameAnalysis,
@@ -308,8 +311,8 @@ impl Fan {
     }
 }
 
-/// Returns the x coordinate of the left end of a text of this width: `x` if the text then fits on the page. Otherwise
-/// the text ends at the right edge of the page.
+/// Returns the x coordinate of the left end of a text that is `wide` pixels wide: `x` if the text fits on the page
+/// there, otherwise the position at which it ends at the right edge of the page.
 fn within(x: f64, wide: f64, page: PageRect) -> f64 {
     x.min(page.at.x + page.width - wide)
 }

@@ -1,4 +1,4 @@
-//! Draws a line of thrust, the joints, and dots at the points where the forces of the joints act.
+//! Draws a line of thrust, the interfaces, and a dot at the point of each interface where its resultant acts.
 
 use super::super::bearing::bearings;
 use super::super::by_colour::ByColour;
@@ -23,31 +23,31 @@ pub(super) fn colour(theme: &Theme) -> Colour {
     theme.motion
 }
 
-/// Returns the colour of schematic lines.
+/// Returns the colour of the schematic parts of the line of thrust.
 pub(super) fn schematic_colour(theme: &Theme) -> Colour {
     theme.page.mixed(theme.motion, 0.45)
 }
 
-/// Returns the colour of the forces that are carried in a frame that does not stand. It is weaker than the colour of a
-/// line in equilibrium, but visible in print.
+/// Returns the colour of the line in a frame that does not stand. It is paler than the colour of a line of thrust in
+/// equilibrium, but visible in print.
 pub(super) fn carried_colour(theme: &Theme) -> Colour {
     theme.block.mixed(theme.faint, 0.7)
 }
 
-/// Returns the width of the line of the largest force, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line where it carries the largest force, in pixels. `unit` is the unit edge in pixels.
 pub(super) fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
 }
 
-/// Returns the width of a segment, pixels.
+/// Returns the drawn width of a segment of the line of thrust, pixels. A larger force has a wider line.
 pub(super) fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
     let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
     widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
 }
 
-/// Draws every interface as a line.
+/// Draws all interfaces as lines of the same width.
 pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let theme = &pen.context.options.theme;
     let mut outline = Outline::default();
@@ -64,7 +64,7 @@ pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     seams.with(Path::stroked(outline, stroke))
 }
 
-/// Draws the line of thrust: first its schematic parts, and above them the true lines of action.
+/// Draws the line of thrust: first its schematic parts, then the true lines of action on top of them.
 pub(super) fn lines(
     pen: &Pen<'_>,
     scene: &Scene,
@@ -93,8 +93,8 @@ pub(super) fn lines(
     group
 }
 
-/// Returns a line; `width` is in pixels. The line is grey if the frame does not stand. `through` is false for schematic
-/// lines.
+/// Returns the path of an outline in the colour of the line of thrust, `width` pixels wide. The colour is grey if the
+/// frame does not stand, and pale if the line is schematic (`through` is false).
 fn stroked(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -111,7 +111,7 @@ fn stroked(
     Path::stroked(outline, Stroke::new(colour, width))
 }
 
-/// Draws the segments of very many blocks as few paths: one path for all segments of about the same width.
+/// Draws the segments of the line for frames with very many blocks: all segments of about the same width are one path.
 fn joined_lines<'s>(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -135,7 +135,7 @@ fn joined_lines<'s>(
         .collect()
 }
 
-/// Describes a segment of the line: the block, the object from which the force comes, and the magnitude of the force.
+/// Describes a segment of the line of thrust: its block, the origin of the force along it, and this force.
 fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.origin {
@@ -146,7 +146,7 @@ fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> Strin
         }
         ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
         ForceOrigin::Load(_) => "a load".to_owned(),
-        ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
+        ForceOrigin::Resultant => "a joint, combined with loads".to_owned(),
     };
     let force = force(segment.force, scene.units);
     if segment.through {
@@ -156,8 +156,8 @@ fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> Strin
     }
 }
 
-/// Draws a dot at the point of action of each interface's resultant. Calls `ink` with the position and the radius in
-/// pixels of each dot.
+/// Draws a dot at the point where the resultant of each interface acts. Calls `ink` with the position of each dot and
+/// its radius in pixels.
 pub(super) fn dots(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -190,7 +190,7 @@ fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
 }
 
-/// Draws the dot of a joint for the legend.
+/// Draws the symbol of a resultant for the legend: a dot.
 pub(super) fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
 }

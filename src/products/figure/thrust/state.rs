@@ -1,5 +1,5 @@
-//! The states of the figure: most central thrust, least thrust and greatest thrust. Draws the thin lines of least and
-//! greatest thrust, and writes the texts on all states.
+//! Draws the thin lines of least and of greatest thrust, and writes the texts about these two states and the most
+//! central state.
 
 use super::super::context::FigureContext;
 use super::super::funicular::segments;
@@ -17,8 +17,8 @@ const THIN: f64 = 1.3;
 const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
 const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 
-/// Formats the horizontal thrust of a state (N): `, horizontal thrust 28.3 kN`. Empty if there are several frames,
-/// because their thrusts differ.
+/// Formats a horizontal thrust in newtons for the legend: `, horizontal thrust 28.3 kN`. The text is empty if there are
+/// several frames, because their thrusts differ.
 fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     if context.analysis.frames.len() == 1 {
         format!(
@@ -30,13 +30,13 @@ fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     }
 }
 
-/// Returns the thrust states of all frames.
+/// Returns the thrust states (least, greatest and most central) of each frame.
 fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
-/// Returns the part of a legend text that gives the thrust of the most central line. Returns `None` if no frame shows
-/// this line.
+/// Returns the part of the legend text that gives the horizontal thrust of the most central line. Returns `None` if no
+/// frame shows this line.
 pub(super) fn central(context: &FigureContext<'_>) -> Option<String> {
     let state = families(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))
@@ -60,7 +60,8 @@ pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     .collect()
 }
 
-/// Returns a note that other figures show another state of the frame; `None` if no states of least thrust are known.
+/// Returns a note for the reader that other figures show a different equilibrium of the frame. Returns `None` if the
+/// state of least thrust is not known.
 pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let family = context.thrust_states(frame);
     family.least.as_ref()?;
@@ -70,8 +71,8 @@ pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option
     ))
 }
 
-/// Returns a note that names the state shown in a frame without a family of lines. Returns `None` if the number of
-/// unknowns shows that equilibrium determines all forces.
+/// Returns a note for the reader that the line shown is one of many possible lines. Returns `None` if there are no more
+/// unknown forces than equations of equilibrium.
 pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let unknowns = |contact: &Contact| match contact.interface.kind {
@@ -81,10 +82,11 @@ pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<S
     let contacts: usize = found.contacts.iter().map(unknowns).sum();
     let unknowns = contacts + 3 * found.robots.len();
     (unknowns > 3 * scene.frames[frame].placed.len())
-        .then(|| "the line shown is that of the forces of least sum".to_owned())
+        .then(|| "the line shown belongs to the forces of least sum".to_owned())
 }
 
-/// Draws thin lines of least and greatest thrust.
+/// Draws the thin lines of least and of greatest thrust, and adds them to `ink`. A line whose state is not known is
+/// left out.
 pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Group; 2] {
     let scene = &pen.context.analysis.scene;
     let states = [
