@@ -1,4 +1,5 @@
-//! [`Bearing`]: the normal force of an interface, and how near the interface is to opening and to sliding.
+//! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and its used
+//! friction.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;

@@ -187,8 +187,9 @@ impl BlockForces<'_> {
         self.polygon().bounds().diagonal()
     }
 
-    /// Returns the funicular polygon of the block. Returns `None` if no such polygon lies inside the block, if the
-    /// forces do not balance, or unless exactly one or two forces of bodies or robots act on the block.
+    /// Returns the funicular polygon of a block on which one or two forces of other bodies or robots act. Returns
+    /// `None` for any other number of such forces, if the forces do not balance, or if no funicular polygon lies inside
+    /// the block.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),

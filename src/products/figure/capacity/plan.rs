@@ -80,8 +80,8 @@ impl Small {
 }
 
 impl<'a> Plan<'a> {
-    /// Computes the positions of the polygon and of the small pictures of a frame. Returns `None` if the analysis has
-    /// no capacity for this frame, or if the block can carry no force. `unit` is the unit edge in metres.
+    /// Computes the positions of the polygon and of the small pictures of a frame. Returns `None` if the carried forces
+    /// of this frame were not computed, or if the block can carry no force. `unit` is the unit edge in metres.
     pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
         let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
         let structure = structure(analysis)?;
@@ -237,8 +237,8 @@ fn bounds_of(ring: &[Vector]) -> Bounds {
     })
 }
 
-/// Returns every frame that has a capacity, together with its capacity. The capacities of all frames are drawn at the
-/// same scale.
+/// Returns every frame for which the carried forces were computed, together with these forces. All frames are drawn at
+/// the same scale.
 fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
     let frames = analysis.frames.iter();
     frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))

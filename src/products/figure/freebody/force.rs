@@ -69,7 +69,7 @@ pub(super) enum Detail {
     Resultants,
 }
 
-/// Returns how detailed the forces of interfaces are drawn for a block with `count` interfaces.
+/// Returns the level of detail at which the forces of interfaces are drawn for a block with `count` interfaces.
 pub(super) fn detail(count: usize, options: &Options) -> Detail {
     match (options.corners, count) {
         (_, 0..=1) => Detail::Parts,

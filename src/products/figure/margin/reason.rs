@@ -100,7 +100,7 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
         }
         (Interval::Between { .. }, Toward::Tilt) => "no tilt of gravity makes it fall".to_owned(),
         (Interval::Between { .. }, Toward::HorizontalLoad) => {
-            "no horizontal push makes it fall".to_owned()
+            "no horizontal load makes it fall".to_owned()
         }
         (Interval::Between { .. }, Toward::LoadFactor) => match least_factor(interval) {
             None => "its loads may grow without limit".to_owned(),

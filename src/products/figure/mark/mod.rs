@@ -18,8 +18,8 @@ use crate::geometry::Point;
 use maker::ArrowMaker;
 use part::parts;
 
-/// Returns the straight arrows of [`marks`] for frame `frame` (from 0). The scale is chosen for this frame: the arrow
-/// of its largest force is one unit edge long. The list is empty if the frame does not exist.
+/// Returns the straight arrows of [`marks`] for frame `frame` (from 0). The scale is chosen for this frame; see
+/// [`Normalisation`]. The list is empty if the frame does not exist.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
     if frame >= analysis.frames.len() {
         return Vec::new();
