@@ -114,7 +114,7 @@ impl Kind {
     }
 
     /// Analyses a scene, and also computes what a figure of this kind shows: margins, the sensitivity of a margin, and
-    /// the forces that a block can carry. If `asked` names no margin or block, those that suit the scene are used.
+    /// the forces that a block can carry. If `asked` names no margin or no block, the default of the scene is used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
         let mut asked = *asked;
@@ -134,8 +134,8 @@ impl Kind {
         }
     }
 
-    /// True if an analysis lacks something that a figure of this kind shows, or if `asked` names another margin or block
-    /// than the analysis has results for.
+    /// True if the analysis `found` lacks results that a figure of this kind shows, or has them for another margin or
+    /// block than `asked` names.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn lacks(self, found: &Analysis, asked: &analysis::Options) -> bool {
         let frames = &found.frames;
