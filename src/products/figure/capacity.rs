@@ -87,10 +87,18 @@ impl PanelContent for CarriedForces {
             entries.push(Entry::Sign(dot_sign, 10.0, "no force".into()));
         }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
-            entries.push(Entry::Sign(open_sign, 26.0, "continues without limit".into()));
+            entries.push(Entry::Sign(
+                open_sign,
+                26.0,
+                "continues without limit".into(),
+            ));
         }
         if plans.len() > 1 {
-            entries.push(Entry::Sign(before_sign, 26.0, "in the previous step".into()));
+            entries.push(Entry::Sign(
+                before_sign,
+                26.0,
+                "in the previous step".into(),
+            ));
         }
         if plans.iter().any(|p| !p.pictures.is_empty()) {
             entries.push(Entry::Sign(

@@ -146,7 +146,8 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         }
         Subject::Shapes => (
             shapes(theme),
-            "The predefined shapes on the triangular lattice, each with its cells and its origin.".into(),
+            "The predefined shapes on the triangular lattice, each with its cells and its origin."
+                .into(),
         ),
         Subject::Freebody(text, block) => {
             let scene = read(text);

@@ -83,7 +83,9 @@ impl PanelContent for Kernel {
 
         match found.verdict {
             Verdict::Stable => {}
-            Verdict::Unstable => return "no resultants, because no forces balance the structure".into(),
+            Verdict::Unstable => {
+                return "no resultants, because no forces balance the structure".into();
+            }
             Verdict::Undecided => {
                 return format!("no resultants; {}", verdict::reason(scene, found));
             }

@@ -112,7 +112,10 @@ impl PanelContent for CollapseMargin {
                 let along = (there.x - from.x, there.y - from.y);
                 let group = Group::with_class("gravity").titled(match toward {
                     Toward::HorizontalLoad => {
-                        format!("In addition to gravity, a horizontal load of {} of each weight", percent_of(edge))
+                        format!(
+                            "In addition to gravity, a horizontal load of {} of each weight",
+                            percent_of(edge)
+                        )
                     }
                     _ => format!("Gravity turned by {}", degrees(edge.abs())),
                 });
@@ -149,8 +152,7 @@ impl PanelContent for CollapseMargin {
                     entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
                 }
                 Toward::HorizontalLoad => {
-                    let push =
-                        "largest additional load perpendicular to gravity".to_owned();
+                    let push = "largest additional load perpendicular to gravity".to_owned();
                     entries.push(Entry::Sign(push_sign, 26.0, push));
                 }
                 Toward::LoadFactor => {}

@@ -56,7 +56,10 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         let thin = LEAST_WIDTH / widest(unit) * largest;
         let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
         let least = match all.iter().any(|s| thinner(&s.1)) {
-            true => format!("; all forces under {} have the same width", quantity(thin, newtons)),
+            true => format!(
+                "; all forces under {} have the same width",
+                quantity(thin, newtons)
+            ),
             false => String::new(),
         };
         let words = format!("{what}, this wide for {}{least}", quantity(amount, newtons));
