@@ -10,8 +10,8 @@
 use super::dual::amounts_of_rows;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest,
-    solve,
+    Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual,
+    largest, solve,
 };
 use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
@@ -106,21 +106,13 @@ impl Extremum {
 
 /// Finds the largest λ, or the λ nearest to 0, for which admissible forces balance `program.loads + λ·direction`.
 fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Extreme {
-    let size = largest(direction);
-    if size == 0.0 {
+    let Some(scaled) = ScaledLoads::new(program, direction) else {
         return Limit::Unbounded.into();
-    }
-    // Scale loads and direction to a largest entry of 1.
-    let load = match largest(&program.loads) {
-        0.0 => 1.0,
-        load => load,
     };
-    let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
-    let (loads, along) = (scaled(&program.loads, load), scaled(direction, size));
-    let columns = Slanted::new(&columns_in(program, load)).columns;
+    let columns = scaled.columns(program);
     let (mut problem, row_of) = match extremum {
-        Extremum::Largest => load_factor_dual(&loads, &along, &columns),
-        Extremum::Nearest => nearest_factor_dual(&loads, &along, &columns),
+        Extremum::Largest => load_factor_dual(&scaled.loads, &scaled.direction, &columns),
+        Extremum::Nearest => nearest_factor_dual(&scaled.loads, &scaled.direction, &columns),
     };
     if program.blocks >= MANY_BLOCKS {
         let work_rows = problem.bound.iter_mut().rev().take(extremum.rows());
@@ -131,24 +123,20 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
         let answer = solve(&problem, tolerance, conditioning);
         match (answer.status, extremum.factor(&answer.z)) {
             (Status::Solved, Some(factor)) => {
-                let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
-                let total: Vec<f64> = total.collect();
-                // Compute the forces at the limit, and remove the solver's residual.
-                let amounts = amounts_of_rows(&answer, &row_of);
-                let mut amounts = rebalanced(&total, &columns, amounts);
-                amounts.iter_mut().for_each(|amount| *amount *= load);
+                let total = scaled.total(factor);
+                let amounts = scaled.amounts(&total, &columns, &answer, &row_of);
                 let face = Face::whole(&total, columns).with(amounts);
                 return Extreme {
-                    limit: Limit::At(factor * load / size),
+                    limit: Limit::At(scaled.factor(factor)),
                     forces: Some(face.gathered(program).0),
-                    motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
+                    motion: Some(scaled.motion(&answer)),
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
             // No λ allows a balance: along this motion, the loads do work for every λ.
             (Status::Unbounded, _) => {
                 return Extreme {
-                    motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
+                    motion: Some(scaled.motion(&answer)),
                     ..Limit::Never.into()
                 };
             }
@@ -156,6 +144,73 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
         }
     }
     Limit::Unsolved.into()
+}
+
+/// The loads of a program and the direction in which they grow, both scaled to a largest entry of 1.
+pub(super) struct ScaledLoads {
+    pub(super) loads: Vec<f64>,
+    pub(super) direction: Vec<f64>,
+    /// The largest entry of the loads before scaling, or 1 if there are no loads.
+    load_size: f64,
+    /// The largest entry of the direction before scaling.
+    pub(super) direction_size: f64,
+}
+
+impl ScaledLoads {
+    /// Scales the loads of a program and a direction; `None` if the direction is zero.
+    pub(super) fn new(program: &Program, direction: &[f64]) -> Option<ScaledLoads> {
+        let direction_size = largest(direction);
+        if direction_size == 0.0 {
+            return None;
+        }
+        let load_size = match largest(&program.loads) {
+            0.0 => 1.0,
+            size => size,
+        };
+        let scaled = |list: &[f64], by: f64| list.iter().map(|v| v / by).collect();
+        Some(ScaledLoads {
+            loads: scaled(&program.loads, load_size),
+            direction: scaled(direction, direction_size),
+            load_size,
+            direction_size,
+        })
+    }
+
+    /// Returns the columns of the program without redundant ones, with limits in the unit of the scaled loads.
+    pub(super) fn columns(&self, program: &Program) -> Vec<Column> {
+        Slanted::new(&columns_in(program, self.load_size)).columns
+    }
+
+    /// Converts a factor on the scaled direction to a factor on the original direction.
+    pub(super) fn factor(&self, scaled: f64) -> f64 {
+        scaled * self.load_size / self.direction_size
+    }
+
+    /// Returns the scaled loads plus `factor` times the scaled direction.
+    pub(super) fn total(&self, factor: f64) -> Vec<f64> {
+        let pairs = self.loads.iter().zip(&self.direction);
+        pairs.map(|(load, along)| load + factor * along).collect()
+    }
+
+    /// Returns the amount of each column under the scaled load `total`, without the solver's residual, in program units.
+    pub(super) fn amounts(
+        &self,
+        total: &[f64],
+        columns: &[Column],
+        answer: &Answer,
+        row_of: &[usize],
+    ) -> Vec<f64> {
+        let mut amounts = rebalanced(total, columns, amounts_of_rows(answer, row_of));
+        amounts
+            .iter_mut()
+            .for_each(|amount| *amount *= self.load_size);
+        amounts
+    }
+
+    /// Returns the mechanism of an answer: three velocities for each block.
+    pub(super) fn motion(&self, answer: &Answer) -> Vec<f64> {
+        answer.x[..self.loads.len()].iter().map(|v| -v).collect()
+    }
 }
 
 /// Returns the tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain

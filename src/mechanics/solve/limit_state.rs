@@ -3,10 +3,9 @@
 //! [`largest_factor`](super::largest_factor) returns only the forces of contacts. To find out whether forces and
 //! mechanism are unique, the amount and the slack of every column are needed.
 
-use super::dual::amounts_of_rows;
-use super::limit::{attempts, columns_in, rebalanced};
+use super::limit::{ScaledLoads, attempts, columns_in};
 use super::slanted::Slanted;
-use super::{Status, largest, solve};
+use super::{Status, solve};
 use crate::program::{Column, Program, load_factor_dual};
 
 /// The optimum of the program of the largest load factor.
@@ -27,31 +26,19 @@ pub struct LimitState {
 ///
 /// `None` if λ has no largest value, if no λ allows a balance, or if the solver ends without a result.
 pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
-    let size = largest(direction);
-    if size == 0.0 {
-        return None;
-    }
-    let load = match largest(&program.loads) {
-        0.0 => 1.0,
-        load => load,
-    };
-    let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
-    let (loads, along) = (scaled(&program.loads, load), scaled(direction, size));
-    let columns = Slanted::new(&columns_in(program, load)).columns;
-    let (problem, row_of) = load_factor_dual(&loads, &along, &columns);
+    let scaled = ScaledLoads::new(program, direction)?;
+    let columns = scaled.columns(program);
+    let (problem, row_of) = load_factor_dual(&scaled.loads, &scaled.direction, &columns);
     for (tolerance, conditioning) in attempts(program) {
         let answer = solve(&problem, tolerance, conditioning);
         match answer.status {
             Status::Solved => {
                 let factor = answer.z.last()?.max(0.0);
-                let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
-                let total: Vec<f64> = total.collect();
-                let amounts = amounts_of_rows(&answer, &row_of);
-                let mut amounts = rebalanced(&total, &columns, amounts);
-                amounts.iter_mut().for_each(|amount| *amount *= load);
-                let motion = answer.x[..loads.len()].iter().map(|v| -v / size).collect();
+                let amounts = scaled.amounts(&scaled.total(factor), &columns, &answer, &row_of);
+                let mut motion = scaled.motion(&answer);
+                motion.iter_mut().for_each(|v| *v /= scaled.direction_size);
                 return Some(LimitState {
-                    factor: factor * load / size,
+                    factor: scaled.factor(factor),
                     columns: columns_of(program),
                     amounts,
                     motion,
