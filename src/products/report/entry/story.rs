@@ -6,7 +6,7 @@ use crate::figure::{Joint, joints};
 use crate::scene::Scene;
 use crate::text::line;
 use crate::wording::failure::{shortened, unsupported_phrase};
-use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
+use crate::wording::margin::{Parameter, Position, StatedMargin, stated};
 use crate::wording::number::{counted, listed, place, three, three_down, three_up};
 
 /// Largest number of joints or blocks that a sentence names.
@@ -148,8 +148,14 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     if matches!(margin.interval, Interval::Undecided) {
         return None;
     }
-    let low = margin.interval.low().and_then(confirmed);
-    let high = margin.interval.high().and_then(confirmed);
+    let ends = [margin.interval.low(), margin.interval.high()];
+    let is_open = |end: &&End| matches!(end, End::Unconfirmed { .. });
+    if ends.iter().flatten().any(is_open) {
+        // The value where the structure begins to fall is not known.
+        let (name, sentence) = (&margin.name, margin.sentence());
+        return Some(format!("For the {name}, the structure {sentence}."));
+    }
+    let [low, high] = ends.map(|end| end.and_then(End::value));
     let now = three(margin.present.map_or(0.0, |present| present.0));
     let inside = margin.position == Position::Inside;
     Some(match (margin.parameter, verdict, inside) {
@@ -218,4 +224,41 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Options;
+
+    /// At an end that is not confirmed, the structure is only known to stand: no sentence may say that it falls there.
+    #[test]
+    fn an_end_that_is_not_confirmed_is_no_place_where_it_falls() {
+        let scene = Scene::from_json(
+            r#"{ "drystone": 1, "ground": [{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }],
+                 "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "density": 100 }],
+                 "loads": [{ "block": "a", "at": [2, 1], "force": [10, 0] }] }"#,
+        )
+        .expect("a sound scene");
+        let mut analysis = Analysis::with(&scene, &Options::default().margins(true));
+        let frame = &mut analysis.frames[0];
+        let margins = frame.margins.as_mut().expect("margins were requested");
+        margins.intervals.load_factor = Some(Interval::Between {
+            low: End::At {
+                value: 0.0,
+                mechanism: Vec::new(),
+            },
+            high: End::Unconfirmed {
+                stands: 2.0,
+                beyond: 2.5,
+            },
+        });
+        let said = would_take(&scene, frame);
+        let expected = "(upper end not confirmed: between 2 and 2.5)";
+        assert!(said[0].contains(expected), "{said:?}");
+        assert!(
+            !said.iter().any(|s| s.contains("times its loads")),
+            "{said:?}"
+        );
+    }
 }
