@@ -160,15 +160,16 @@ impl Marks {
         // Torque arrows of loads have a minimum length, so they are always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // The limit is computed for forces. For torques it is exact only if the unit edge is 1 m.
-        let amount = round_above(least / unit * self.newtons_per_unit);
+        // A torque is drawn as long as the force that has this torque about a point one unit edge away.
+        let force = least / unit * self.newtons_per_unit;
         let parts = [
-            ("force", forces, units.force()),
-            ("torque", torques, units.torque()),
+            ("force", forces, force, units.force()),
+            ("torque", torques, force * unit, units.torque()),
         ];
         let parts = parts.into_iter().filter(|part| part.1 > 0);
-        let parts = parts.map(|(what, count, of)| {
-            format!("{} under {}", counted(count, what), quantity(amount, of))
+        let parts = parts.map(|(what, count, limit, of)| {
+            let limit = quantity(round_above(limit), of);
+            format!("{} under {limit}", counted(count, what))
         });
         let parts: Vec<String> = parts.collect();
         (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
@@ -220,4 +221,39 @@ fn from_segment(a: Point, b: Point, p: Point) -> f64 {
         0.0
     };
     (p - (a + along * share)).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A torque arrow of length L shows a torque of L times the newtons per unit edge. With an arrow of just under the
+    /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit edge.
+    #[test]
+    fn the_limit_of_hidden_torques_is_a_torque() {
+        let torque = 0.99 * LEAST_SEEN * 10.0;
+        let marks = Marks {
+            turns: vec![TurnArrow {
+                on: BodyId::Block(crate::scene::BlockId(0)),
+                at: Point::origin(),
+                torque,
+                arc: torque / 10.0,
+                colour: Colour::WHITE,
+                width: 0.1,
+                kind: TurnKind::Robot(RobotId(0)),
+            }],
+            newtons_per_unit: 10.0,
+            ..Marks::default()
+        };
+        for unit in [0.5, 1.0, 4.0] {
+            let note = marks.unseen(unit, 1.0, UnitsEntry::default());
+            let note = note.expect("a hidden torque");
+            let limit = round_above(LEAST_SEEN * 10.0);
+            assert_eq!(
+                note,
+                format!("1 torque under {limit} N·m not drawn"),
+                "{unit}"
+            );
+        }
+    }
 }
