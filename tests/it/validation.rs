@@ -159,7 +159,7 @@ fn summary(values: &[f64]) -> String {
     let sources: BTreeSet<&str> = CASES.iter().map(|case| case.source).collect();
     let seen = CASES.iter().filter(|case| case.seen).count();
     format!(
-        "{} values from {} sources. {} agree within 0.01 %, {} within 0.1 %, {} within 1 %. {} of the published values were seen\nin a text; the others have a †.\n",
+        "The page compares {} values from {} sources. {} values agree within 0.01 %, {} within 0.1 %, and {} within 1 %. {} of the\npublished values were found in a text or a program; the others have a † and were not checked.\n",
         CASES.len(),
         sources.len(),
         within(0.01),
