@@ -210,7 +210,7 @@ pub struct MaterialEntry {
     pub fill: Option<String>,
 }
 
-/// The friction coefficient between two materials. It takes precedence over the coefficients of the materials.
+/// The friction coefficient between two materials. This coefficient replaces those of the two materials.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

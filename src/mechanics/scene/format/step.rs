@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Map, Pair};
 
-/// One step of the assembly. Within a step: release, then remove, then place, then hold.
+/// One step of the assembly. Robots first release blocks; then blocks are removed, placed and held, in this order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -66,7 +66,7 @@ impl Default for HoldEntry {
     }
 }
 
-/// A block and where it is gripped.
+/// A block that a robot holds, and its grip point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

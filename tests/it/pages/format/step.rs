@@ -51,7 +51,7 @@ fn steps_are_played_as_the_page_says() {
             Refused("holds_two", "release"),
         ),
         Claim(
-            "It may take hold of the same block again at another grip point",
+            "Without a `release`, a robot may only take hold of the same block again, at another grip point",
             steps(json!([holding, { "hold": { "r": { "block": "a", "at": [0.1, 0.1] } } }])),
             Result("/frames/1/robots/0/at", json!([0.1, 0.1])),
         ),
@@ -61,7 +61,7 @@ fn steps_are_played_as_the_page_says() {
             Result("/frames/0/robots/1/holds", json!("a")),
         ),
         Claim(
-            "The `at` of the robot is its grip point on that block, in steps too",
+            "The `at` of the robot is its grip point on the block that it `holds`, in steps too",
             steps(json!([two])),
             Result("/frames/0/robots/1/at", json!([0.25, 0.25])),
         ),
