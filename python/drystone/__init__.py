@@ -1,4 +1,4 @@
-"""Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
+"""Computes whether a structure of dry-laid blocks stands and how forces run through it, and draws both.
 
 >>> import drystone as ds
 >>> scene = ds.Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
@@ -17,7 +17,7 @@ from ._session import Session
 
 
 def figure_kinds() -> dict[str, str]:
-    """The kinds of figures, each with a line of help; ``freebody`` of one block comes in addition."""
+    """Returns the kinds of figures, each with a line of help. ``freebody``, the figure of one block, is not in this list."""
     return dict(kinds())
 
 

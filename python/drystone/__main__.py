@@ -1,4 +1,4 @@
-"""The ``drystone`` program: ``python -m drystone``."""
+"""Runs the program ``drystone``: ``python -m drystone``."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ._drystone import run
 
 
 def main() -> int:
-    """Runs the command line of this process and returns its exit code."""
-    # Python would keep an interrupt until the program has ended.
+    """Runs drystone with the arguments of this process and returns the exit code."""
+    # Python would handle an interrupt only after the program has ended.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["drystone", *sys.argv[1:]])
 

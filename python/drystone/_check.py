@@ -1,4 +1,4 @@
-"""Analyses: one scene, or many on all cores."""
+"""Analyses of one scene, or of many scenes on all cores."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ def check(
     for_all: str | None = None,
     sensitivity: str | None = None,
 ) -> Result:
-    """Says whether a scene stands, with the forces, what fails and the proof.
+    """Analyses a scene: the verdict with its proof, the forces, and the failures if the scene falls.
 
-    ``margins`` is ``True`` for all margins, or some of "friction", "tilt", "horizontal_load", "kernel", "load_factor" and
-    "robots". ``wedging`` finds out whether a frame stands only by wedging. ``verdict_only`` leaves out what the verdict
-    does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in seconds, ``contact_tolerance`` in metres.
-    ``notes`` are about input that is allowed but probably not intended.
+    ``margins`` is ``True`` for all margins, or a list of "friction", "tilt", "horizontal_load", "kernel", "load_factor" and
+    "robots". ``wedging`` tests whether a frame stands only by wedging. ``verdict_only`` leaves out all results that the
+    verdict does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in seconds, ``contact_tolerance`` in
+    metres. ``notes`` adds notes on values that are allowed but probably not intended.
 
     ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid, ``("lintel", (2, 3))`` at a point,
-    ``("lintel", (1, 3), (3, 3))`` at two points. ``for_all``, such as ``"tilt=±2,friction=0.5..0.7"``, leaves the forces that
-    are carried in every case of these ranges.
+    ``("lintel", (1, 3), (3, 3))`` at a contact between two points. With ``for_all``, such as
+    ``"tilt=±2,friction=0.5..0.7"``, only forces are returned that the block can carry for all values in these ranges.
 
-    ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load: "load_factor",
-    "tilt", "horizontal_load", "friction" or "kernel".
+    ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load. The margin is
+    "load_factor", "tilt", "horizontal_load", "friction" or "kernel".
 
-    Raises :class:`SceneError` where the scene is not valid.
+    Raises :class:`SceneError` if the scene is not valid.
 
     >>> brick = Scene(friction=0.5).ground([(0, -1), (9, -1), (9, 0), (0, 0)]).block("a", [(1, 0), (4, 0), (4, 2), (1, 2)])
     >>> check(brick).stands
@@ -73,11 +73,11 @@ def check_many(
     progress: Callable[[int], object] | None = None,
     threads: int = 0,
 ) -> Results:
-    """Checks scenes on all cores; the results are in the order of the scenes.
+    """Analyses many scenes on all cores; the results are in the order of the scenes.
 
-    ``errors`` is "raise", or "keep" to get the :class:`SceneError` of an invalid scene in its place. ``progress`` is called
-    with the number of scenes that are done; what it raises ends the work. ``threads`` is 0 for one per core. The other
-    options are those of :func:`check`.
+    ``errors`` is "raise" or "keep"; with "keep", the results contain the :class:`SceneError` of a scene that is not valid.
+    ``progress`` is called with the number of scenes that are done; an exception that it raises ends the analysis.
+    ``threads`` is the number of threads, or 0 for one per core. All other arguments are those of :func:`check`.
     """
     if errors not in ("raise", "keep"):
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
@@ -99,7 +99,7 @@ def check_many(
 
 
 def as_scene(scene: AnyScene) -> Scene:
-    """A scene, a dict of a scene file, or the path of one."""
+    """Converts a scene, a dict with the keys of a scene file, or the path of a scene file to a scene."""
     if isinstance(scene, Scene):
         return scene
     if isinstance(scene, Mapping):
@@ -107,7 +107,7 @@ def as_scene(scene: AnyScene) -> Scene:
     if isinstance(scene, os.PathLike):
         return Scene.from_file(scene)
     kind = type(scene).__name__
-    raise TypeError(f"a {kind} is no scene; give a Scene, a dict or a pathlib.Path. Text is read by Scene.from_json")
+    raise TypeError(f"a {kind} is not a scene; give a Scene, a dict or a pathlib.Path, and read text with Scene.from_json")
 
 
 def asked(
@@ -123,7 +123,7 @@ def asked(
     for_all: str | None = None,
     sensitivity: str | None = None,
 ) -> _drystone.Options:
-    """The options of an analysis; the same options are read only once."""
+    """Returns the options of an analysis. Recently used options are cached."""
     names: tuple[str, ...] | None
     if isinstance(margins, str):
         names = (margins,)
@@ -138,7 +138,7 @@ def asked(
 
 
 def place(capacity: Capacity) -> str:
-    """The block and the point of ``--capacity``."""
+    """Returns the text of the option ``--capacity``: the block, and the points if there are any."""
     if isinstance(capacity, str):
         return capacity
     block, *points = capacity

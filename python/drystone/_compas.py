@@ -1,4 +1,4 @@
-"""Scenes from assemblies of ``compas_assembly``."""
+"""Makes scenes from assemblies of ``compas_assembly``."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 S = TypeVar("S", bound="Scene")
 
 _PLANES = {"xz": (0, 2, 1), "yz": (1, 2, 0), "xy": (0, 1, 2)}
-"""For each plane the axis to the right, the axis up, and the axis across."""
+"""For each plane: the index of the axis to the right, of the axis up, and of the axis perpendicular to the plane."""
 
 
 def scene_of(cls: type[S], assembly: Any, plane: str, keys: dict[str, Any]) -> S:
-    """The scene of an assembly."""
+    """Makes the scene of an assembly."""
     if plane not in _PLANES:
         raise DrystoneError(f'plane is "xz", "yz" or "xy", not {plane!r}')
     right, up, across = _PLANES[plane]
@@ -29,12 +29,12 @@ def scene_of(cls: type[S], assembly: Any, plane: str, keys: dict[str, Any]) -> S
         else:
             blocks.append((str(node), outline))
     if not blocks:
-        raise DrystoneError("the assembly has no block that is no support")
+        raise DrystoneError("all blocks of the assembly are supports; a scene needs a block that is not a support")
     if "thickness" not in keys:
         if max(depths) - min(depths) > 1e-6 * max(depths):
             raise DrystoneError(
-                f"the blocks are {min(depths):.6g} to {max(depths):.6g} m thick; a plane scene has one thickness, "
-                "so give thickness= in metres"
+                f"the blocks are {min(depths):.6g} to {max(depths):.6g} m thick, but a scene has only one thickness; "
+                "give it in metres with thickness="
             )
         keys = {**keys, "thickness": depths[0]}
     scene = cls(**keys)
@@ -46,7 +46,7 @@ def scene_of(cls: type[S], assembly: Any, plane: str, keys: dict[str, Any]) -> S
 
 
 def _blocks(assembly: Any) -> list[tuple[Any, Any]]:
-    """Nodes and blocks of an assembly, of all its versions."""
+    """Returns pairs of node and block. This works with assemblies of all versions of ``compas_assembly``."""
     graph = getattr(assembly, "graph", assembly)
     pairs = []
     for node in graph.nodes():
@@ -61,7 +61,7 @@ def _is_support(assembly: Any, node: Any, block: Any) -> bool:
 
 
 def _prism(block: Any, node: Any, right: int, up: int, across: int) -> tuple[list[list[float]], float]:
-    """The outline of a prism and its thickness, in metres."""
+    """Returns the outline of a prism and its thickness, in metres."""
     ends = []
     for face in block.faces():
         corners = [block.vertex_coordinates(vertex) for vertex in block.face_vertices(face)]
@@ -71,8 +71,8 @@ def _prism(block: Any, node: Any, right: int, up: int, across: int) -> tuple[lis
     seen = [sorted((round(c[right], 6), round(c[up], 6)) for c in corners) for _, corners in ends]
     if len(ends) != 2 or seen[0] != seen[1]:
         raise DrystoneError(
-            f"block {node} is no prism across the plane of the scene: it has {len(ends)} faces in that plane, and a prism "
-            "has two with the same outline; choose another plane=, or turn the assembly"
+            f"block {node} is not a prism perpendicular to the plane of the scene: it has {len(ends)} faces parallel to the "
+            "plane, but a prism has two with the same outline; choose another plane= or rotate the assembly"
         )
     (near, corners), (far, _) = sorted(ends, key=lambda end: end[0])
     return [[float(corner[right]), float(corner[up])] for corner in corners], float(far - near)

@@ -1,4 +1,4 @@
-"""What the package raises."""
+"""The exceptions of the package."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 
 class DrystoneError(Exception):
-    """Something drystone was asked and cannot do; the message says what to change."""
+    """A request that drystone cannot fulfil. The message says what to change."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong with a scene.
+    """One problem of a scene.
 
-    ``line`` and ``column`` count from 1; both are ``None`` for a scene that was made in Python.
+    ``line`` and ``column`` count from 1. Both are ``None`` if the scene was made in Python.
     """
 
     code: str
@@ -26,7 +26,7 @@ class Problem:
 
 
 class SceneError(DrystoneError):
-    """A scene that is not valid, with everything that is wrong with it in ``problems``."""
+    """A scene that is not valid. ``problems`` lists all its problems."""
 
     problems: tuple[Problem, ...]
 

@@ -15,7 +15,7 @@ _FORMATS = ("svg", "png", "pdf", "tikz")
 
 
 class Figure:
-    """A figure, drawn when it is asked for in a format. In a notebook it shows itself."""
+    """A figure. It is drawn when it is converted to a format. A notebook displays it."""
 
     def __init__(
         self,
@@ -31,37 +31,39 @@ class Figure:
 
     @classmethod
     def of_analysis(cls, analysis: _drystone.Analysis, frame: int | None, options: Mapping[str, Any]) -> Figure:
-        """The figure of an analysis; options that do not exist are refused at once."""
+        """Makes a figure of an analysis."""
         made = cls(analysis, frame, options)
         words(options)
         return made
 
     @classmethod
     def of_problems(cls, text: str) -> Figure:
-        """The outlines of a scene that is not valid, with its problems marked."""
+        """Makes a figure of a scene that is not valid: its outlines, with the problems marked."""
         return cls(None, None, {}, text)
 
     def svg(self) -> str:
-        """The figure as SVG."""
+        """Returns the figure as SVG."""
         return self._bytes("svg", {}).decode()
 
     def png(self, *, width: int | None = None, scale: float | None = None, dpi: float | None = None) -> bytes:
-        """The figure as PNG: ``width`` in pixels, pixels per unit, or dots per inch with ``width_mm``."""
+        """Returns the figure as PNG. Its size is given by ``width`` in pixels, by ``scale`` in pixels per unit of the
+        drawing, or by ``dpi`` in dots per inch together with ``width_mm``.
+        """
         return self._bytes("png", {"width": width, "scale": scale, "dpi": dpi})
 
     def pdf(self) -> bytes:
-        """The figure as PDF, with its fonts in it."""
+        """Returns the figure as PDF with embedded fonts."""
         return self._bytes("pdf", {})
 
     def tikz(self) -> str:
-        """The figure as TikZ, for LaTeX."""
+        """Returns the figure as TikZ, for LaTeX."""
         return self._bytes("tikz", {}).decode()
 
     def save(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Writes a ``.svg``, ``.png``, ``.pdf`` or ``.tikz`` file."""
         ending = Path(path).suffix[1:].lower()
         if ending not in _FORMATS:
-            raise DrystoneError(f"{os.fspath(path)}: a figure is saved as .{', .'.join(_FORMATS)}")
+            raise DrystoneError(f"{os.fspath(path)}: a figure can be saved as .{', .'.join(_FORMATS)}")
         Path(path).write_bytes(self._bytes(ending, options))
 
     def _bytes(self, ending: str, options: Mapping[str, Any]) -> bytes:
@@ -81,7 +83,7 @@ class Figure:
 
 
 def words(options: Mapping[str, Any]) -> list[str]:
-    """Keyword arguments as the options of ``drystone render``."""
+    """Converts keyword arguments to command-line options of ``drystone render``."""
     made = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
@@ -105,11 +107,11 @@ def animate(
     """Writes an animation."""
     ending = Path(path).suffix.lower()
     if ending not in (".png", ".gif"):
-        raise DrystoneError(f"{os.fspath(path)}: an animation is a .png or a .gif")
+        raise DrystoneError(f"{os.fspath(path)}: an animation can be saved as .png or .gif")
     Path(path).write_bytes(analysis.figure(words(options), ending[1:], frame))
 
 
 def html_image(svg: str) -> str:
-    """An SVG as an image of its own, so that names within it do not meet those of others on the page."""
+    """Returns an ``img`` element with the SVG. Ids in the SVG then cannot conflict with ids of other figures on the page."""
     data = base64.b64encode(svg.encode()).decode()
     return f'<img alt="Figure" style="max-width:100%" src="data:image/svg+xml;base64,{data}">'

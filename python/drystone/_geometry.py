@@ -1,4 +1,4 @@
-"""Outlines and numbers from what people have: lists, numpy arrays, shapely polygons, GeoJSON."""
+"""Converts outlines and numbers from lists, numpy arrays, shapely polygons and GeoJSON to those of a scene file."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any
 from ._errors import DrystoneError
 
 Point = Any
-"""A place ``[x, y]`` in metres: any sequence of two numbers."""
+"""A point ``[x, y]`` in metres: any sequence of two numbers."""
 
 Outline = Any
-"""Corners in metres: a sequence of ``[x, y]``, an n × 2 array, or anything with ``__geo_interface__``."""
+"""Corners in metres: a sequence of ``[x, y]``, an n × 2 array, or an object with ``__geo_interface__``."""
 
 
 def plain(value: object) -> Any:
-    """A value of numpy as one that JSON has; for ``json.dumps(default=plain)``."""
+    """Converts a value of numpy to a value that JSON can represent; for ``json.dumps(default=plain)``."""
     for method in ("tolist", "item"):
         convert = getattr(value, method, None)
         if convert is not None:
@@ -24,11 +24,11 @@ def plain(value: object) -> Any:
         return dict(value)
     if isinstance(value, Iterable):
         return list(value)
-    raise DrystoneError(f"a {type(value).__name__} is no number, text, list or dict of a scene file: {value!r}")
+    raise DrystoneError(f"a {type(value).__name__} is not a number, text, list or dict, so a scene file cannot contain it: {value!r}")
 
 
 def ring(corners: Any) -> list[list[float]]:
-    """Corners as a list of ``[x, y]``, without the last one where it repeats the first."""
+    """Returns corners as a list of ``[x, y]``, without the last corner if it is equal to the first."""
     listed = corners.tolist() if hasattr(corners, "tolist") else corners
     points = []
     for corner in listed:
@@ -45,7 +45,7 @@ def ring(corners: Any) -> list[list[float]]:
 
 
 def rings(outline: Any) -> list[list[list[float]]]:
-    """The outer ring of an outline and those of its holes."""
+    """Returns the outer ring of an outline, followed by the rings of its holes."""
     geometry = getattr(outline, "__geo_interface__", outline)
     if not isinstance(geometry, Mapping):
         return [ring(geometry)]
@@ -62,7 +62,7 @@ def rings(outline: Any) -> list[list[list[float]]]:
 
 
 def body(outline: Outline | None, holes: Iterable[Outline] | None, keys: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a body that are given, with its outline."""
+    """Returns the keys of a body that are not ``None``, together with its outline."""
     entry: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
     if outline is not None:
         outer, *inner = rings(outline)
@@ -80,5 +80,5 @@ def block(
     holes: Iterable[Outline] | None,
     keys: dict[str, Any],
 ) -> dict[str, Any]:
-    """A block of a scene file."""
+    """Returns the entry of a block in a scene file."""
     return body(polygon, holes, {"id": None if id is None else str(id), **keys})

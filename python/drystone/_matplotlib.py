@@ -1,4 +1,4 @@
-"""Structures and forces on an axis of matplotlib."""
+"""Draws structures and forces on axes of matplotlib."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._errors import DrystoneError
 
 
 def draw(analysis: _drystone.Analysis, frame: int, ax: Any, *, forces: bool, labels: bool) -> Any:
-    """Draws one frame in metres and returns the axis."""
+    """Draws one frame in metres and returns the axes."""
     try:
         import matplotlib.pyplot as plt
     except ImportError:
@@ -51,7 +51,9 @@ def _body(ax: Any, rings: list[list[list[float]]], gid: str, **look: Any) -> Non
 
 
 def _forces(ax: Any, analysis: _drystone.Analysis, frame: int, corners: list[list[float]]) -> None:
-    """Arrows of contacts, robots and failures to one scale: the largest is a third of the structure."""
+    """Draws arrows for the forces of contacts, robots and failures to one scale. The longest arrow has a third of the size of
+    the structure.
+    """
     from matplotlib.patches import FancyArrowPatch
 
     arrows = []

@@ -1,4 +1,4 @@
-"""Answers: attributes with the names of the result's keys, and tables."""
+"""Results: attributes with the names of the keys of the JSON result, and tables."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Record(dict[str, Any]):
-    """An object of a result: its keys are attributes, too."""
+    """An object of a result: a dict whose keys are also attributes."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -31,9 +31,9 @@ class Record(dict[str, Any]):
 
 
 class Table:
-    """Rows of a result by column.
+    """A table of a result, stored by column.
 
-    Any library that reads Arrow's ``__arrow_c_stream__`` takes a table as it is: ``pyarrow.table(t)``,
+    Libraries that read Arrow's ``__arrow_c_stream__`` accept a table directly: ``pyarrow.table(t)``,
     ``polars.DataFrame(t)``.
     """
 
@@ -50,7 +50,7 @@ class Table:
         return len(self._native)
 
     def __getitem__(self, column: str) -> numpy.ndarray[Any, Any]:
-        """A column as an array."""
+        """Returns a column as an array."""
         import numpy
 
         for name, (kind, values) in zip(self._native.names(), self._native.columns()):
@@ -59,7 +59,7 @@ class Table:
         raise KeyError(f"there is no column {column}; there are {', '.join(self.columns)}")
 
     def to_numpy(self) -> numpy.ndarray[Any, Any]:
-        """A structured array with a field for each column."""
+        """Returns a structured array with a field for each column."""
         import numpy
 
         columns = [(name, self[name]) for name in self.columns]
@@ -69,13 +69,13 @@ class Table:
         return rows
 
     def to_pandas(self) -> Any:
-        """A pandas DataFrame."""
+        """Returns the table as a pandas DataFrame."""
         import pandas
 
         return pandas.DataFrame({name: self[name] for name in self.columns})
 
     def to_dicts(self) -> list[dict[str, Any]]:
-        """A dict for each row; needs no other package."""
+        """Returns a dict for each row. This needs no other package."""
         columns: list[Any] = []
         for kind, values in self._native.columns():
             if kind == "U":
@@ -105,51 +105,51 @@ class Table:
 
 
 class _Answer:
-    """What a result and one of its frames share."""
+    """The common part of a result and of one of its frames."""
 
     _native: _drystone.Analysis
     _frame: int | None
 
     @property
     def contacts(self) -> Table:
-        """Where bodies touch, with the forces on ``body_0`` in N."""
+        """The contacts between bodies, with the forces on ``body_0`` in N."""
         return self._table("contacts")
 
     @property
     def failures(self) -> Table:
-        """What would have to stick for it to stand, in N or N·m."""
+        """The failures: the missing forces with which the structure would stand, in N or N·m."""
         return self._table("failures")
 
     @property
     def blocks(self) -> Table:
-        """The placed blocks: weight in N, area in m², centroid, and how they begin to move where it falls."""
+        """The placed blocks: weight in N, area in m², centroid in metres, and the motion in which they begin to fall."""
         return self._table("blocks")
 
     @property
     def robots(self) -> Table:
-        """Robots that hold a block, with their forces on it in N and N·m."""
+        """The robots that hold a block, with their forces on the block in N and their torques in N·m."""
         return self._table("robots")
 
     def _table(self, name: str) -> Table:
         return Table(self._native.table(name, self._frame), name)
 
     def figure(self, kind: str = "forces", *, theme: str | None = None, width_mm: float | None = None, **options: Any) -> Figure:
-        """A figure; ``drystone.figure_kinds()`` lists the kinds and ``drystone.themes()`` the themes.
+        """Returns a figure. ``drystone.figure_kinds()`` lists the kinds and ``drystone.themes()`` the themes.
 
-        ``width_mm`` is the width in print: 84 is one column of a journal, 174 two. ``options`` are those of
-        ``drystone render``: ``amounts=True``, ``fill="stress"``, ``block="a"``, ``no_title=True``.
+        ``width_mm`` is the printed width: 84 for one column of a journal, 174 for two columns. ``options`` are options of
+        ``drystone render``, such as ``amounts=True``, ``fill="stress"``, ``block="a"`` and ``no_title=True``.
         """
         return Figure.of_analysis(self._native, self._frame, {"kind": kind, "theme": theme, "width_mm": width_mm, **options})
 
     def animate(self, path: str | os.PathLike[str], *, seconds: float = 1.0, kind: str = "forces", **options: Any) -> None:
-        """Writes the frames one after the other as a ``.gif`` or an animated ``.png``."""
+        """Writes an animation of the frames as a ``.gif`` or an animated ``.png``. Each frame is shown for ``seconds``."""
         animate(self._native, self._frame, path, {"kind": kind, "animate": seconds, **options})
 
     def draw(self, ax: Any = None, *, forces: bool = True, labels: bool = True) -> Any:
-        """Draws on an axis of matplotlib, in metres, and returns the axis.
+        """Draws on axes of matplotlib, in metres, and returns the axes.
 
-        Blocks are patches and forces are arrows in ``ax.patches``, with ``gid`` "ground", "block:NAME", "force:NAME" and
-        "failure:NAME", so that they can be found and changed.
+        Blocks are patches and forces are arrows in ``ax.patches``. Their ``gid`` is "ground", "block:NAME", "force:NAME" or
+        "failure:NAME", so that a script can find and change them.
         """
         from ._matplotlib import draw
 
@@ -158,7 +158,7 @@ class _Answer:
 
 
 class Frame(_Answer):
-    """The answer for one step. Every key of ``frames[]`` of a result is an attribute."""
+    """The result for one frame. Every key of an entry of ``frames`` in the JSON result is an attribute."""
 
     def __init__(self, result: Result, number: int) -> None:
         self._result = result
@@ -167,23 +167,23 @@ class Frame(_Answer):
 
     @property
     def number(self) -> int:
-        """Its number, from 0."""
+        """The number of this frame, from 0."""
         assert self._frame is not None
         return self._frame
 
     @property
     def verdict(self) -> str:
-        """"stable", "unstable" or "undecided"."""
+        """The verdict for this frame: "stable", "unstable" or "undecided"."""
         return self._native.verdicts()[self.number]
 
     @property
     def stands(self) -> bool:
-        """Whether it stands, which is proved."""
+        """Whether this frame is proved to stand."""
         return self.verdict == "stable"
 
     @property
     def margins(self) -> Any:
-        """How far each value is from the limit of stability; ``None`` if no margins were requested."""
+        """The margins: the interval of each parameter in which the frame stands. ``None`` if no margins were requested."""
         return self._record().get("margins")
 
     def __getattr__(self, name: str) -> Any:
@@ -195,7 +195,7 @@ class Frame(_Answer):
         return [*super().__dir__(), *self._record()]
 
     def __bool__(self) -> bool:
-        raise TypeError("a frame is neither true nor false; ask for .stands")
+        raise TypeError("a frame cannot be used as a truth value; use .stands")
 
     def _record(self) -> Record:
         record: Record = self._result._record()["frames"][self.number]
@@ -210,7 +210,7 @@ class Frame(_Answer):
 
 
 class Result(_Answer):
-    """What was found out about a scene. Every key of ``check --json`` is an attribute."""
+    """The result for a scene. Every key of the output of ``drystone check --json`` is an attribute."""
 
     def __init__(self, native: _drystone.Analysis, scene: Scene | None) -> None:
         self._native = native
@@ -221,14 +221,14 @@ class Result(_Answer):
 
     @property
     def scene(self) -> Scene:
-        """The scene. The result of a session has none."""
+        """The scene that was checked. Raises :class:`DrystoneError` if the result comes from a session."""
         if self._scene is None:
-            raise DrystoneError("a session has no scene file; build a Scene with its blocks and check that")
+            raise DrystoneError("the result of a session has no scene file; build a Scene with the same blocks and check it")
         return self._scene
 
     @property
     def stands(self) -> bool:
-        """Whether every frame stands, which is proved."""
+        """Whether every frame is proved to stand."""
         return self._native.stands()
 
     @property
@@ -239,28 +239,28 @@ class Result(_Answer):
 
     @property
     def frames(self) -> list[Frame]:
-        """A frame for each step, or one for a scene without steps."""
+        """The frames: one for each step, or a single frame if the scene has no steps."""
         return [Frame(self, number) for number in range(len(self._native.verdicts()))]
 
     @property
     def margins(self) -> Any:
-        """The margins of the only frame; a scene with several frames has them in ``frames[i].margins``."""
+        """The margins of the only frame. If the scene has several frames, use ``frames[i].margins``."""
         frames = self.frames
         if len(frames) != 1:
-            raise DrystoneError(f"the scene has {len(frames)} frames, each with its margins; ask for frames[i].margins")
+            raise DrystoneError(f"the scene has {len(frames)} frames, each with its own margins; use frames[i].margins")
         return frames[0].margins
 
     def to_json(self, *, timing: bool = True) -> str:
-        """The result as ``drystone check --json`` prints it."""
+        """Returns the result as JSON, as ``drystone check --json`` prints it. ``timing=False`` leaves out solving times."""
         return self._native.to_json(self._path, timing, True)
 
     def to_dict(self, *, timing: bool = True) -> dict[str, Any]:
-        """The result as ``drystone check --json`` prints it, without solving times where ``timing`` is false."""
+        """Returns the result of ``drystone check --json`` as a dict. ``timing=False`` leaves out solving times."""
         made: dict[str, Any] = json.loads(self._native.to_json(self._path, timing, False))
         return made
 
     def report(self, path: str | os.PathLike[str], *, title: str | None = None, theme: str | None = None) -> None:
-        """Writes a report: ``.html``, ``.pdf``, ``.md`` or ``.json``."""
+        """Writes a report as a ``.html``, ``.pdf``, ``.md`` or ``.json`` file."""
         text = self.scene.to_json()
         self._native.report(os.fspath(path), self._path or "scene.json", text, title, theme)
 
@@ -278,7 +278,7 @@ class Result(_Answer):
         return [*super().__dir__(), *self._record()]
 
     def __bool__(self) -> bool:
-        raise TypeError("a result is neither true nor false; ask for .stands")
+        raise TypeError("a result cannot be used as a truth value; use .stands")
 
     def __repr__(self) -> str:
         verdicts = self._native.verdicts()
@@ -302,7 +302,7 @@ class Result(_Answer):
 
 
 class Results(Sequence["Result | SceneError"]):
-    """The results of many scenes, in their order."""
+    """The results of many scenes, in the order of the scenes."""
 
     def __init__(self, results: list[Result | SceneError]) -> None:
         self._results = results
@@ -324,21 +324,21 @@ class Results(Sequence["Result | SceneError"]):
 
     @property
     def verdicts(self) -> list[str]:
-        """The verdict of each scene, "refused" where it is not valid."""
+        """The verdict for each scene, or "refused" for a scene that is not valid."""
         return ["refused" if isinstance(one, SceneError) else one.verdict for one in self._results]
 
     @property
     def table(self) -> Table:
-        """A row for each frame of each valid scene: verdict, sums and margins."""
+        """A table with a row for each frame of each valid scene: verdict, sums of forces and margins."""
         natives = [None if isinstance(one, SceneError) else one._native for one in self._results]
         return Table(_drystone.summary(natives), "results")
 
     def to_pandas(self) -> Any:
-        """The table as a pandas DataFrame."""
+        """Returns the table as a pandas DataFrame."""
         return self.table.to_pandas()
 
     def to_numpy(self) -> numpy.ndarray[Any, Any]:
-        """The table as a structured array."""
+        """Returns the table as a structured array."""
         return self.table.to_numpy()
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
@@ -359,7 +359,7 @@ _PLURALS = {"stable": "stand", "unstable": "fall", "undecided": "undecided", "re
 
 
 def _counted(verdicts: list[str]) -> str:
-    """How often each verdict is there, in words."""
+    """Returns the number of scenes or frames with each verdict, in words."""
     counts = [(verdicts.count(word), word, plural) for word, plural in _PLURALS.items() if word in verdicts]
     return ", ".join(f"{count} {_WORDS.get(word, plural) if count == 1 else plural}" for count, word, plural in counts)
 

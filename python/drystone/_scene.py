@@ -19,10 +19,10 @@ class Scene:
     """A structure of blocks, ground and robots, and the steps in which it is built.
 
     Lengths are in metres, forces in newtons, masses in kilograms, angles in degrees anticlockwise; y points up. The names
-    of arguments are the keys of a scene file. What is not given has the default of the file format. Methods that add
-    something return the scene.
+    of arguments are the keys of a scene file. Arguments that are not given have the defaults of the file format. Methods
+    that add a part return the scene.
 
-    A scene is checked as a whole when it is used; :meth:`validate` checks it at once.
+    A scene is checked when it is used; :meth:`validate` checks it immediately.
 
     >>> scene = Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
     >>> scene.block("post", [(0, 0), (1, 0), (1, 3), (0, 3)], density=2400)
@@ -68,21 +68,21 @@ class Scene:
         self._file: dict[str, Any] | None = {"drystone": 1}
         self._file.update((key, value) for key, value in given.items() if value is not None)
         self._file["blocks"] = []
-        # The text of the scene; where it is a file that somebody wrote, problems have lines.
+        # The text of the scene. If it was read from a file or a string, problems have lines.
         self._text: str | None = None
         self._located = False
         self._path: str | None = None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
-        """A scene from the text of a scene file. Problems have lines and columns."""
+        """Makes a scene from the text of a scene file. Its problems have lines and columns."""
         scene = cls()
         scene._file, scene._text, scene._located = None, text, True
         return scene
 
     @classmethod
     def from_dict(cls, file: Mapping[str, Any]) -> Scene:
-        """A scene from the keys of a scene file; ``drystone: 1`` may be left out."""
+        """Makes a scene from a dict with the keys of a scene file; ``drystone: 1`` may be left out."""
         scene = cls()
         made = json.loads(_dumps({"drystone": 1, **file}))
         made.setdefault("blocks", [])
@@ -91,21 +91,21 @@ class Scene:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
-        """A scene from a scene file."""
+        """Reads a scene from a scene file."""
         try:
             text = Path(path).read_text(encoding="utf-8-sig")
         except UnicodeDecodeError as error:
-            raise DrystoneError(f"{os.fspath(path)} is no UTF-8 text: {error}; save it as UTF-8") from None
+            raise DrystoneError(f"{os.fspath(path)} is not UTF-8 text: {error}; save the file as UTF-8") from None
         scene = cls.from_json(text)
         scene._path = os.fspath(path)
         return scene
 
     @classmethod
     def from_compas(cls, assembly: Any, *, plane: str = "xz", **keys: Any) -> Scene:
-        """A scene from an assembly of prismatic blocks of ``compas_assembly``.
+        """Makes a scene from an assembly of prismatic blocks of ``compas_assembly``.
 
-        The blocks are prisms across ``plane`` ("xz", "yz" or "xy"); their outlines are seen in that plane. Supports
-        become ground. ``keys`` are those of a scene; ``thickness`` is that of the blocks unless it is given.
+        The blocks are prisms perpendicular to ``plane`` ("xz", "yz" or "xy"), and the scene has their outlines in this
+        plane. Supports become ground. ``keys`` are keys of a scene; the default ``thickness`` is that of the blocks.
         """
         from ._compas import scene_of
 
@@ -124,7 +124,7 @@ class Scene:
         material: str | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a part of the ground: it carries anything and never moves."""
+        """Adds a part of the ground, which supports any load and never moves."""
         keys = _without(locals(), "self", "polygon", "holes")
         return self._add("ground", _geometry.body(polygon, holes, keys))
 
@@ -151,14 +151,14 @@ class Scene:
         return self._add("blocks", _geometry.block(id, polygon, holes, keys))
 
     def blocks(self, features: Any, *, id: str = "id", **keys: Any) -> Scene:
-        """Adds a block for each feature of a GeoDataFrame, or of anything whose ``__geo_interface__`` is a FeatureCollection.
+        """Adds a block for each feature of a GeoDataFrame, or of an object whose ``__geo_interface__`` is a FeatureCollection.
 
-        Columns with the name of a key of a block, such as ``density`` or ``fill``, become that key; ``id`` names the
-        column of the names, and where there is none, blocks are numbered. ``keys`` are the same for all blocks.
+        Columns with the name of a key of a block, such as ``density`` or ``fill``, set this key. ``id`` is the column with
+        the names of the blocks; without this column, blocks are numbered. ``keys`` are the same for all blocks.
         """
         collection = getattr(features, "__geo_interface__", features)
         if not isinstance(collection, Mapping) or "features" not in collection:
-            raise DrystoneError("blocks come from a FeatureCollection, such as a GeoDataFrame; one block is added by block()")
+            raise DrystoneError("blocks() needs a FeatureCollection, such as a GeoDataFrame; add a single block with block()")
         known = _drystone_keys("BlockEntry") - {"id", "polygon", "holes", "cells"}
         for feature in collection["features"]:
             columns = {key: value for key, value in (feature.get("properties") or {}).items() if not _is_missing(value)}
@@ -175,7 +175,7 @@ class Scene:
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
     ) -> Scene:
-        """Adds a shape that bodies use by its name."""
+        """Adds a shape that bodies can use by its name."""
         return self._name("shapes", name, _geometry.body(polygon, holes, {"cells": cells}))
 
     def material(
@@ -186,7 +186,7 @@ class Scene:
         friction: float | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a material that bodies use by its name."""
+        """Adds a material that bodies can use by its name."""
         return self._name("materials", name, _without(locals(), "self", "name"))
 
     def friction_pair(self, first: str, second: str, friction: float) -> Scene:
@@ -223,9 +223,10 @@ class Scene:
         *,
         friction: float | None = None,
     ) -> Scene:
-        """Adds a contact of two bodies at a point. The normal, in degrees, points into the first body.
+        """Adds a contact between two bodies at a point in metres.
 
-        If a scene lists contacts, no others are searched.
+        ``normal`` is the direction of the normal into the first body, in degrees anticlockwise from the x axis. If a scene
+        lists contacts, drystone does not search for other contacts.
         """
         return self._add("contacts", _without(locals(), "self"))
 
@@ -240,24 +241,24 @@ class Scene:
         plan: Mapping[str, str] | None = None,
         expect: str | None = None,
     ) -> Scene:
-        """Adds a step of the assembly; within it robots release, then blocks are removed, placed and held."""
+        """Adds a step of the assembly. Robots first release blocks; then blocks are removed, placed and held, in this order."""
         return self._add("steps", _without(locals(), "self"))
 
     def validate(self) -> Scene:
         """Checks the scene without analysing it.
 
-        Raises :class:`SceneError` with everything that is wrong.
+        Raises :class:`SceneError` with all problems if the scene is not valid.
         """
         _drystone.read(self._json(), self._located)
         return self
 
     def to_dict(self) -> dict[str, Any]:
-        """The keys of the scene file."""
+        """Returns the keys of the scene file."""
         made: dict[str, Any] = json.loads(_dumps(self._loaded()))
         return made
 
     def to_json(self) -> str:
-        """The text of the scene file: as it was read, or in the layout of the program."""
+        """Returns the text of the scene file: as it was read, or formatted by drystone if the scene was made in Python."""
         return self._json() if self._located else _drystone.formatted(self._json())
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -265,7 +266,7 @@ class Scene:
         Path(path).write_text(self.to_json(), encoding="utf-8")
 
     def copy(self) -> Scene:
-        """A scene of its own with the same content."""
+        """Returns an independent scene with the same content."""
         return copy.deepcopy(self)
 
     def __eq__(self, other: object) -> bool:
@@ -277,7 +278,7 @@ class Scene:
         try:
             file = self._loaded()
         except SceneError:
-            return "<Scene: no JSON>"
+            return "<Scene: not valid JSON>"
         counted = [
             _counted(file, "blocks", "block", "blocks", always=True),
             _counted(file, "ground", "part of the ground", "parts of the ground"),
@@ -288,7 +289,7 @@ class Scene:
         return f"<Scene{title}: {', '.join(part for part in counted if part)}>"
 
     def _repr_svg_(self) -> str:
-        """The figure of its forces, or its problems where it has any."""
+        """Returns the figure of the forces, or of the problems if the scene is not valid."""
         return self._picture().svg()
 
     def _repr_html_(self) -> str:
@@ -303,13 +304,13 @@ class Scene:
             return Figure.of_problems(self._json())
 
     def _json(self) -> str:
-        """The text that is analysed."""
+        """Returns the text of the scene file that is analysed."""
         if self._text is None:
             self._text = _dumps(self._file)
         return self._text
 
     def _loaded(self) -> dict[str, Any]:
-        """The keys, read from the text where they have not been yet."""
+        """Returns the keys of the scene file. On the first call they are read from the text."""
         if self._file is None:
             text = self._json()
             try:
@@ -360,6 +361,6 @@ def _counted(file: dict[str, Any], key: str, one: str, several: str, *, always: 
 
 
 def _drystone_keys(name: str) -> set[str]:
-    """The keys of an object of the scene file, from the schema."""
+    """Returns the keys of a type of object of the scene file, such as "BlockEntry", from the schema."""
     schema = json.loads(_drystone.schema())
     return set(schema["$defs"][name]["properties"])

@@ -16,8 +16,8 @@ from ._scene import _dumps
 class Session:
     """A structure under construction, for planners and training loops.
 
-    It starts with a scene without steps. Each step returns the verdict: "stable", "unstable" or "undecided". A step that is
-    not possible raises :class:`DrystoneError` and changes nothing.
+    A session starts with a scene without steps. Each step returns the verdict: "stable", "unstable" or "undecided". A step
+    that is not possible raises :class:`DrystoneError` and does not change the session.
 
     >>> from drystone import Scene
     >>> session = Session(Scene().ground([(-9, -1), (9, -1), (9, 0), (-9, 0)]).robot("crane"))
@@ -42,59 +42,59 @@ class Session:
         holes: Iterable[Outline] | None = None,
         **keys: Any,
     ) -> str:
-        """Places a block; the arguments are those of :meth:`Scene.block`."""
+        """Places a block and returns the verdict; the arguments are those of :meth:`Scene.block`."""
         return self._native.place(_dumps(_geometry.block(id, polygon, holes, keys)))
 
     def remove(self, block: str) -> str:
-        """Removes a block and the loads on it."""
+        """Removes a block and the loads on it, and returns the verdict."""
         return self._native.remove(block)
 
     def hold(self, robot: str, block: str, at: Point | None = None) -> str:
-        """Makes a robot hold a block, at a point in metres or at its centroid."""
+        """Makes a robot hold a block and returns the verdict. ``at`` is the grip point in metres; default: the centroid."""
         return self._native.hold(robot, block, None if at is None else (float(at[0]), float(at[1])))
 
     def release(self, robot: str) -> str:
-        """Makes a robot release its block."""
+        """Makes a robot release its block and returns the verdict."""
         return self._native.release(robot)
 
     @property
     def verdict(self) -> str:
-        """The verdict on the placed blocks."""
+        """The verdict for the placed blocks: "stable", "unstable" or "undecided"."""
         return self._native.verdict
 
     @property
     def stands(self) -> bool:
-        """Whether the placed blocks stand, which is proved."""
+        """Whether the placed blocks are proved to stand."""
         return self._native.verdict == "stable"
 
     @property
     def blocks(self) -> list[str]:
-        """The names of the placed blocks, in the order of placing."""
+        """The names of the placed blocks, in the order in which they were placed."""
         return self._native.blocks
 
     @property
     def holds(self) -> dict[str, str]:
-        """The robots that hold a block, each with that block."""
+        """The names of the robots that hold a block, each with the name of this block."""
         return dict(self._native.holds)
 
     def check(self, *, margins: Margins = False, wedging: bool = False) -> Result:
-        """The complete analysis of the placed blocks. It has no scene file."""
+        """Returns the complete analysis of the placed blocks. The result has no scene."""
         options = asked(margins, wedging, False, "standard", None, None, True, False)
         return Result(self._native.analysis(options), None)
 
     def margins(self, *kinds: str) -> Any:
-        """The margins of the placed blocks, all or those that are named."""
+        """Returns the margins of the placed blocks: those of the given kinds, or all margins if no kind is given."""
         return self.check(margins=kinds or True).margins
 
     def capacity(self, block: str, *points: Point, for_all: str | None = None) -> Any:
-        """All forces (Fx, Fy) that a block can carry, at its centroid, at a point, or at two points as one more contact.
+        """Returns all forces (Fx, Fy) that a block can carry: at its centroid, at one point, or at a contact between two points.
 
-        If a robot holds the block and no point is given, they are the forces that this robot may exert.
+        If a robot holds the block and no point is given, the result has the forces that this robot may exert.
         """
         return json.loads(self._native.capacity(place((block, *points)), for_all), object_hook=Record)
 
     def copy(self) -> Session:
-        """A session of its own in the same state, to try steps in."""
+        """Returns an independent session in the same state, in which steps can be tried."""
         made = Session.__new__(Session)
         made._native = self._native.copy()
         return made
