@@ -1,4 +1,4 @@
-"""Asks drystone about many scenes from Python: one process, one line for each scene and each answer."""
+"""Checks many scenes from Python with one process of drystone. Each scene and each result is one line of JSON."""
 import json
 import subprocess
 

@@ -1,4 +1,4 @@
-//! Which forces can a lintel carry, and how does it fall beyond them?
+//! Computes which forces a lintel can carry, and how it falls under larger forces.
 //!
 //! Change the numbers below: the span, the posts, the friction, or the point at which the force acts.
 
@@ -11,7 +11,7 @@ use drystone::scene::Point;
 use drystone::scene::format::{BlockEntry, Pair};
 use drystone::{Analysis, Scene};
 
-/// Metres between the posts.
+/// Distance between the posts, metres.
 const SPAN: f64 = 4.0;
 /// Width and height of a post, metres.
 const POST: (f64, f64) = (1.0, 3.0);
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .build()?;
     let lintel = scene.block_named("lintel").ok_or("there is no lintel")?;
 
-    // A force at the middle of its upper edge.
+    // The force acts at the middle of the upper edge of the lintel.
     let at = ForceAt::Point(Point::new(0.5 * (right + width), height + 1.0));
     let request = CapacityRequest::of_block(lintel).at(at);
     let analysis = Analysis::new(&scene);
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  {:8.3} {:8.3}", vertex.force.x, vertex.force.y);
     }
     for ray in &capacity.rays {
-        println!("  and without end towards {:.3} {:.3}", ray.x, ray.y);
+        println!("  unbounded in the direction {:.3} {:.3}", ray.x, ray.y);
     }
     for (number, edge) in capacity.edges.iter().enumerate() {
         let moving = edge
@@ -65,14 +65,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     println!(
-        "straight to the right it carries {:.3?} N",
+        "the largest force to the right is {:.3?} N",
         capacity.reach([1.0, 0.0])
     );
 
-    // The same if the ground may tilt by 2° to either side, and the friction is only known roughly.
+    // The largest force to the right that is carried for every tilt of up to 2° and every friction from 0.5 to 0.7.
     let cases = Cases::default().tilt(-2.0, 2.0).friction(0.5, 0.7);
     let sure = analysis.capacity(0, &request.cases(cases))?;
-    println!("in every case: {:.3?} N", sure.reach([1.0, 0.0]));
+    println!(
+        "for every tilt and friction: {:.3?} N",
+        sure.reach([1.0, 0.0])
+    );
     Ok(())
 }
 

@@ -1,9 +1,9 @@
-"""Writes the scenes of the gallery in the README, and draws them.
+"""Writes the scenes of the gallery in the README, and draws their figures.
 
-    python3 examples/gallery.py            # the scenes
-    python3 examples/gallery.py drystone   # the scenes, and their pictures with this program
+    python3 examples/gallery.py            # writes the scenes
+    python3 examples/gallery.py drystone   # also draws the figures, with the program of this name
 
-Lengths are in metres, forces in newtons. All structures are our own; their proportions are those of built ones.
+Lengths are in metres, forces in newtons. The structures are invented, but have the proportions of real buildings.
 """
 import json
 import math
@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent.parent / "assets" / "gallery"
-# The pictures: the flow of forces.
+# The options of the figures, which show the flow of forces.
 LOOK = ["--kind", "flow", "--no-key", "--width-mm", "100", "--dpi", "120"]
 
 
@@ -32,7 +32,7 @@ class Scene:
         self.file["blocks"].append({"id": name, "polygon": rounded(polygon)})
 
     def both(self, name, polygon):
-        """A block and its mirror image about x = 0."""
+        """Adds a block and its mirror image about x = 0."""
         self.add(name + "w", mirrored(polygon))
         self.add(name + "e", polygon)
 
@@ -40,7 +40,7 @@ class Scene:
         self.file.setdefault("loads", []).append({"block": block, "at": rounded([at])[0], "force": list(force)})
 
     def text(self):
-        """The scene as JSON, a line for each block."""
+        """Returns the scene as JSON, with one line for each block."""
         more = {key: value for key, value in self.file.items() if key != "blocks"}
         blocks = ",\n".join("  " + json.dumps(block) for block in self.file["blocks"])
         return f'{json.dumps(more)[:-1]}, "blocks": [\n{blocks}\n] }}\n'
@@ -51,7 +51,7 @@ def rounded(polygon):
 
 
 def courses(scene, both, name, left, right, bottom, top, count):
-    """Blocks of equal height one above the other."""
+    """Adds a stack of blocks of equal height."""
     height = (top - bottom) / count
     for i in range(count):
         polygon = box(left, bottom + i * height, right, bottom + (i + 1) * height)
@@ -64,7 +64,7 @@ def polar(centre, radius, degrees):
 
 
 def voussoir(centre, inner, outer, start, end, curved=True):
-    """A block of a ring between two angles."""
+    """Returns the outline of a voussoir: the part of a ring between two angles, in degrees."""
     middle = (start + end) / 2
     below = [polar(centre, inner, a) for a in ([start, middle, end] if curved else [start, end])]
     above = [polar(centre, outer, a) for a in ([end, middle, start] if curved else [end, start])]
@@ -74,7 +74,7 @@ def voussoir(centre, inner, outer, start, end, curved=True):
 def aqueduct():
     scene = Scene("Aqueduct of two tiers", [box(-2, -1, 23, 0)], density=2300, friction=0.65)
     pitch, pier, ring, bays = 7.0, 1.4, 0.55, 3
-    # The feet of two rings stand on each pier, a gap between them that the lowest course fills.
+    # Two rings stand on each pier. The lowest course fills the gap between their feet.
     inner = (pitch - pier) / 2
     outer = inner + ring
     level = 0.0
@@ -89,7 +89,7 @@ def aqueduct():
             centre = ((bay + 0.5) * pitch, spring)
             for k in range(count):
                 scene.add(f"{names}{bay}v{k + 1}", voussoir(centre, inner, outer, angles[k], angles[k + 1], curved=False))
-        # Courses between the rings, as high as the corners of their backs.
+        # Courses fill the space between the rings. Each ends at the height of a corner of the extrados.
         half = count // 2
         backs = [(outer * math.cos(math.radians(a)), spring + outer * math.sin(math.radians(a))) for a in angles[: half + 1]]
         for p in range(bays + 1):
@@ -114,7 +114,7 @@ def gabled_wall():
     scene = Scene("Gabled wall with a door and a window", [box(-1.5, -0.6, 10.5, 0)], density=2000, friction=0.6, thickness=0.4)
     width, course, stone = 9.0, 0.4, 0.9
     eaves, rise, rows = 3.2, 4.4, 19
-    openings = [(3.8, 5.2, 0, 6), (4.0, 5.0, 9, 12)]  # left, right, first course, first course above
+    openings = [(3.8, 5.2, 0, 6), (4.0, 5.0, 9, 12)]  # left, right, first course of the opening, first course above it
 
     def reach(y):
         lost = max(0.0, y - eaves) / rise * width / 2
@@ -139,7 +139,7 @@ def gabled_wall():
                 if tops[k + 1] - tops[k] > 1e-9:
                     polygon.append((tops[k], high))
                 scene.add(f"{row + 1}{'ab'[part] if len(parts) > 1 else ''}-{k + 1}", polygon)
-    # Two purlins and the ridge of the roof.
+    # The loads from two purlins and from the ridge of the roof.
     for y, force in [(4.4, 4000), (6.0, 4000)]:
         for x, side in zip(reach(y), (1, -1)):
             at = (x + 0.25 * side, y)
@@ -149,16 +149,16 @@ def gabled_wall():
 
 
 def block_at(scene, point):
-    """The block whose top edge carries a point, or that contains it: the highest one below it."""
+    """Returns the name of the block under a point, or of the block that contains the point."""
     x, y = point
     under = [b for b in scene.file["blocks"] if min(p[0] for p in b["polygon"]) <= x <= max(p[0] for p in b["polygon"])]
     return max((b for b in under if min(p[1] for p in b["polygon"]) < y - 1e-6), key=lambda b: min(p[1] for p in b["polygon"]))["id"]
 
 
 def flyer(wall, pier, seat, low, high, centre, count):
-    """The stones of a flying buttress from a pier up to a wall: an arc below, a straight slope above, joints between. The
-    lowest stone stands on a seat of this length in front of the pier. `low` and `high` are the heights of the lower and
-    the upper edge at the pier and at the wall; the centre of the arc is this far inside the wall."""
+    """Returns the stones of a flying buttress between a pier and a wall. Its lower edge is an arc, its upper edge is straight.
+    The lowest stone stands on a seat in front of the pier; `seat` is the length of this seat. `low` and `high` are the heights
+    of the lower and upper edges, at the pier and at the wall. The centre of the arc is `centre` metres inside the wall."""
     (pier_low, wall_low), (pier_high, wall_high) = low, high
     x0, x1 = centre, centre + pier - seat - wall
     centre_y = (x1 * x1 - x0 * x0 + pier_low * pier_low - wall_low * wall_low) / (2 * (pier_low - wall_low))
@@ -203,18 +203,18 @@ def corbelled_vault():
 def cathedral():
     scene = Scene("Section of a Gothic church", [box(-15.5, -1.2, 15.5, 0)], density=2200, friction=0.7)
     aisle, spring = 5.0, 13.0
-    # Piers of the nave: below the aisle's vault, below the nave's, and the wall above.
+    # The piers of the nave: the parts below the vaults of the aisle and of the nave, and the wall above.
     courses(scene, True, "n", 4.6, 6.65, 0, aisle, 4)
     courses(scene, True, "m", 4.6, 6.2, aisle, spring, 7)
     courses(scene, True, "w", 5.05, 6.2, spring, 18, 4)
-    # Outer buttresses with pinnacles.
+    # The outer buttresses with pinnacles.
     courses(scene, True, "o", 10.75, 13.6, 0, aisle, 4)
     courses(scene, True, "b", 11.2, 13.6, aisle, 9.6, 4)
     scene.both("seat", [(11.0, 9.6), (13.6, 9.6), (13.6, 10.4), (10.6, 10.4), (10.6, 10.1)])
     courses(scene, True, "u", 11.2, 13.6, 10.4, 13.4, 3)
     scene.both("t", box(11.5, 13.4, 13.3, 14.4))
     scene.both("p", [(11.6, 14.4), (13.2, 14.4), (12.4, 18.2)])
-    # The vault of the nave: stones with level beds at its foot, a pointed ring, a keystone.
+    # The vault of the nave: stones with horizontal beds at its feet, a pointed ring, and a keystone.
     centre, inner, outer = (-2.3, spring), 6.9, 7.35
     foot, key, count = 22.0, 66.0, 7
     back, cut = 5.05, 11.0

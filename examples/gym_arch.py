@@ -1,10 +1,11 @@
-"""Two robots build an arch: an environment for Gymnasium, and how fast it runs.
+"""A Gymnasium environment in which two robots build an arch, and a measurement of its speed.
 
     python examples/gym_arch.py --voussoirs 13 --seconds 5
 
-An action is a number: a robot places one of the voussoirs and holds it, or it releases what it holds. Reward: 1 for each
-voussoir that is placed and stands, 10 for the finished arch that stands alone, and -1 for a fall or an action that is not
-possible. A fall ends the episode. `solver="highs"` decides each step with a linear program of scipy instead of drystone.
+An action is a number: a robot places one of the voussoirs and holds it, or a robot releases the voussoir that it holds. The
+reward is 1 for each voussoir after which the structure stands, 10 for the finished arch that stands without robots, and -1
+for a fall or for an action that is not possible. A fall ends the episode. With `solver="highs"`, a linear program of scipy
+decides each step instead of drystone.
 """
 
 from __future__ import annotations
@@ -26,18 +27,18 @@ except ImportError:
 
 FRICTION = 0.7
 FORCE = 400.0
-"""What each robot can give in each direction, N."""
+"""The largest force of each robot in each direction, N."""
 TORQUE = 200.0
-"""The torque that each robot can give, N·m."""
+"""The largest torque of each robot, N·m."""
 
 
 def voussoirs(count: int, span: float = 4.0, thickness: float = 0.6) -> list[list[tuple[float, float]]]:
-    """Outlines of the voussoirs of a half circle, from the left, metres."""
+    """Returns the outlines of the voussoirs of a semicircular arch, from left to right, in metres."""
     inner, outer = span / 2, span / 2 + thickness
 
     def at(radius: float, number: int) -> tuple[float, float]:
         angle = math.pi * (1 - number / count)
-        # The springings lie on the ground exactly.
+        # The springings lie exactly on the ground.
         height = 0.0 if number in (0, count) else radius * math.sin(angle)
         return (radius * math.cos(angle), height)
 
@@ -45,7 +46,7 @@ def voussoirs(count: int, span: float = 4.0, thickness: float = 0.6) -> list[lis
 
 
 class DrystoneSolver:
-    """A session of drystone."""
+    """Decides each step with a session of drystone."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         self.outlines = outlines
@@ -68,7 +69,7 @@ class DrystoneSolver:
 
 
 class HighsSolver:
-    """The same question as a linear program for HiGHS. Joints are known here, which drystone finds itself."""
+    """Decides each step with a linear program for HiGHS. The joints are given here, while drystone finds them itself."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         import numpy
@@ -153,7 +154,7 @@ class HighsSolver:
 
 
 class ArchEnv(Base):
-    """The environment."""
+    """The Gymnasium environment."""
 
     metadata = {"render_modes": ["svg"]}
 
@@ -176,7 +177,7 @@ class ArchEnv(Base):
         return self._observation(), {}
 
     def actions(self) -> list[int]:
-        """The actions that are possible: a block is placed next to another or to the ground, by a robot with free hands."""
+        """Returns the possible actions. A robot that holds nothing can place a voussoir next to another or on the ground."""
         free = [n for n in range(self.count) if n not in self.placed and self._reachable(n)]
         actions = [r * self.count + n for r in (0, 1) if self.robots[r] not in self.held for n in free]
         return actions + [2 * self.count + r for r in (0, 1) if self.robots[r] in self.held]
@@ -217,7 +218,7 @@ class ArchEnv(Base):
 
 
 def played(env: ArchEnv, seconds: float, seed: int) -> tuple[int, float, list[float]]:
-    """Random episodes: the number of steps, the seconds that they took, and all rewards."""
+    """Plays random episodes. Returns the number of steps, the time that they took in seconds, and all rewards."""
     chance = random.Random(seed)
     steps, rewards = 0, []
     env.reset()

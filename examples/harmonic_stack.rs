@@ -1,7 +1,7 @@
-//! A scene made in Rust: how far can n bricks be stacked over an edge?
+//! Builds a scene in Rust: how far can a stack of n bricks reach beyond an edge?
 //!
-//! The answer is known: half a brick's length times 1 + 1/2 + … + 1/n. A stack that keeps 0.1 % inside stands, one that
-//! goes 0.1 % beyond falls.
+//! The largest overhang is known: half the length of a brick times 1 + 1/2 + … + 1/n. The example shows that a stack with
+//! 0.1 % less overhang stands, and that a stack with 0.1 % more overhang falls.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to a person")]
 
@@ -19,14 +19,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let frame = &Analysis::new(&scene).frames[0];
         let reach: f64 = (1..=BRICKS).map(|n| share * 0.5 / n as f64).sum();
         println!(
-            "{BRICKS} bricks, {reach:.4} over the edge: {:?}, proved by {:?}",
+            "{BRICKS} bricks reach {reach:.4} m beyond the edge: {:?}, proved by {:?}",
             frame.verdict, frame.proof
         );
     }
     Ok(())
 }
 
-/// Bricks of 1 × 0.25, the lowest first; the k-th from the top overhangs the one below it by `share`/2k.
+/// Builds a stack of bricks of 1 m × 0.25 m. The k-th brick from the top overhangs the brick below it by `share`/2k metres.
 fn stack(share: f64) -> Result<Scene, SceneError> {
     let mut right = 0.0;
     let mut scene = Scene::builder().ground(rectangle(-3.0, -1.0, 0.0, 0.0));

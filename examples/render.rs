@@ -1,4 +1,4 @@
-//! A scene file in, its verdicts on the terminal, and a figure out.
+//! Reads a scene file, prints its verdicts, and writes a figure.
 //!
 //! `cargo run --release --example render -- assets/thesis/figure-4.json figure-4.png`
 
@@ -12,7 +12,7 @@ use drystone::{Analysis, Scene, figure, output};
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
     let (Some(input), Some(picture)) = (arguments.next(), arguments.next()) else {
-        return Err("give a scene and the picture to make of it".into());
+        return Err("give two arguments: a scene file, and the path of the figure to write".into());
     };
     let scene = Scene::from_slice(&fs::read(input)?)?;
     let analysis = Analysis::new(&scene);

@@ -1,4 +1,4 @@
-//! What makes an arch stronger? Prints how its load factor changes with its corners, weights, joints and load.
+//! Prints how the load factor of an arch changes with its friction and its corners, to find changes that make it stronger.
 //!
 //! Change the numbers below and run `cargo run --example sensitivity`.
 
@@ -14,15 +14,17 @@ use drystone::{Analysis, Scene};
 
 /// The number of voussoirs.
 const VOUSSOIRS: usize = 15;
-/// The radius of the centreline and the thickness, metres.
+/// The radius of the centreline, metres.
 const RADIUS: f64 = 1.0;
+/// The thickness of the arch, metres.
 const THICKNESS: f64 = 0.2;
 /// The friction coefficient of every joint.
 const FRICTION: f64 = 0.6;
-/// The loaded voussoir, from 0, and the load in newtons.
+/// The index of the loaded voussoir, from 0.
 const LOADED: usize = 4;
+/// The load, newtons.
 const LOAD: Pair = [0.0, -1000.0];
-/// How far corners are moved, metres.
+/// The distance by which each corner is moved, metres.
 const STEP: f64 = 0.01;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -41,23 +43,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("The arch carries {:.4} times its load.", end.value);
     if let Some(friction) = end.friction_of_all.and_then(|slope| slope.unique()) {
-        println!("With 0.1 more friction: {:.4}", end.value + 0.1 * friction);
+        println!("With 0.1 more friction: load factor {:.4}", end.value + 0.1 * friction);
     }
-    // The corners with the steepest slopes, and the directions in which the load factor grows most.
+    // Print the corners with the largest gradients. Each corner is moved in the direction in which the load factor grows
+    // most.
     let mut corners: Vec<_> = end.corners.iter().collect();
     let steepness = |moves: CornerMoves| moves.gradient().map_or(0.0, |slope| slope.norm());
     corners.sort_by(|a, b| steepness(b.moves).total_cmp(&steepness(a.moves)));
     for corner in corners.iter().take(8) {
         let Some(slope) = corner.moves.gradient() else {
             println!(
-                "A corner of {} is at a kink.",
+                "The load factor has a kink at a corner of {}.",
                 scene.blocks()[corner.block.0].id
             );
             continue;
         };
         let to = slope * (STEP / slope.norm());
         println!(
-            "Corner {} of {} moved by ({:+.4}, {:+.4}) m: {:.4}",
+            "Corner {} of {} moved by ({:+.4}, {:+.4}) m: load factor {:.4}",
             corner.corner + 1,
             scene.blocks()[corner.block.0].id,
             to.x,
@@ -68,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A semicircular arch on two springers.
+/// Builds a semicircular arch on two supports.
 fn arch() -> Result<Scene, SceneError> {
     let (inner, outer) = (RADIUS - THICKNESS / 2.0, RADIUS + THICKNESS / 2.0);
     let mut scene = Scene::builder()
@@ -97,7 +100,7 @@ fn arch() -> Result<Scene, SceneError> {
     scene.load(load).build()
 }
 
-/// A point of a joint, at a distance from the centre of the arch. Joint 0 is the left springing.
+/// Returns the point of a joint at the given distance from the centre of the arch. Joint 0 is the left springing.
 fn point(joint: usize, radius: f64) -> Pair {
     let angle = PI * joint as f64 / VOUSSOIRS as f64;
     let height = if joint == VOUSSOIRS {

@@ -1,9 +1,9 @@
-"""Writes a corpus: so many scenes of ten blocks, one per line, the same for the same seed.
+"""Writes a corpus of random scenes of ten blocks, one per line. The same seed gives the same corpus.
 
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
 
-A third each are piles of bricks with every brick shifted at random, leaning towers and round arches; some stand and some
-fall. With --broken N every Nth line is cut short, as lines of a real corpus are now and then.
+One third each are piles of randomly shifted bricks, leaning towers and semicircular arches. Some of them stand and some fall.
+With --broken N every Nth line is truncated, as may happen in a real corpus.
 """
 
 import argparse
@@ -21,7 +21,7 @@ def rectangle(x, y, width, height):
 
 
 def pile(chance):
-    """Rows of 4, 3, 2 and 1 bricks, each brick on two of the row below, give or take."""
+    """Returns rows of 4, 3, 2 and 1 bricks. Each brick lies on about two bricks of the row below."""
     shift = chance.choice([0.1, 0.2, 0.4])
     blocks = []
     for row in range(4):
@@ -33,7 +33,7 @@ def pile(chance):
 
 
 def tower(chance):
-    """Ten bricks on one another, each shifted."""
+    """Returns a tower of ten bricks, each shifted relative to the brick below it."""
     lean = chance.uniform(0, 0.12)
     x = 0.0
     blocks = []
@@ -44,7 +44,7 @@ def tower(chance):
 
 
 def arch(chance):
-    """Ten voussoirs of a half circle: by Milankovitch none stands that is thinner than 0.1075 of its radius."""
+    """Returns ten voussoirs of a semicircular arch. An arch thinner than about 0.1075 of its radius falls (Milankovitch)."""
     thickness = chance.uniform(0.08, 0.2)
     inner, outer = 1 - thickness / 2, 1 + thickness / 2
 

@@ -1,13 +1,13 @@
-"""Runs a corpus through `drystone batch` on Ray Data and writes Parquet that can be queried.
+"""Analyses a corpus with `drystone batch` on Ray Data, and writes the results as Parquet.
 
     pip install "ray[data]" pyarrow
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
     python3 examples/cluster/ray_data.py corpus.ndjson answers.parquet --drystone target/release/drystone
 
-The corpus is cut into parts at line ends; every part goes through one process of drystone, line in, line out. A part whose
-process dies gives too few lines: its task fails and Ray runs it again from its beginning, as it does when a whole worker dies,
-so that in the end every scene is answered exactly once. --kill N ends N of the processes in the middle of their work, to see
-just that. The corpus has to lie where every machine can read it.
+The corpus is divided into parts at the ends of lines. One process of drystone analyses each part and writes one result for
+each line. If this process or its worker fails, results are missing: the task of the part fails, and Ray runs it again from the
+start. In the end, every scene has exactly one result. --kill N kills N of the processes while they work, to test this. The
+corpus must be in a place that every machine can read.
 """
 
 import argparse
@@ -28,7 +28,7 @@ import ray
 
 
 def parts(corpus, lines_each):
-    """Where the parts lie in the file: the number of their first line, their offset and their length in bytes."""
+    """Returns for each part of the file: the number of its first line, its offset and length in bytes, and its number of lines."""
     found = []
     with open(corpus, "rb") as file:
         first, offset, count, length = 1, 0, 0, 0
@@ -44,7 +44,7 @@ def parts(corpus, lines_each):
 
 
 def answered(corpus, binary, fields, pids):
-    """A function for map_batches: one part in, a table with a row per line out."""
+    """Returns a function for map_batches that converts a part to a table with one row per line."""
 
     def part(batch):
         first, offset, length, lines = (int(batch[key][0]) for key in ("first", "offset", "length", "lines"))
@@ -61,7 +61,7 @@ def answered(corpus, binary, fields, pids):
         output, _ = process.communicate(text)
         mark.unlink(missing_ok=True)
         answers = [json.loads(line) for line in output.splitlines() if line.endswith(b"}")]
-        # 0 to 3 say what the verdicts are; whatever else ends a process, this part is not answered.
+        # Exit codes 0 to 3 depend on the verdicts. With any other exit code, results of this part are missing.
         if process.returncode not in (0, 1, 2, 3) or len(answers) != lines:
             raise RuntimeError(f"drystone ended with {process.returncode} after {len(answers)} of {lines} lines")
         problems = [answer.get("problems") for answer in answers]
@@ -76,7 +76,7 @@ def answered(corpus, binary, fields, pids):
 
 
 def kill_some(pids, count, after):
-    """Kills so many of the processes at work, one every `after` seconds."""
+    """Kills `count` of the running processes, one every `after` seconds."""
     killed = 0
     while killed < count:
         time.sleep(after)

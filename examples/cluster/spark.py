@@ -1,12 +1,12 @@
-"""Runs a corpus through `drystone batch` on Spark and writes Parquet that can be queried.
+"""Analyses a corpus with `drystone batch` on Spark, and writes the results as Parquet.
 
     pip install pyspark pyarrow && apt-get install default-jre-headless
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
     python3 examples/cluster/spark.py corpus.ndjson answers.parquet --drystone target/release/drystone
 
-Every partition of the lines goes through one process of drystone, line in, line out. A partition whose process dies, or whose
-machine does, gives too few lines: it fails as a task and Spark runs it again from its beginning, so that in the end every
-scene is answered exactly once. --kill N ends N of the processes in the middle of their work, to see just that.
+One process of drystone analyses each partition of the lines and writes one result for each line. If this process or its
+machine fails, results are missing: the task of the partition fails, and Spark runs it again from the start. In the end, every
+scene has exactly one result. --kill N kills N of the processes while they work, to test this.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from pyspark.sql import Row, SparkSession
 
 
 def answered(binary, fields, pids):
-    """A function for mapPartitions: pairs (number, line) in, rows out, as many as there were pairs."""
+    """Returns a function for mapPartitions that converts pairs (number, line) to rows, one for each pair."""
 
     def partition(pairs):
         process = subprocess.Popen(
@@ -43,7 +43,7 @@ def answered(binary, fields, pids):
                     process.stdin.write(line.encode() + b"\n")
                 process.stdin.close()
             except BrokenPipeError:
-                pass  # The count below tells.
+                pass  # The count of results below detects this.
 
         feeder = threading.Thread(target=feed)
         feeder.start()
@@ -60,7 +60,7 @@ def answered(binary, fields, pids):
         feeder.join()
         code = process.wait()
         mark.unlink()
-        # 0 to 3 say what the verdicts are; whatever else ends a process, this partition is not answered.
+        # Exit codes 0 to 3 depend on the verdicts. With any other exit code, results of this partition are missing.
         if code not in (0, 1, 2, 3) or count != len(numbers):
             raise RuntimeError(f"drystone ended with {code} after {count} of {len(numbers)} lines")
 
@@ -68,7 +68,7 @@ def answered(binary, fields, pids):
 
 
 def kill_some(pids, count, after):
-    """Kills so many of the processes at work, one every `after` seconds."""
+    """Kills `count` of the running processes, one every `after` seconds."""
     killed = 0
     while killed < count:
         time.sleep(after)
