@@ -1,4 +1,4 @@
-// Arrows on the stage: forces between blocks, missing forces, loads; and the grips of robots.
+// Draws arrows on the stage for forces between blocks, missing forces and loads. Also draws the grips of robots.
 
 import { add, dot, length, scale, subtract } from "./geometry.js";
 import { legible, newtons, set, svg } from "./dom.js";
@@ -9,9 +9,9 @@ import { isPoint, list } from "./scene.js";
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {import("./stage.js").Picture} Picture */
 
-/** The longest arrow, as a share of the smaller side of the stage. */
+/** The length of the longest arrow, as a fraction of the smaller side of the stage. */
 const LONGEST = 0.17;
-/** An arrow is at least this many pixels long, so that it can be seen and taken hold of. */
+/** The minimum length of an arrow in pixels, so that users can see and drag it. */
 const SHORTEST = 20;
 
 /**
@@ -31,7 +31,7 @@ export function arrowPath(tail, tip, width) {
   return `M${at(0, w)}L${at(size - head, w)}L${at(size - head, wing)}L${at(size, 0)}L${at(size - head, -wing)}L${at(size - head, -w)}L${at(0, -w)}Z`;
 }
 
-/** Pixels to draw a force with, y down. @param {Point} force @param {number} factor pixels for a newton @returns {Point} */
+/** The vector that shows a force, in pixels with y down. @param {Point} force @param {number} factor pixels for a newton @returns {Point} */
 function inPixels(force, factor) {
   const size = length(force) * factor;
   const stretch = size > 0 && size < SHORTEST ? SHORTEST / size : 1;
@@ -41,7 +41,7 @@ function inPixels(force, factor) {
 /** @param {Stage} stage */
 const longest = (stage) => LONGEST * Math.min(stage.view.width, stage.view.height);
 
-/** The forces between blocks, in the direction in which the weight runs down. @param {Stage} stage @param {Picture} picture */
+/** Draws the forces between blocks, in the direction in which the weight is transferred to the ground. @param {Stage} stage @param {Picture} picture */
 export function drawForces(stage, { scene, result, forces, stale }) {
   const layer = stage.layers.forces;
   if (!forces || !result || stale) return layer.replaceChildren();
@@ -56,7 +56,7 @@ export function drawForces(stage, { scene, result, forces, stale }) {
   }));
 }
 
-/** What is missing where the structure falls. @param {Stage} stage @param {Picture} picture */
+/** Draws the missing forces if the structure falls. @param {Stage} stage @param {Picture} picture */
 export function drawMissing(stage, { result, stale }) {
   const layer = stage.layers.missing;
   const failures = stale ? [] : list(result?.failures).filter((f) => isPoint(f.at));
@@ -68,24 +68,24 @@ export function drawMissing(stage, { result, stale }) {
     if (!failure.force) return [point];
     const force = inPixels(failure.force, factor);
     const size = length(force) || 1;
-    // The amount stands next to the arrow, on the upper side.
+    // The amount is written next to the arrow, on its upper side.
     const up = force[0] > 0 ? -1 : 1;
     const side = /** @type {Point} */ ([(-force[1] / size) * up * -18, (force[0] / size) * up * 18]);
     const pull = failure.kind === "tension";
     const [x, y] = add(pull ? at : add(at, scale(force, 0.6)), side);
     const label = svg("text", { class: "amount missing", x, y, dy: "0.35em" }, newtons(failure.amount));
-    // Where a joint opens, both blocks would have to be pulled to it; else the force acts on the first body.
+    // If a joint opens, the missing force would pull both blocks together. Otherwise it acts on the first body.
     const arrows = pull ? [arrowPath(subtract(at, force), at, 4), arrowPath(add(at, force), at, 4)] : [arrowPath(at, add(at, force), 5)];
     return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point]), ...(failures.length <= 6 ? [label] : [])];
   }));
 }
 
-/** Where a load acts. @param {any} load @param {import("./scene.js").Resolved} resolved @returns {Point | null} */
+/** The point at which a load acts. @param {any} load @param {import("./scene.js").Resolved} resolved @returns {Point | null} */
 export function loadPoint(load, resolved) {
   return isPoint(load?.at) ? load.at : resolved.byId.get(load?.block)?.centre ?? null;
 }
 
-/** Loads: the tail can be dragged to where it acts, the tip to its size. @param {Stage} stage @param {Picture} picture */
+/** Draws the loads. Users drag the tail of an arrow to move the load, and its tip to change the force. @param {Stage} stage @param {Picture} picture */
 export function drawLoads(stage, { scene, resolved, frame }) {
   const { placed } = resolved.frames[frame];
   const loads = list(scene?.loads).map((load, index) => ({ load, index, at: loadPoint(load, resolved) }));
@@ -107,7 +107,7 @@ export function drawLoads(stage, { scene, resolved, frame }) {
   }, () => svg("g", {}, svg("path"), svg("circle"), svg("circle"), svg("text", { "aria-hidden": "true" })));
 }
 
-/** Robots that hold a block. @param {Stage} stage @param {Picture} picture */
+/** Draws the robots that hold a block. @param {Stage} stage @param {Picture} picture */
 export function drawRobots(stage, { resolved, frame }) {
   const shown = resolved.frames[frame].holds.filter((hold) => resolved.byId.has(hold.block));
   reuse(stage.layers.robots, shown, (hold, group) => {
@@ -121,7 +121,7 @@ export function drawRobots(stage, { resolved, frame }) {
 }
 
 /**
- * One element for each item, kept from drawing to drawing so that a focused one stays focused.
+ * Keeps one element for each item from drawing to drawing, so that an element with the focus keeps it.
  * @template T
  * @param {Element} layer @param {T[]} items @param {(item: T, element: Element) => void} update @param {() => Element} create
  */

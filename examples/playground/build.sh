@@ -16,7 +16,7 @@ target=${CARGO_TARGET_DIR:-$root/target}
 tools=$target/wasm-tools
 debian=$target/wasm-toolchain
 
-# What the result depends on.
+# The files on which the result depends.
 inputs() { find Cargo.toml Cargo.lock src assets/fonts/advances.bin examples/playground/build.sh -type f | LC_ALL=C sort; }
 key=$(inputs | xargs -d '\n' sha256sum | sha256sum | cut -c 1-16)
 if [ -f "$pkg/drystone_bg.wasm" ] && [ "$(cat "$pkg/sources" 2>/dev/null)" = "$key" ]; then
@@ -24,11 +24,11 @@ if [ -f "$pkg/drystone_bg.wasm" ] && [ "$(cat "$pkg/sources" 2>/dev/null)" = "$k
     exit 0
 fi
 
-# The program that writes the JavaScript must have exactly the version of the crate.
+# The version of the program that writes the JavaScript must be exactly that of the crate.
 version=$(sed -n '/^name = "wasm-bindgen"$/{n;s/version = "\(.*\)"/\1/p}' Cargo.lock)
 bindgen=$tools/bin/wasm-bindgen
 if [ "$("$bindgen" --version 2>/dev/null)" != "wasm-bindgen $version" ]; then
-    # Without --locked: its lock file names a crate that is gone.
+    # Do not use --locked, because its lock file names a crate that no longer exists.
     cargo install --quiet wasm-bindgen-cli --version "$version" --root "$tools"
 fi
 

@@ -1,4 +1,4 @@
-// What pointer and keyboard do on the stage: select, drag, move with arrow keys, delete, turn.
+// Handles pointer and keyboard on the stage: selecting, dragging, moving with arrow keys, deleting and turning.
 
 import { add, length, scale, subtract } from "./geometry.js";
 import { loadPoint } from "./arrows.js";
@@ -11,7 +11,7 @@ import { snapMove, snapPoint } from "./snap.js";
 /** @typedef {import("./geometry.js").Point} Point */
 /** @typedef {{ kind: string, name: string, index: number }} Handle */
 
-/** Edges within this many pixels snap. */
+/** Edges snap to each other if their distance is at most this many pixels. */
 const REACH = 11;
 
 /** @type {Record<string, [number, number]>} */
@@ -31,7 +31,7 @@ export class Controller {
     this.base = null;
     /** @type {import("./scene.js").Resolved | null} */
     this.from = null;
-    /** @type {Point} the last move of the drag */
+    /** @type {Point} the latest displacement of the drag */
     this.last = [0, 0];
     /** @type {Point | null} where the view was when panning began */
     this.panFrom = null;
@@ -99,7 +99,7 @@ export class Controller {
   move(handle, by, free) {
     if (handle.kind === "view") {
       const { view } = this.stage;
-      // `by` was measured with the view as it is now: add what the view has moved since.
+      // `by` refers to the present view: add the displacement of the view since the drag began.
       view.centre = subtract(view.centre, by);
       return this.page.redraw();
     }
@@ -114,14 +114,14 @@ export class Controller {
     this.base = this.from = null;
   }
 
-  /** The body that a corner belongs to is the selected one. @param {Handle} handle @param {import("./scene.js").Resolved} from */
+  /** Returns the body with this corner, which is the selected body. @param {Handle} handle @param {import("./scene.js").Resolved} from */
   bodyOf(handle, from) {
     const key = handle.kind === "body" ? handle.name : this.store.selected;
     return from.bodies.find((body) => body.key === key) ?? null;
   }
 
   /**
-   * Changes a scene as a handle says that was moved.
+   * Changes a scene according to a handle that was moved.
    * @param {any} scene @param {Handle} handle @param {Point} by metres since the state `this.from` @param {boolean} snap
    */
   change(scene, handle, by, snap) {
@@ -198,7 +198,7 @@ export class Controller {
     const focused = this.stage.root.contains(document.activeElement);
     this.store.edit("", (scene) => edit.removeBody(scene, body));
     this.store.select(null);
-    // The focus was on what is gone now: the block that took its place in the list gets it.
+    // The element with the focus was deleted: the block that took its place in the list gets the focus.
     const left = standing(this.store.resolved, this.store.frame).filter((b) => b.list === body.list);
     const next = left.find((b) => b.index >= body.index) ?? left.at(-1);
     if (focused && next) this.focus(next.key);
@@ -220,13 +220,13 @@ export class Controller {
     this.focus(key);
   }
 
-  /** Gives a body the focus once it is drawn. @param {string} key */
+  /** Gives a body the focus after it has been drawn. @param {string} key */
   focus(key) {
     this.wanted = key;
     this.page.redraw();
   }
 
-  /** Gives the focus to what was wished for; a new block must be drawn first. */
+  /** Gives the focus to the requested body, which may have to be drawn first. */
   afterDrawing() {
     if (this.wanted === null) return;
     this.stage.drawn.get(this.wanted)?.group.focus({ preventScroll: true });
@@ -242,7 +242,7 @@ export class Controller {
 
   /** @param {WheelEvent} event */
   wheel(event) {
-    // Without Ctrl the wheel scrolls the page, as everywhere.
+    // Without Ctrl the wheel scrolls the page, as on other pages.
     if (!event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
     const { left, top } = this.stage.root.getBoundingClientRect();
@@ -251,7 +251,7 @@ export class Controller {
   }
 }
 
-/** A force that is almost upright or level becomes so. @param {Point} force @returns {Point} */
+/** Makes a force that is almost vertical or horizontal exactly vertical or horizontal. @param {Point} force @returns {Point} */
 function upright(force) {
   const size = length(force);
   if (Math.abs(force[0]) < 0.06 * size) return [0, force[1]];

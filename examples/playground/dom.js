@@ -1,4 +1,4 @@
-// Small helpers to build the page. Text from scenes only ever becomes text: there is no innerHTML anywhere.
+// Small helpers to build the page. Text from scenes only becomes text nodes: innerHTML is never used.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -40,8 +40,8 @@ export function html(name, attributes = {}, ...children) {
 }
 
 /**
- * A name from a scene, made safe to read: marks that turn the direction of text or hide are shown as their code
- * points, and long names are cut.
+ * Makes a name from a scene safe to read: invisible characters and marks that change the direction of text are shown as
+ * code points, and long names are truncated.
  * @param {string} name @param {number} [most] characters
  */
 export function legible(name, most = 60) {
@@ -57,10 +57,10 @@ export function newtons(newtons) {
   return `${trim(newtons)} N`;
 }
 
-/** Three digits, without zeros at the end. @param {number} value */
+/** Formats a number with three significant digits, without zeros at the end. @param {number} value */
 export const trim = (value) => String(Number(value.toPrecision(3)));
 
-/** Runs only once calls have stopped for so long. @template {any[]} A @param {number} milliseconds @param {(...args: A) => void} action */
+/** Returns a function that runs `action` after no call for this time. @template {any[]} A @param {number} milliseconds @param {(...args: A) => void} action */
 export function afterPause(milliseconds, action) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;

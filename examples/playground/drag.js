@@ -1,5 +1,5 @@
-// Dragging in an SVG with mouse, touch or pen. Knows nothing of scenes: whoever uses it says what can be picked up,
-// and what a move means. At most one move for each picture of the screen.
+// Implements dragging in an SVG with mouse, touch or pen. It does not depend on scenes: the caller decides what can be
+// dragged, and what a move does. There is at most one move for each frame of the screen.
 
 /** @typedef {import("./geometry.js").Point} Point */
 /**
@@ -9,11 +9,11 @@
  * @property {(x: number, y: number) => Point} toWorld client coordinates to those of the drawing
  * @property {(handle: Handle, at: Point) => void} [start] once the pointer has moved by a few pixels
  * @property {(handle: Handle, by: Point, at: Point, event: PointerEvent) => void} move `by` since the start
- * @property {(handle: Handle, kept: boolean) => void} end not kept where Escape or the browser ended it
+ * @property {(handle: Handle, kept: boolean) => void} end `kept` is false if Escape or the browser ended the drag
  * @property {(handle: Handle | null, at: Point) => void} [click] pressed and released without a move
  */
 
-/** A pointer that moves less than this many pixels clicks. */
+/** If the pointer moves less than this many pixels, the drag counts as a click. */
 const CLICK = 4;
 
 /**

@@ -1,6 +1,6 @@
-// Changes to a scene: each function changes the parsed scene that it is given, and touches only the keys it must, so
-// that the JSON stays the author's. Coordinates keep the number of decimals of the scene, because the library
-// estimates from them how exactly the scene was drawn.
+// Changes to a scene. Each function changes the parsed scene that it gets, and only the keys that it needs to change.
+// Coordinates keep the number of decimals of the scene, because the library estimates the rounding error of the
+// coordinates from it.
 
 import { add, centroid, round, roundPoint, subtract, turn } from "./geometry.js";
 import { gridOf, nearestNode, toLattice, toMetres } from "./lattice.js";
@@ -33,7 +33,7 @@ export function moveBody(scene, body, by, decimals) {
   if (body.list === "blocks") forEachPointOf(scene, body.id, (p) => roundPoint(add(p, moved), decimals));
 }
 
-/** Changes every point that belongs to a block: where loads act and where robots grip it. @param {any} scene @param {string} id @param {(p: Point) => Point} change */
+/** Changes every point that belongs to a block: the points of its loads and the grip points of robots. @param {any} scene @param {string} id @param {(p: Point) => Point} change */
 function forEachPointOf(scene, id, change) {
   for (const load of list(scene.loads)) if (load?.block === id && isPoint(load.at)) load.at = change(load.at);
   for (const robot of list(scene.robots)) if (robot?.holds === id && isPoint(robot.at)) robot.at = change(robot.at);
@@ -51,7 +51,7 @@ export function turnBody(scene, body, degrees, decimals) {
     const full = (((entity.angle ?? 0) + Math.sign(degrees) * part) % 360 + 360) % 360;
     if (full === 0) delete entity.angle;
     else entity.angle = full;
-    // Turned about its origin: move it back to where it was, as near as the lattice allows.
+    // The body was turned about its origin: move it back as near to its old position as the lattice allows.
     const outline = outlineOf(scene, entity)?.[0];
     if (outline) entity.at = nearestNode(grid, add(toMetres(grid, entity.at ?? [0, 0]), subtract(body.centre, centroid(outline))));
     return;
@@ -76,13 +76,13 @@ export function moveCorner(scene, body, corner, to, decimals) {
   bakePolygon(scene, body, decimals, (p, i) => (i === corner ? to : p));
 }
 
-/** A new corner after the given one. @param {any} scene @param {Body} body @param {number} after @param {Point} at @param {number} decimals */
+/** Adds a corner after the given corner. @param {any} scene @param {Body} body @param {number} after @param {Point} at @param {number} decimals */
 export function addCorner(scene, body, after, at, decimals) {
   const outline = body.outline.toSpliced(after + 1, 0, at);
   bakePolygon(scene, { ...body, outline }, decimals, (p) => p);
 }
 
-/** Removes a corner; a triangle keeps its three. @param {any} scene @param {Body} body @param {number} corner @param {number} decimals */
+/** Removes a corner, except from a triangle. @param {any} scene @param {Body} body @param {number} corner @param {number} decimals */
 export function removeCorner(scene, body, corner, decimals) {
   if (body.outline.length <= 3) return;
   bakePolygon(scene, { ...body, outline: body.outline.toSpliced(corner, 1) }, decimals, (p) => p);
@@ -101,9 +101,9 @@ export function addBlock(scene, block, frame) {
   return id;
 }
 
-/** Removes a body and everything that names it. @param {any} scene @param {Body} body */
+/** Removes a body and all entries that refer to it. @param {any} scene @param {Body} body */
 export function removeBody(scene, body) {
-  // Blocks without an id are named by their number: name them all before the numbers change.
+  // The name of a block without an id is its number: give all blocks an id before the numbers change.
   if (body.list === "blocks") scene.blocks.forEach((/** @type {any} */ block, /** @type {number} */ i) => block.id ??= blockId(block, i));
   scene[body.list].splice(body.index, 1);
   if (body.list === "ground") return;
@@ -140,7 +140,7 @@ export function removeLoad(scene, index) {
   if (scene.loads.length === 0) delete scene.loads;
 }
 
-/** Moves where a load acts. @param {any} scene @param {number} index @param {Point} to @param {number} decimals */
+/** Moves the point at which a load acts. @param {any} scene @param {number} index @param {Point} to @param {number} decimals */
 export function moveLoad(scene, index, to, decimals) {
   scene.loads[index].at = roundPoint(to, decimals);
 }
@@ -162,7 +162,7 @@ export function moveGrip(scene, hold, to, decimals) {
   }
 }
 
-/** A robot takes hold of a block, or releases it. @param {any} scene @param {string} id @param {number} frame @param {import("./scene.js").Hold[]} holds of this step */
+/** Makes a robot hold a block, or release it. @param {any} scene @param {string} id @param {number} frame @param {import("./scene.js").Hold[]} holds of this step */
 export function toggleHold(scene, id, frame, holds) {
   const held = holds.filter((hold) => hold.block === id);
   scene.robots = list(scene.robots);
@@ -192,7 +192,7 @@ export function toggleHold(scene, id, frame, holds) {
   else robot.holds = id;
 }
 
-/** One friction coefficient everywhere: that is what the margin of friction varies. @param {any} scene @param {number} mu */
+/** Sets one friction coefficient for the whole scene, as the friction margin does. @param {any} scene @param {number} mu */
 export function setFriction(scene, mu) {
   scene.friction = round(mu, 3);
   delete scene.friction_pairs;
@@ -211,7 +211,7 @@ export function setTilt(scene, degrees) {
 /** @param {any} scene @returns {Point} */
 export const gravityOf = (scene) => (isPoint(scene?.gravity) ? scene.gravity : [0, -9.81]);
 
-/** How far gravity is turned from straight down, degrees anticlockwise. @param {any} scene */
+/** The angle between gravity and the downward direction, in degrees anticlockwise. @param {any} scene */
 export function tiltOf(scene) {
   const [x, y] = gravityOf(scene);
   return x === 0 && y === 0 ? 0 : round((Math.atan2(x, -y) * 180) / Math.PI, 3);

@@ -1,8 +1,8 @@
-// Scenes to begin with.
+// The list of example scenes.
 
 import { html } from "./dom.js";
 
-/** File names in the folder scenes, and what the list calls them. */
+/** The file names in the folder `scenes`, each with its name in the list. */
 const GROUPS = [
   {
     label: "To begin with",

@@ -1,12 +1,12 @@
-// Shows how a structure begins to fall: each block turns about its instantaneous centre of rotation, or slides where
-// it does not turn. The library gives the velocities of that first moment; the way beyond it is only a picture.
+// Shows how a structure begins to fall. Each block turns about its instantaneous centre of rotation, or slides if it does
+// not turn. The library gives the velocities of the first moment; the rest of the motion is only an illustration.
 
 import { length } from "./geometry.js";
 
 /** @typedef {import("./geometry.js").Point} Point */
 /** @typedef {{ block: string, velocity: Point, spin: number }} Motion */
 
-/** How long a fall is shown, and how long it rests at its end, in milliseconds. */
+/** The duration of the animation of a fall, and of the pause at its end, in milliseconds. */
 const FALL = 1500;
 const REST = 900;
 const RETURN = 350;
@@ -33,7 +33,7 @@ export class Fall {
    */
   play(mechanism, resolved, ended = () => {}) {
     this.stop();
-    // The fastest point moves by about a tenth of the picture; no block turns so far that hinges come apart visibly.
+    // The fastest point moves by about a tenth of the picture. No block turns so far that hinges visibly open.
     const picture = Math.min(this.stage.view.width, this.stage.view.height) / this.stage.view.zoom;
     const spin = Math.max(...mechanism.map((motion) => Math.abs(motion.spin)), 1e-12);
     const reach = Math.min(0.1 * picture, MOST_TURN / spin);
@@ -69,7 +69,7 @@ export class Fall {
     if (Math.abs(angle) < 1e-6 || radius * view.zoom > 1e5) {
       return `translate(${(velocity[0] * amount * view.zoom).toFixed(2)} ${(-velocity[1] * amount * view.zoom).toFixed(2)})`;
     }
-    // The point that does not move: from the centroid across the velocity.
+    // The centre of rotation: the point that does not move. It lies perpendicular to the velocity of the centroid.
     const [x, y] = view.toPixels([centre[0] - velocity[1] / spin, centre[1] + velocity[0] / spin]);
     return `rotate(${((-angle * 180) / Math.PI).toFixed(3)} ${x.toFixed(2)} ${y.toFixed(2)})`;
   }

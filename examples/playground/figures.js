@@ -1,9 +1,9 @@
-// The library's figures, one tab for each kind. A figure is shown as an image: whatever a scene names, nothing in it
-// can run or load.
+// Shows the figures of the library, one tab for each kind. A figure is shown as an image, so that text of a scene cannot
+// run scripts or load anything.
 
 import { html } from "./dom.js";
 
-/** The kinds that the page offers, in this order, where the library has them. */
+/** The kinds of figures on the page, in this order; kinds that the library does not have are left out. */
 const KINDS = [
   { kind: "forces", label: "Forces", help: "Every force between the blocks, and in red what is missing." },
   { kind: "flow", label: "Flow", help: "How the weight runs down through the blocks." },
@@ -45,7 +45,7 @@ export class Figures {
     this.choose(this.kind);
   }
 
-  /** Arrow keys go from tab to tab, as in every list of tabs. @param {KeyboardEvent} event */
+  /** Moves from tab to tab with the arrow keys. @param {KeyboardEvent} event */
   key(event) {
     const now = this.buttons.findIndex((button) => button.dataset.kind === this.kind);
     const last = this.buttons.length - 1;
@@ -70,16 +70,16 @@ export class Figures {
     this.refresh();
   }
 
-  /** Asks for the figure anew. The old one stays, paler, until the new one is there. */
+  /** Requests the figure again. The old figure stays visible, but pale, until the new one arrives. */
   async refresh() {
     this.parts.image.classList.add("stale");
     const options = this.options(this.kind);
     let answer = await this.ask({ kind: this.kind, ...options });
     let note = KINDS.find((entry) => entry.kind === this.kind)?.help ?? "";
-    // A library that cannot be told the block draws that of its own choice.
+    // If the library rejects the option for the block, request the figure without it.
     if (answer?.error && options.capacity) answer = await this.ask({ kind: this.kind, ...options, capacity: undefined });
     if (answer?.problems) {
-      // Where outlines can be read, the library draws them with the problems marked.
+      // The scene is not valid. If its outlines can be read, the library draws them with the problems marked.
       note = "The figure follows once the scene is valid.";
       answer = await this.ask({ broken: true, theme: options.theme });
     }
@@ -99,7 +99,7 @@ export class Figures {
   }
 }
 
-/** What the figure says of itself, for those who do not see it. @param {string} svg */
+/** Returns the description in the figure, for people who cannot see it. @param {string} svg */
 function description(svg) {
   const page = new DOMParser().parseFromString(svg, "image/svg+xml");
   return page.querySelector("svg > desc")?.textContent ?? "Figure";

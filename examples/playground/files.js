@@ -1,6 +1,6 @@
-// Files in and out: scenes and drawings that are opened or dropped, and SVG, PNG and JSON that are saved.
+// Opens scenes and drawings from files, and saves SVG, PNG and JSON files.
 
-/** Larger files than this are refused, in bytes. */
+/** The largest file that is accepted, in bytes. */
 const MOST = 20_000_000;
 
 /** @type {Record<string, string>} */
@@ -44,7 +44,7 @@ export function fileName(scene) {
   return title.normalize("NFKD").toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "").slice(0, 60) || "scene";
 }
 
-/** An SVG as pixels. @param {string} svg @param {number} scale @returns {Promise<Blob>} */
+/** Converts an SVG to a PNG. @param {string} svg @param {number} scale @returns {Promise<Blob>} */
 export async function toPng(svg, scale) {
   const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {

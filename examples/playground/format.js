@@ -1,4 +1,4 @@
-// A scene as text: one line for each block, step or load, as people write scenes by hand.
+// Writes a scene as text, with one line for each block, step or load, as in a scene written by hand.
 
 /** Objects and lists that fit in this many characters stay on one line. */
 const WIDTH = 132;
@@ -19,7 +19,7 @@ function formatValue(value, indent, open) {
   }
   if (value && typeof value === "object") {
     const lines = Object.entries(value).map(([key, item]) => {
-      // The lists of bodies, steps and loads are read line by line, however short they are.
+      // In the lists of bodies, steps and loads, each entry gets a line, even if the list is short.
       const spread = indent === "" && Array.isArray(item) && item.some((entry) => entry && typeof entry === "object" && !Array.isArray(entry));
       return `${indent}  ${JSON.stringify(key)}: ${formatValue(item, `${indent}  `, spread)}`;
     });

@@ -1,4 +1,4 @@
-// Which step of the assembly is shown, and the list of its blocks.
+// Shows the number of the step of the assembly, and the list of its blocks.
 
 import { html, legible } from "./dom.js";
 import { standing } from "./scene.js";

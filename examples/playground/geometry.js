@@ -1,5 +1,5 @@
-// Plane geometry for the editor: points are [x, y] in metres, polygons lists of points.
-// The verdicts never depend on this file: the library checks every scene from its text.
+// Plane geometry for the editor: a point is [x, y] in metres, a polygon is a list of points. Verdicts do not depend on
+// this file, because the library reads every scene from its text.
 
 /** @typedef {[number, number]} Point */
 
@@ -16,7 +16,7 @@ export const cross = (a, b) => a[0] * b[1] - a[1] * b[0];
 /** @param {Point} a */
 export const length = (a) => Math.hypot(a[0], a[1]);
 
-/** A number rounded to so many decimals, never −0. @param {number} value @param {number} decimals */
+/** Rounds a number to `decimals` decimals; never returns −0. @param {number} value @param {number} decimals */
 export function round(value, decimals) {
   const rounded = Number(value.toFixed(decimals));
   return rounded === 0 ? 0 : rounded;
@@ -25,7 +25,7 @@ export function round(value, decimals) {
 /** @param {Point} p @param {number} decimals @returns {Point} */
 export const roundPoint = (p, decimals) => [round(p[0], decimals), round(p[1], decimals)];
 
-/** The point turned about a centre, radians anticlockwise. @param {Point} p @param {number} angle @param {Point} [centre] @returns {Point} */
+/** Turns a point about a centre, radians anticlockwise. @param {Point} p @param {number} angle @param {Point} [centre] @returns {Point} */
 export function turn(p, angle, centre = [0, 0]) {
   const [x, y] = subtract(p, centre);
   const c = Math.cos(angle);
@@ -33,14 +33,14 @@ export function turn(p, angle, centre = [0, 0]) {
   return [centre[0] + c * x - s * y, centre[1] + s * x + c * y];
 }
 
-/** Twice the signed area is positive where the corners run anticlockwise. @param {Point[]} polygon */
+/** Returns twice the signed area: positive if the corners are in anticlockwise order. @param {Point[]} polygon */
 export function signedArea(polygon) {
   let sum = 0;
   for (let i = 0; i < polygon.length; i++) sum += cross(polygon[i], polygon[(i + 1) % polygon.length]);
   return sum / 2;
 }
 
-/** The centroid of a polygon, or the mean of its corners where it has no area. @param {Point[]} polygon @returns {Point} */
+/** Returns the centroid of a polygon, or the mean of its corners if it has no area. @param {Point[]} polygon @returns {Point} */
 export function centroid(polygon) {
   const origin = polygon[0] ?? [0, 0];
   let area = 0;
@@ -91,7 +91,7 @@ export function bounds(points) {
   return Number.isFinite(box.left) ? box : { left: 0, right: 1, bottom: 0, top: 1 };
 }
 
-/** Whether two boxes come within a distance of each other. @param {Box} a @param {Box} b @param {number} [gap] */
+/** True if the distance of two boxes is at most `gap`. @param {Box} a @param {Box} b @param {number} [gap] */
 export const near = (a, b, gap = 0) =>
   a.left - gap <= b.right && b.left - gap <= a.right && a.bottom - gap <= b.top && b.bottom - gap <= a.top;
 
@@ -109,9 +109,9 @@ export function isConvex(polygon) {
 }
 
 /**
- * The shortest move of `a` that takes it out of `b`, or null where they do not overlap. Both must be convex: the
- * separating-axis test looks along the normals of all edges. If `a` was apart from `b` before, it goes back to the
- * side where it was, so that it never passes through.
+ * Returns the shortest move of `a` after which it does not overlap `b`; null if they do not overlap. Both must be convex,
+ * because the separating-axis test uses the normals of all edges. If `a` did not overlap `b` before, it moves back to the
+ * same side of `b`, so that it never passes through.
  * @param {Point[]} a @param {Point[]} b @param {number} slack overlaps below this many metres do not count
  * @param {Point[]} [before] where `a` was
  * @returns {Point | null}

@@ -1,5 +1,5 @@
-// The two lattices of a scene file: where nodes lie, which cells the built-in shapes have, and the outline of cells.
-// The same numbers as in src/mechanics/scene/shape.rs and src/geometry/lattice.rs.
+// The two lattices of a scene file: the positions of nodes, the cells of the built-in shapes, and the outline of cells.
+// The numbers are those of src/mechanics/scene/shape.rs and src/geometry/lattice.rs.
 
 import { signedArea } from "./geometry.js";
 
@@ -25,7 +25,7 @@ export const BUILT_IN_NAMES = Object.keys(BUILT_IN);
 /** @param {string} name @returns {Cell[] | null} */
 export const builtIn = (name) => (Object.hasOwn(BUILT_IN, name) ? BUILT_IN[name] : null);
 
-/** The scene's grid with its default, or null. @param {any} scene @returns {Grid | null} */
+/** The grid of the scene with its default values; null if there is no grid. @param {any} scene @returns {Grid | null} */
 export function gridOf(scene) {
   const grid = scene?.grid;
   if (!grid || (grid.kind !== "triangular" && grid.kind !== "square")) return null;
@@ -37,7 +37,7 @@ export function toMetres(grid, [x, y]) {
   return grid.kind === "square" ? [grid.side * x, grid.side * y] : [grid.side * (x + y / 2), grid.side * y * ROW];
 }
 
-/** Metres in lattice coordinates, not rounded. @param {Grid} grid @param {Point} point @returns {Point} */
+/** Converts a point in metres to lattice coordinates, without rounding. @param {Grid} grid @param {Point} point @returns {Point} */
 export function toLattice(grid, [x, y]) {
   if (grid.kind === "square") return [x / grid.side, y / grid.side];
   const row = y / ROW / grid.side;
@@ -74,8 +74,8 @@ function turned(grid, [x, y], steps) {
 }
 
 /**
- * The outline of connected cells in lattice nodes, straight runs merged. An edge that two cells share runs both ways
- * and drops out; the others close to loops, of which the one with the largest area is the outline.
+ * Returns the outline of connected cells as lattice nodes. An edge that two cells share occurs in both directions and is
+ * left out; the other edges form loops, and the loop with the largest area is the outline.
  * @param {Grid} grid @param {Cell[]} cells @param {number} angle degrees
  * @returns {Point[][]} the outline, then its holes
  */
@@ -110,7 +110,7 @@ export function outlineOfCells(grid, cells, angle) {
   return loops.sort((a, b) => signedArea(b) - signedArea(a));
 }
 
-/** Without corners in the middle of a straight run. @param {Point[]} loop */
+/** Removes corners between two edges of the same direction. @param {Point[]} loop */
 function straightened(loop) {
   return loop.filter((p, i) => {
     const a = loop[(i + loop.length - 1) % loop.length];

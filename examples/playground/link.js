@@ -1,6 +1,6 @@
-// The whole scene in the link: compressed, after the #, which browsers never send to a server.
+// Stores the whole scene in the link: compressed, in the part after the #, which browsers never send to a server.
 
-/** What a link may unpack to, in bytes: a small link must not fill the memory. */
+/** The largest size of an unpacked link, in bytes, so that a small link cannot fill the memory. */
 const MOST = 4_000_000;
 
 /** @param {string} text @returns {Promise<string>} the part after the # */

@@ -1,4 +1,4 @@
-// Puts the page together: the workbench in the middle, and around it everything that shows or changes the scene.
+// Builds the page: the workbench, and around it all parts that show or change the scene.
 
 import { afterPause, byId, legible } from "./dom.js";
 import { fillExamples, loadExample } from "./examples.js";
@@ -48,12 +48,12 @@ function showVerdict({ state, title, detail }, milliseconds) {
   announce(`${title}. ${detail}`);
 }
 
-/** Read aloud once the verdict has settled: not for every position of a drag. */
+/** Announces the verdict to screen readers when it no longer changes, and not for every position of a drag. */
 const announce = afterPause(500, (/** @type {string} */ text) => {
   if (byId("announcement").textContent !== text) byId("announcement").textContent = text;
 });
 
-/** What takes longer than a verdict waits until the hand rests. */
+/** Updates the parts that take longer than a verdict, after the user has stopped dragging. */
 const refine = afterPause(200, async () => {
   if (store.dragging) return;
   figures.refresh();
@@ -92,7 +92,7 @@ byId("redo").addEventListener("click", () => store.redo());
 byId("play").addEventListener("click", () => bench.play());
 byId("show-forces").addEventListener("change", () => bench.draw());
 document.addEventListener("keydown", (event) => {
-  // In the text the browser's own undo works letter by letter.
+  // In the text field, the undo of the browser is used, which works letter by letter.
   if (!(event.ctrlKey || event.metaKey) || event.target === byId("source")) return;
   const key = event.key.toLowerCase();
   if (key !== "z" && key !== "y") return;

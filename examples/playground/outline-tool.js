@@ -1,4 +1,4 @@
-// Draws a free polygon: corner by corner with the pointer, or with the keyboard, which moves a cross.
+// Draws a polygon corner by corner, with the pointer or with a cross that the keyboard moves.
 
 import { set, svg } from "./dom.js";
 import { length, subtract } from "./geometry.js";

@@ -1,10 +1,10 @@
-// Opening, dropping, saving and sharing.
+// Handles opening, dropping, saving and sharing of scenes.
 
 import { afterPause, byId } from "./dom.js";
 import { fileName, readFile, save, toPng } from "./files.js";
 import { packed } from "./link.js";
 
-/** A link longer than this does not go into the address bar by itself. */
+/** A link longer than this is not written into the address bar automatically. */
 const LONGEST_LINK = 30_000;
 
 export class Outputs {

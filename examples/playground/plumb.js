@@ -1,4 +1,4 @@
-// A plumb line in the corner of the stage shows where gravity points.
+// Draws a plumb line in the corner of the stage, in the direction of gravity.
 
 import { set, svg } from "./dom.js";
 import { gravityOf, tiltOf } from "./edit.js";

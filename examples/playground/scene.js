@@ -1,5 +1,5 @@
-// From a scene file to what is on the stage: outlines in metres, and for each step which blocks stand, which are held
-// and which are planned. Reads defensively: while somebody types, half of a scene may be missing or of a wrong type.
+// Converts a scene file to what the stage shows: outlines in metres, and for each step the placed, held and planned
+// blocks. It accepts incomplete scenes: while a user types, keys may be missing or have values of a wrong type.
 
 import { bounds, centroid, turn, add, signedArea } from "./geometry.js";
 import { builtIn, gridOf, outlineOfCells, toMetres } from "./lattice.js";
@@ -7,7 +7,7 @@ import { builtIn, gridOf, outlineOfCells, toMetres } from "./lattice.js";
 /** @typedef {import("./geometry.js").Point} Point */
 /**
  * @typedef {object} Body
- * @property {"blocks" | "ground"} list where it is in the scene
+ * @property {"blocks" | "ground"} list the list in the scene that contains it
  * @property {number} index its number there, from 0
  * @property {string} key "blocks/3", used to find it again
  * @property {string} id its name for other parts of the scene
@@ -34,7 +34,7 @@ export const blockId = (block, index) => (typeof block?.id === "string" ? block.
 /** @param {any} robot @param {number} index */
 export const robotId = (robot, index) => (typeof robot?.id === "string" ? robot.id : `r${index}`);
 
-/** What the stage shows at most: a link from somebody must not stop the browser. The library sees the whole scene. */
+/** The largest numbers that the stage shows, so that a harmful link cannot block the browser. The library gets the whole scene. */
 const MOST_BODIES = 5000;
 const MOST_PLACED = 1_000_000;
 
@@ -72,7 +72,7 @@ function resolveBody(scene, entity, kind, index) {
   };
 }
 
-/** The shape that a body names, with what is its own, or null. @param {any} scene @param {any} entity */
+/** Returns the object with the outline of a body: its shape if it names one, otherwise the body. Null if the shape does not exist. @param {any} scene @param {any} entity */
 function shapeOf(scene, entity) {
   return typeof entity?.shape === "string" ? entry(scene?.shapes, entity.shape) ?? null : entity;
 }
@@ -104,7 +104,7 @@ export function outlineOf(scene, entity) {
   return loops.map((loop) => list(loop).filter(isPoint).map((p) => add(angle ? turn(p, radians) : p, at)));
 }
 
-/** What stands in each step. @param {any} scene @returns {Frame[]} */
+/** Returns the placed, held and planned blocks of each step. @param {any} scene @returns {Frame[]} */
 function framesOf(scene) {
   const robots = list(scene?.robots).map((robot, i) => ({ id: robotId(robot, i), at: isPoint(robot?.at) ? robot.at : null, holds: robot?.holds }));
   const everything = list(scene?.blocks).slice(0, MOST_BODIES).map(blockId);

@@ -1,4 +1,4 @@
-// What can be added: shapes about the origin, in the size of what is already there.
+// The shapes that users can add: centred at the origin, with a size that fits the scene.
 
 import { round } from "./geometry.js";
 import { BUILT_IN_NAMES, gridOf, nearestNode } from "./lattice.js";
@@ -16,7 +16,7 @@ function standingHexagon(radius) {
 }
 
 /**
- * A stone of a round arch, upright: its sides point to the centre of the arch below it.
+ * An upright voussoir of a semicircular arch: its sides point to the centre of the arch below it.
  * @param {number} size its height @param {number} [angle] its share of the circle, degrees
  * @returns {Point[]}
  */

@@ -1,5 +1,5 @@
-// Writes the whole playground into one HTML file, which works from a disk, a mail or a learning platform: browsers do
-// not load modules from files, so the file carries them inside and hands them to the browser as blobs.
+// Writes the whole playground as one HTML file, which works from a disk, an email or a learning platform. Browsers do not
+// load modules from files on a disk, so the HTML file contains the modules and gives them to the browser as blobs.
 // usage: node single.mjs [playground.html]     (needs pkg/)
 
 import { createHash } from "node:crypto";
@@ -12,7 +12,7 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const read = (/** @type {string} */ name) => readFile(path.join(here, name), "utf8");
 
 /**
- * Starts the page: it runs in the browser, and what it needs is in `files`.
+ * Starts the page. This function runs in the browser; `files` contains all modules and scenes.
  * @param {{ modules: Record<string, string>, scenes: Record<string, string> }} files
  */
 async function boot({ modules, scenes }) {
@@ -20,7 +20,7 @@ async function boot({ modules, scenes }) {
   const places = Object.fromEntries(Object.entries(scenes).map(([name, text]) => [name, JSON.parse(url(text, "application/json"))]));
   /** @type {Record<string, string>} */
   const done = {};
-  // Each module after those that it imports; the places of files become the places of blobs.
+  // Each module comes after those that it imports; addresses of files are replaced by addresses of blobs.
   const load = (/** @type {string} */ name) => {
     done[name] ??= url(
       modules[name]
@@ -35,8 +35,8 @@ async function boot({ modules, scenes }) {
 }
 
 /**
- * The worker with the library in it, as text and as packed bytes: a worker that comes from a file may neither import
- * nor fetch anything, nor be a module.
+ * Returns the worker with the library as text and packed bytes. A worker from a file may neither import nor fetch
+ * anything, and it may not be a module.
  * @param {string} worker @param {string} library @param {string} wasm in base64
  */
 function joined(worker, library, wasm) {

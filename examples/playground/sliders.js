@@ -1,5 +1,5 @@
-// Friction, tilt, kernel and loads as sliders. A band on each shows for which values the structure stands: the
-// intervals that the library computes with all else unchanged.
+// Sliders for friction, tilt, kernel and loads. A band on each slider shows the values for which the structure stands: the
+// margin that the library computes if all other values stay the same.
 
 import { html, trim } from "./dom.js";
 import { setFriction, setTilt, tiltOf } from "./edit.js";
@@ -32,7 +32,7 @@ const PARAMETERS = [
     id: "tilt", label: "Tilt", help: "Turns gravity, as if the ground were tilted.", low: -45, high: 45, step: 0.5, unit: "°",
     read: ({ scene }) => tiltOf(scene),
     write: (store, value) => store.edit("tilt", (scene) => setTilt(scene, value)),
-    // The library measures the turn from gravity as it is now.
+    // The library measures the tilt from the present direction of gravity.
     interval: ({ tilt }, { scene }) => (Array.isArray(tilt) ? /** @type {Interval} */ (tilt.map((end) => (end === null ? null : end + tiltOf(scene)))) : tilt),
   },
   {
@@ -78,7 +78,7 @@ export class Sliders {
       const { parameter, input, output } = entry;
       const usable = parameter.usable?.(this.store) ?? true;
       const value = parameter.read(this.store);
-      // A value beyond the slider stretches it.
+      // If the value is outside the range of the slider, extend the range.
       input.max = String(Math.max(Number(input.max), value));
       input.min = String(Math.min(parameter.low, value));
       if (Number(input.value) !== value) input.value = String(value);
@@ -92,7 +92,7 @@ export class Sliders {
   /** @param {any | null} margins of the library, or null while they are not known */
   showMargins(margins) {
     for (const entry of this.rows) {
-      // At factor 0 there are no loads to multiply: what was found before still holds.
+      // At factor 0 there are no loads to multiply, so keep the interval that was found before.
       if (entry.parameter.id === "load" && this.store.factor === 0 && margins) continue;
       entry.interval = margins ? entry.parameter.interval(margins.intervals ?? {}, this.store) : undefined;
       this.stretch(entry);
@@ -100,7 +100,7 @@ export class Sliders {
     }
   }
 
-  /** A limit beyond the end of the slider comes into reach, unless a hand is on it. @param {Sliders["rows"][number]} entry */
+  /** Extends the range of a slider to include the limit, unless the user is moving the slider. @param {Sliders["rows"][number]} entry */
   stretch({ parameter, input, interval }) {
     const end = Array.isArray(interval) ? interval[1] : null;
     if (parameter.id !== "load" || document.activeElement === input) return;
@@ -125,7 +125,7 @@ export class Sliders {
   }
 }
 
-/** Angles are read as left and right. @param {number} value @param {string} unit */
+/** Formats a value; an angle gets the word left or right. @param {number} value @param {string} unit */
 const amount = (value, unit) => (unit === "°" ? `${trim(Math.abs(value))}° ${value < 0 ? "left" : "right"}` : `${trim(value)}${unit}`);
 
 /** @param {Interval} interval @param {Parameter} parameter */

@@ -1,5 +1,5 @@
-// Where a dragged block comes to lie: on the edges of its neighbours if they are near, else on the grid; and outside
-// of the other blocks, because stones do not pass through each other.
+// Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid, and
+// it does not overlap other blocks, because stones cannot pass through each other.
 
 import { add, bounds, cross, dot, isConvex, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
 
@@ -8,9 +8,9 @@ import { add, bounds, cross, dot, isConvex, length, near, pushOut, scale, signed
 /** @typedef {{ outline: Point[], box: Box }} Outline */
 /** @typedef {{ normal: Point, distance: number, weight: number }} Pull a wish to move by a distance along a direction */
 
-/** Edges within this angle count as parallel (its sine). */
+/** The largest sine of the angle between two edges that count as parallel. */
 const PARALLEL = 0.03;
-/** The most steps on the way of a block. */
+/** The largest number of steps into which a move is divided. */
 const STEPS = 60;
 
 /**
@@ -38,7 +38,7 @@ export function snapMove(body, wish, others, { reach, grid, decimals, last = [0,
     if (second) move = add(move, scale(tangent, second.distance / dot(second.normal, tangent)));
     else if (grid > 0) move = add(move, scale(tangent, gridShift(dot(add([body.box.left, body.box.bottom], move), tangent), grid)));
   } else if (grid > 0) {
-    // The lowest left corner of the block goes to the grid.
+    // The lowest left corner of the block is moved to the grid.
     const corner = [body.box.left, body.box.bottom];
     move = /** @type {Point} */ (free.map((w, i) => Math.round((corner[i] + w) / grid) * grid - corner[i]));
   }
@@ -55,7 +55,7 @@ function nearestPull(pulls) {
   return pulls.reduce((best, pull) => (!best || pull.weight < best.weight ? pull : best), /** @type {Pull | null} */ (null));
 }
 
-/** Pulls that lay an edge of the outline onto a parallel edge of another one. @param {Point[]} outline @param {Outline[]} others @param {number} reach @returns {Pull[]} */
+/** Returns the pulls that move an edge of the outline onto a parallel edge of another outline. @param {Point[]} outline @param {Outline[]} others @param {number} reach @returns {Pull[]} */
 function edgePulls(outline, others, reach) {
   /** @type {Pull[]} */
   const pulls = [];
@@ -72,7 +72,7 @@ function edgePulls(outline, others, reach) {
         if (!direction || Math.abs(cross(along, direction)) > PARALLEL) continue;
         const distance = (dot(subtract(c, a), normal) + dot(subtract(d, b), normal)) / 2;
         if (Math.abs(distance) > reach || !overlap(a, b, c, d, along)) continue;
-        // Faces that look at each other come before faces that are only in line.
+        // Edges that face each other come before edges that only lie on one line.
         const facing = dot(along, direction) * sense * otherSense < 0;
         pulls.push({ normal, distance, weight: Math.abs(distance) * (facing ? 1 : 3) });
       }
@@ -81,7 +81,7 @@ function edgePulls(outline, others, reach) {
   return pulls;
 }
 
-/** Pulls along a face that now touches: corner to corner, or onto a second face. @param {Point[]} outline @param {Outline[]} others @param {Point} normal @param {number} reach @returns {Pull[]} */
+/** Returns the pulls along a face that touches now: corner to corner, or onto a second face. @param {Point[]} outline @param {Outline[]} others @param {Point} normal @param {number} reach @returns {Pull[]} */
 function pullsAlong(outline, others, normal, reach) {
   /** @type {Point} */
   const tangent = [-normal[1], normal[0]];
@@ -105,12 +105,12 @@ function overlap(a, b, c, d, along) {
   return Math.max(dot(a, along), Math.min(p, q)) < Math.min(dot(b, along), Math.max(p, q));
 }
 
-/** How far a coordinate is from the grid. @param {number} at @param {number} grid */
+/** Returns the distance of a coordinate from the grid. @param {number} at @param {number} grid */
 const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
 
 /**
- * Where the block gets to on its way from the last move to the wished one: in steps smaller than itself, so that it
- * does not jump through others but slides along them.
+ * Returns how far the block can move from its last position towards the requested one. It moves in steps smaller than
+ * itself, so that it does not jump over other blocks but slides along them.
  * @param {Outline} body @param {Point} wish @param {Outline[]} others @param {number} slack @param {Point} last
  * @returns {Point}
  */
@@ -131,12 +131,12 @@ function way(body, wish, others, slack, last) {
   return at;
 }
 
-/** The move, changed so that the block leaves the others where both are convex. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
+/** Returns the move, changed so that the block does not overlap the others; only convex outlines are tested. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
 function outOfOthers(body, move, others, slack, last) {
   if (!isConvex(body.outline)) return move;
   let result = move;
   const before = shift(body.outline, last);
-  // A block between two others may be pushed from one into the other: a few rounds, then it stays where it was.
+  // A block between two others may be pushed from one into the other: after a few rounds it stays where it was.
   for (let round = 0; round < 6; round++) {
     const outline = shift(body.outline, result);
     const box = bounds(outline);

@@ -1,11 +1,11 @@
-// Asks the workers. A worker cannot be interrupted, so each topic keeps only its newest question: while an answer is
-// awaited, a newer question replaces the one that waits. Verdicts have a worker of their own, so that a slow figure
-// never delays them.
+// Sends requests to the workers. A worker cannot be interrupted, so only the newest request of each topic is kept: while
+// the worker is busy, a newer request replaces the one that waits. Verdicts have a worker of their own, so that a slow
+// figure never delays them.
 
 /** @typedef {{ value?: any, problems?: any[], error?: string, milliseconds?: number }} Answer */
 /** @typedef {{ topic: string, message: any, resolve: (answer: Answer | null) => void }} Question */
 
-/** After so many seconds the library gives up and calls a step undecided. */
+/** The time limit of an analysis, in seconds. After it, the library calls a step undecided. */
 const PATIENCE = 10;
 
 class Lane {
@@ -43,7 +43,7 @@ class Lane {
 
   open() {
     const worker = this.start();
-    // A library that failed may be in any state: the next question starts a new worker.
+    // After a failure the library may be in any state, so the next request starts a new worker.
     const end = () => {
       worker.terminate();
       this.worker = null;
@@ -76,17 +76,17 @@ export class Solver {
     this.slow = new Lane(start);
   }
 
-  /** Version and kinds of figures. */
+  /** Requests the version and the kinds of figures. */
   about() {
     return this.fast.ask("about", { task: "about" });
   }
 
-  /** The verdict on one step, from 0. @param {string} scene @param {number} frame */
+  /** Requests the verdict for one step, from 0. @param {string} scene @param {number} frame */
   verdict(scene, frame) {
     return this.fast.ask("verdict", { task: "check", scene, options: { frame: frame + 1, time_limit: PATIENCE } });
   }
 
-  /** The same with margins. @param {string} scene @param {number} frame */
+  /** Requests the verdict for one step with margins. @param {string} scene @param {number} frame */
   margins(scene, frame) {
     return this.slow.ask("margins", { task: "check", scene, options: { frame: frame + 1, margins: true, time_limit: PATIENCE } });
   }

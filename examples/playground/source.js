@@ -1,4 +1,4 @@
-// The scene as text: edited here, or followed while the stage is edited; with its problems at their lines.
+// Shows the scene as text, which users can edit. The text follows changes on the stage, and problems are marked at their lines.
 
 import { html, afterPause } from "./dom.js";
 
@@ -23,7 +23,7 @@ export class Source {
     area.addEventListener("blur", () => store.type(area.value));
   }
 
-  /** Shows the text of the scene, unless somebody types in it just now. */
+  /** Shows the text of the scene, unless the user is typing in it. */
   refresh() {
     const { area } = this.parts;
     if (area.value === this.store.text) return;
@@ -61,7 +61,7 @@ export class Source {
     return html("li", { class: kind }, button);
   }
 
-  /** Puts the caret at a place of the text. @param {number} line from 1 @param {number} column from 1 */
+  /** Puts the caret at a position in the text. @param {number} line from 1 @param {number} column from 1 */
   goTo(line, column) {
     const { area } = this.parts;
     const before = area.value.split("\n").slice(0, line - 1).reduce((sum, text) => sum + text.length + 1, 0);

@@ -1,4 +1,5 @@
-// Draws the structure for editing: light, because it follows the pointer. The figures below it are the library's.
+// Draws the structure for editing. The drawing is simple, because it has to follow the pointer. The library draws the
+// figures below it.
 
 import { bounds } from "./geometry.js";
 import { gridOf, toMetres } from "./lattice.js";
@@ -31,15 +32,15 @@ export class Stage {
     /** @type {Record<string, SVGElement>} */
     this.layers = {};
     for (const name of LAYERS) this.layers[name] = /** @type {SVGElement} */ (root.appendChild(svg("g", { class: `layer-${name}` })));
-    // For the eye only; what can be focused is in the other layers.
+    // This layer is only visible; elements that can have the focus are in the other layers.
     for (const name of ["grid", "planned", "forces", "missing", "draft"]) set(this.layers[name], { "aria-hidden": "true" });
     /** @type {Map<string, { group: SVGElement, path: SVGElement, label: SVGElement, d: string, text: string }>} */
     this.drawn = new Map();
-    /** Metres that an arrow of one newton is long; kept while a load is dragged. */
+    /** The length of the arrow for one newton, in metres; constant while a load is dragged. */
     this.loadScale = 1;
   }
 
-  /** Takes the size of the element on the page. */
+  /** Reads the size of the element on the page. */
   resize() {
     const { width, height } = this.root.getBoundingClientRect();
     this.view.width = Math.max(50, width);
@@ -151,7 +152,7 @@ export class Stage {
       const [x, y] = this.view.toPixels(body.centre);
       set(drawn.label, { x: x.toFixed(1), y: y.toFixed(1) });
     }
-    // A name that has no room is not written; the list next to the stage has it.
+    // A name without space is not drawn; the list next to the stage has all names.
     const room = Math.min(body.box.right - body.box.left, 3 * (body.box.top - body.box.bottom)) * this.view.zoom;
     const name = legible(body.id);
     const text = body.list === "blocks" && room > 10 + 7.5 * name.length ? name : "";
@@ -177,7 +178,7 @@ export class Stage {
       const next = points[(i + 1) % points.length];
       const [x, y] = this.view.toPixels(p);
       const [mx, my] = this.view.toPixels([(p[0] + next[0]) / 2, (p[1] + next[1]) / 2]);
-      // Two for each corner, which keep their place in the document, so that a focused one stays focused.
+      // There are two elements for each corner. They keep their place in the document, so that one with the focus keeps it.
       const corner = layer.children[2 * i] ?? layer.appendChild(svg("circle"));
       const middle = layer.children[2 * i + 1] ?? layer.appendChild(svg("circle"));
       const name = legible(/** @type {Body} */ (body).id);

@@ -1,13 +1,13 @@
 // The document: the text of the scene, what it parses to, the current step, the selection, and undo.
-// The text is what counts. A change on the stage changes the parsed scene and writes the text anew; a change in the
-// text replaces the scene. Whoever shows something of it listens to the events.
+// The text defines the scene. A change on the stage changes the parsed scene and writes the text again; a change in the
+// text replaces the parsed scene. All parts that show the scene listen to the events.
 
 import { formatScene } from "./format.js";
 import { list, resolve } from "./scene.js";
 
-/** How many changes can be undone. */
+/** The largest number of changes that can be undone. */
 const DEPTH = 200;
-/** Changes with the same label within this many milliseconds are one: holding an arrow key is undone at once. */
+/** Changes with the same label within this many milliseconds count as one, as when an arrow key is held. */
 const TOGETHER = 900;
 
 /**
@@ -28,9 +28,9 @@ export class Store extends EventTarget {
     this.frame = 0;
     /** @type {string | null} key of the selected body */
     this.selected = null;
-    /** Whether the text parses; what is on the stage is the last scene that did. */
+    /** Whether the text can be parsed; if not, the stage shows the last scene that could. */
     this.parses = true;
-    /** The loads at factor 1, and the factor: 0 must not lose them. */
+    /** The loads at factor 1, and the factor. The loads are stored, so that the factor 0 does not lose them. */
     this.factor = 1;
     /** @type {any[]} */
     this.loads = [];
@@ -39,7 +39,7 @@ export class Store extends EventTarget {
     /** @type {Entry[]} */
     this.future = [];
     this.last = { label: "", at: 0 };
-    /** Whether a drag is going on: the text then follows at its end. */
+    /** Whether the user is dragging; the text is updated at the end of a drag. */
     this.dragging = false;
   }
 
@@ -48,7 +48,7 @@ export class Store extends EventTarget {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 
-  /** Shows another scene; the one before can be had back with undo. @param {string} text */
+  /** Shows another scene; undo brings back the previous scene. @param {string} text */
   open(text) {
     if (this.text) this.remember("");
     this.frame = 0;
@@ -67,13 +67,13 @@ export class Store extends EventTarget {
       this.parses = scene !== null && typeof scene === "object" && !Array.isArray(scene);
       if (this.parses) this.take(scene);
     } catch {
-      // Somebody is typing: the stage keeps the last scene, and the solver says what is wrong, with its line.
+      // The user is typing: the stage keeps the last scene, and the solver reports the problem with its line.
       this.parses = false;
     }
     this.resetLoads();
   }
 
-  /** The text as somebody typed it. @param {string} text */
+  /** Sets the text that the user typed. @param {string} text */
   type(text) {
     if (text === this.text) return;
     this.remember("type");
@@ -105,7 +105,7 @@ export class Store extends EventTarget {
   }
 
   /**
-   * Changes the scene. While the text does not parse there is nothing that could be changed safely.
+   * Changes the scene. If the text cannot be parsed, nothing is changed.
    * @param {string} label changes with the same label in quick succession are undone together
    * @param {(scene: any) => void} change
    */
@@ -125,7 +125,7 @@ export class Store extends EventTarget {
     this.emit("scene", { from: this.dragging ? "drag" : "edit" });
   }
 
-  /** Begins a drag, of which each move starts from the same scene. @returns {any} that scene */
+  /** Begins a drag. Each move of a drag starts from the same scene. @returns {any} that scene */
   beginDrag() {
     this.remember("");
     this.dragging = true;

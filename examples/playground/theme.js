@@ -1,4 +1,4 @@
-// Light or dark: as the system says, until somebody chooses.
+// Sets the light or dark theme: that of the system, until the user chooses one.
 
 const KEY = "drystone-theme";
 

@@ -1,4 +1,4 @@
-// The buttons above the stage: add, hold, load, turn, delete, zoom.
+// Handles the buttons above the stage: add, hold, load, turn, delete, zoom.
 
 import { byId, html } from "./dom.js";
 import { bounds, centroid, signedArea } from "./geometry.js";
@@ -45,7 +45,7 @@ export class Toolbar {
     on("fit", () => { stage.fit(store.resolved); page.redraw(); });
   }
 
-  /** Shows what can be added and what can be done with the selected block. */
+  /** Updates the list of shapes and the buttons for the selected block. */
   refresh() {
     const all = choices(this.store.scene);
     const ids = all.map(({ id }) => id).join();
@@ -68,7 +68,7 @@ export class Toolbar {
     return Math.max(3, decimalsOf(this.store.resolved, this.store.scene));
   }
 
-  /** The middle size of the blocks: what is added fits to it. */
+  /** The median size of the blocks, which a new block gets. */
   size() {
     const sides = this.store.resolved.bodies.filter((b) => b.list === "blocks").map(({ outline }) => Math.sqrt(Math.abs(signedArea(outline)))).sort((a, b) => a - b);
     return sides[Math.floor(sides.length / 2)] ?? 60 / this.stage.view.zoom;
@@ -77,7 +77,7 @@ export class Toolbar {
   add() {
     const { store, stage } = this;
     const choice = choices(store.scene).find(({ id }) => id === this.shape.value) ?? choices(store.scene)[0];
-    // On top of the highest body, where it overlaps nothing; it is then dragged to its place.
+    // Place the new block above the highest body, where it overlaps nothing. The user then drags it to its place.
     const size = this.size();
     const grid = gridOf(store.scene);
     const top = standing(store.resolved, store.frame).reduce((/** @type {import("./scene.js").Body | null} */ best, body) => (!best || body.box.top > best.box.top ? body : best), null);
@@ -124,7 +124,7 @@ export class Toolbar {
     if (body) store.edit("", (scene) => toggleHold(scene, body.id, store.frame, store.current.holds));
   }
 
-  /** A level push on the selected block, about a quarter of its weight, at its centroid. */
+  /** Adds a horizontal load at the centroid of the selected block, of about a quarter of its weight. */
   load() {
     const { store } = this;
     const body = store.body(store.selected);

@@ -1,4 +1,4 @@
-// The verdict in words, and its announcement.
+// Writes the verdict in words, and announces it to screen readers.
 
 import { legible, newtons } from "./dom.js";
 import { list } from "./scene.js";
@@ -70,7 +70,7 @@ function joint({ kind, bodies, amount }) {
   return kind === "friction" ? `${newtons(amount)} of friction is missing between ${a} and ${b}` : `${a} would have to stick to ${b} with ${newtons(amount)}`;
 }
 
-/** Messages may quote names of the scene. @param {any} text */
+/** Makes a message safe, because it may quote names from the scene. @param {any} text */
 const legiblePart = (text) => String(text ?? "").split(/(\s)/).map((word) => (/^\s$/.test(word) ? " " : legible(word))).join("");
 
 /** @param {string} text */
@@ -79,7 +79,7 @@ function sentence(text) {
   return `${first.toUpperCase()}${rest.join("")}${/[.!?…]$/.test(text) ? "" : "."}`;
 }
 
-/** The bodies that problems are about, by their path in the scene. @param {any[]} problems */
+/** Returns the bodies that have problems, from the paths of the problems in the scene. @param {any[]} problems */
 export function faultyBodies(problems) {
   const keys = new Set();
   for (const problem of problems) {

@@ -1,4 +1,4 @@
-// From metres to pixels and back, and which part of the plane is seen.
+// Converts metres to pixels and back, and stores which part of the plane is visible.
 
 /** @typedef {import("./geometry.js").Point} Point */
 
@@ -22,7 +22,7 @@ export class View {
     return [this.centre[0] + (x - this.width / 2) / this.zoom, this.centre[1] - (y - this.height / 2) / this.zoom];
   }
 
-  /** Shows a box with room around it. @param {import("./geometry.js").Box} box */
+  /** Shows a box with a margin around it. @param {import("./geometry.js").Box} box */
   fit(box) {
     const [width, height] = [Math.max(box.right - box.left, 1e-9), Math.max(box.top - box.bottom, 1e-9)];
     const room = Math.min(72, this.width * 0.1);
@@ -30,14 +30,14 @@ export class View {
     this.centre = [(box.left + box.right) / 2, (box.bottom + box.top) / 2];
   }
 
-  /** Whether a box is seen completely. @param {import("./geometry.js").Box} box */
+  /** True if a box is completely visible. @param {import("./geometry.js").Box} box */
   shows(box) {
     const [left, top] = this.toPixels([box.left, box.top]);
     const [right, bottom] = this.toPixels([box.right, box.bottom]);
     return left >= 0 && top >= 0 && right <= this.width && bottom <= this.height;
   }
 
-  /** Zooms about a point that stays where it is. @param {number} factor @param {Point} [at] pixels */
+  /** Zooms about a point that does not move on the screen. @param {number} factor @param {Point} [at] pixels */
   zoomBy(factor, at = [this.width / 2, this.height / 2]) {
     const fixed = this.toWorld(at);
     this.zoom = Math.min(1e7, Math.max(1e-5, this.zoom * factor));

@@ -1,5 +1,5 @@
-// A structure that can be dragged and answers at once: stage, document and solver in one, without the page around it.
-// The playground adds its tools to it; another page, such as a report, can use it alone:
+// Combines stage, document and solver: a structure that users can drag and that shows its verdict immediately. The
+// playground adds its tools; another page, such as a report, can use the workbench alone:
 //
 //     const bench = new Workbench(svg, { solver: new Solver() });
 //     bench.addEventListener("answer", ({ detail }) => { heading.textContent = detail.words.title; });
@@ -33,7 +33,7 @@ export class Workbench extends EventTarget {
     this.faulty = new Set();
     this.stale = true;
     this.scheduled = 0;
-    /** The scene and step whose fall was shown: each is shown once. */
+    /** The scene and step whose fall was shown last, because each fall is shown only once. */
     this.shown = "";
     this.fallLater = afterPause(350, () => this.fallOnce());
     this.store.addEventListener("scene", (event) => this.changed(/** @type {CustomEvent} */ (event).detail ?? {}));
@@ -42,7 +42,7 @@ export class Workbench extends EventTarget {
     new ResizeObserver(() => this.resized()).observe(root);
   }
 
-  /** Draws before the next picture of the screen, however often it is called. */
+  /** Draws once before the next frame of the screen, even if it is called several times. */
   draw() {
     this.scheduled ||= requestAnimationFrame(() => {
       this.scheduled = 0;
@@ -56,7 +56,7 @@ export class Workbench extends EventTarget {
   /** @param {{ fit?: boolean, from?: string }} detail */
   changed({ fit, from }) {
     this.fall.stop();
-    // While a block is moved the last answer stays until the next, so that nothing flickers.
+    // While a block is moved, the last answer stays visible until the next one arrives, so that nothing flickers.
     this.stale = from !== "drag" && from !== "edit";
     if (this.stale) this.result = null;
     const unseen = (from === "text" || from === "undo") && !this.stage.view.shows(bounds(this.store.resolved.bodies.flatMap((body) => body.outline)));
@@ -65,7 +65,7 @@ export class Workbench extends EventTarget {
     this.solve();
   }
 
-  /** Asks for the verdict; while blocks are dragged, as often as the worker can answer. */
+  /** Requests the verdict. While blocks are dragged, this happens as often as the worker can answer. */
   async solve() {
     const { store } = this;
     const reply = await this.solver.verdict(store.dragging ? JSON.stringify(store.scene) : store.text, store.frame);
@@ -79,7 +79,7 @@ export class Workbench extends EventTarget {
     this.fallLater();
   }
 
-  /** A structure that has just begun to fall shows how, once. */
+  /** Shows the fall once when a structure begins to fall. */
   fallOnce() {
     const now = this.store.text + this.store.frame;
     if (this.store.dragging || this.stale || this.result?.verdict !== "unstable" || this.shown === now) return;

@@ -1,10 +1,10 @@
-// Runs the library next to the page, so that the page never waits for an answer.
+// Runs the library in a worker, so that the page never waits for a result.
 // One message in, one message out: { id, task, ... } → { id, value } or { id, problems } or { id, error }.
 
 import init, * as drystone from "./pkg/drystone.js";
 
 const ready = init();
-// Whoever asks first gets the error; until then it is not an unhandled one.
+// The first request gets the error; until then, it must not count as unhandled.
 ready.catch(() => {});
 
 /** @type {Record<string, (message: any) => any>} */
@@ -16,7 +16,7 @@ const tasks = {
   import: ({ text, format }) => JSON.parse(drystone.importDrawing(text, format)),
 };
 
-/** Without what the page does not show: less to copy between threads while a block is dragged. @param {any} result */
+/** Removes the parts of a result that the page does not show, so that less is copied between threads. @param {any} result */
 function shortened(result) {
   for (const frame of result.frames ?? []) {
     delete frame.effects;
@@ -33,7 +33,7 @@ self.onmessage = async ({ data }) => {
     self.postMessage({ id: data.id, value: tasks[data.task](data) });
   } catch (thrown) {
     const error = /** @type {any} */ (thrown);
-    // An invalid scene is an answer too: its problems, each with its line.
+    // For an invalid scene, the answer is the list of its problems, each with its line.
     if (error?.problems?.length > 0) self.postMessage({ id: data.id, problems: error.problems });
     else self.postMessage({ id: data.id, error: String(error?.message ?? error) });
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opens the playground in Chromium and uses it as people do. Needs pkg/ (see build.sh), Node.js with npm, and Chromium.
+# Tests the playground in Chromium, with mouse and keyboard as a user would. Needs pkg/ (see build.sh), Node.js with npm, and Chromium.
 # usage: examples/playground/test/run.sh [FILE.mjs …]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -32,5 +32,5 @@ export PLAYGROUND_TOOLS=$tools PLAYGROUND_AXE=$axe PLAYGROUND_SHOTS=${PLAYGROUND
 mkdir -p "$PLAYGROUND_SHOTS"
 files=("$@")
 [ ${#files[@]} -gt 0 ] || files=("$here"/*.mjs)
-# One after the other: what is measured must not wait for another browser.
+# Run the tests one after the other, so that a measurement does not wait for another browser.
 exec node --test --test-concurrency=1 --test-reporter=spec "${files[@]}"
