@@ -1,7 +1,7 @@
 //! Builds a scene in Rust: how far can a stack of n bricks reach beyond an edge?
 //!
-//! The largest overhang is known: half the length of a brick times 1 + 1/2 + … + 1/n. The example shows that a stack with
-//! 0.1 % less overhang stands, and that a stack with 0.1 % more overhang falls.
+//! The largest overhang is known: half the length of a brick times 1 + 1/2 + … + 1/n. The example shows that a stack
+//! with 0.1 % less overhang stands, and that a stack with 0.1 % more overhang falls.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to a person")]
 
@@ -26,7 +26,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Builds a stack of bricks of 1 m × 0.25 m. The k-th brick from the top overhangs the brick below it by `share`/2k metres.
+/// Builds a stack of bricks of 1 m × 0.25 m. The k-th brick from the top overhangs the brick below it by `share`/2k
+/// metres.
 fn stack(share: f64) -> Result<Scene, SceneError> {
     let mut right = 0.0;
     let mut scene = Scene::builder().ground(rectangle(-3.0, -1.0, 0.0, 0.0));

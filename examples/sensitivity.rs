@@ -1,4 +1,5 @@
-//! Prints how the load factor of an arch changes with its friction and its corners, to find changes that make it stronger.
+//! Prints how the load factor of an arch changes with its friction and its corners, to find changes that make it
+//! stronger.
 //!
 //! Change the numbers below and run `cargo run --example sensitivity`.
 
@@ -45,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Some(friction) = end.friction_of_all.and_then(|slope| slope.unique()) {
         println!("With 0.1 more friction: load factor {:.4}", end.value + 0.1 * friction);
     }
-    // Print the corners with the largest gradients. Each corner is moved in the direction in which the load factor grows
+    // Print the corners with the largest gradients. Each corner moves in the direction in which the load factor grows
     // most.
     let mut corners: Vec<_> = end.corners.iter().collect();
     let steepness = |moves: CornerMoves| moves.gradient().map_or(0.0, |slope| slope.norm());

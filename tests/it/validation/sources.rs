@@ -1,6 +1,7 @@
 //! Where the published values come from, in full.
 
-/// Key, reference, and where the value was found. A text with "not checked" means that no value of this source was checked.
+/// Key, reference, and where the value was found. A text with "not checked" means that no value of this source was
+/// checked.
 pub const SOURCES: &[(&str, &str, &str)] = &[
     (
         "Ainley79",
