@@ -44,7 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("The arch carries {:.4} times its load.", end.value);
     if let Some(friction) = end.friction_of_all.and_then(|slope| slope.unique()) {
-        println!("With 0.1 more friction: load factor {:.4}", end.value + 0.1 * friction);
+        println!(
+            "With 0.1 more friction: load factor {:.4}",
+            end.value + 0.1 * friction
+        );
     }
     // Print the corners with the largest gradients. Each corner moves in the direction in which the load factor grows
     // most.
