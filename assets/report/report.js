@@ -13,6 +13,7 @@
     enlarging(scene);
     marks(scene);
     copying(scene);
+    scene.dispatchEvent(new Event("filled", { bubbles: true }));
   };
   const scenes = document.getElementById("scenes");
   for (const scene of all("details.scene")) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Compiles the library for browsers into examples/playground/pkg/, as a package for npm: drystone.js,
-# drystone_bg.wasm, and declarations for TypeScript. Does nothing if pkg/ is already made from the same sources.
+# drystone_bg.wasm, and declarations for TypeScript; with Node.js also interactive.js, the script of interactive reports.
+# Does not compile if pkg/ is already made from the same sources.
 #
 # usage: examples/playground/build.sh [--debian]
 #
@@ -21,6 +22,7 @@ inputs() { find Cargo.toml Cargo.lock src assets/fonts/advances.bin examples/pla
 key=$(inputs | xargs -d '\n' sha256sum | sha256sum | cut -c 1-16)
 if [ -f "$pkg/drystone_bg.wasm" ] && [ "$(cat "$pkg/sources" 2>/dev/null)" = "$key" ]; then
     echo "pkg/ is made from these sources already"
+    ! command -v node >/dev/null || node "$here/interactive.mjs"
     exit 0
 fi
 
@@ -75,7 +77,7 @@ cat > "$pkg/package.json" <<JSON
   "type": "module",
   "main": "drystone.js",
   "types": "drystone.d.ts",
-  "files": ["drystone.js", "drystone_bg.wasm", "drystone.d.ts", "drystone_bg.wasm.d.ts", "LICENSE-MIT", "LICENSE-APACHE"],
+  "files": ["drystone.js", "drystone_bg.wasm", "drystone.d.ts", "drystone_bg.wasm.d.ts", "interactive.js", "LICENSE-MIT", "LICENSE-APACHE"],
   "sideEffects": false
 }
 JSON
@@ -84,4 +86,5 @@ file=$pkg/drystone_bg.wasm
 printf 'drystone_bg.wasm: %d bytes, %d with gzip\n' "$(wc -c < "$file")" "$(gzip -9 -c "$file" | wc -c)"
 if command -v node >/dev/null; then
     node -e 'const z = require("zlib"); const packed = z.brotliCompressSync(require("fs").readFileSync(process.argv[1])); console.log(`${packed.length} with brotli`)' "$file"
+    node "$here/interactive.mjs"
 fi

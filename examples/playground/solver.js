@@ -69,35 +69,50 @@ class Lane {
   }
 }
 
+const startWorker = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+
+/** How many solvers share workers so far: each has topics of its own. */
+let solvers = 0;
+
 export class Solver {
-  /** @param {() => Worker} [start] starts a worker that runs worker.js */
-  constructor(start = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" })) {
-    this.fast = new Lane(start);
-    this.slow = new Lane(start);
+  /** @param {{ fast: Lane, slow: Lane }} [lanes] workers that other solvers on the page use too */
+  constructor(lanes = { fast: new Lane(startWorker), slow: new Lane(startWorker) }) {
+    this.lanes = lanes;
+    this.number = solvers++;
+  }
+
+  /** A solver for another structure on the page, in the same workers. */
+  another() {
+    return new Solver(this.lanes);
+  }
+
+  /** @param {"fast" | "slow"} lane @param {string} topic @param {any} message */
+  ask(lane, topic, message) {
+    return this.lanes[lane].ask(`${this.number} ${topic}`, message);
   }
 
   /** Requests the version and the kinds of figures. */
   about() {
-    return this.fast.ask("about", { task: "about" });
+    return this.ask("fast", "about", { task: "about" });
   }
 
   /** Requests the verdict for one step, from 0. @param {string} scene @param {number} frame */
   verdict(scene, frame) {
-    return this.fast.ask("verdict", { task: "check", scene, options: { frame: frame + 1, time_limit: PATIENCE } });
+    return this.ask("fast", "verdict", { task: "check", scene, options: { frame: frame + 1, time_limit: PATIENCE } });
   }
 
   /** Requests the verdict for one step with margins. @param {string} scene @param {number} frame */
   margins(scene, frame) {
-    return this.slow.ask("margins", { task: "check", scene, options: { frame: frame + 1, margins: true, time_limit: PATIENCE } });
+    return this.ask("slow", "margins", { task: "check", scene, options: { frame: frame + 1, margins: true, time_limit: PATIENCE } });
   }
 
   /** @param {string} scene @param {any} options */
   figure(scene, options) {
-    return this.slow.ask("figure", { task: "figure", scene, options: { ...options, time_limit: PATIENCE } });
+    return this.ask("slow", "figure", { task: "figure", scene, options: { ...options, time_limit: PATIENCE } });
   }
 
   /** @param {string} text @param {string} format */
   importDrawing(text, format) {
-    return this.slow.ask("import", { task: "import", text, format });
+    return this.ask("slow", "import", { task: "import", text, format });
   }
 }

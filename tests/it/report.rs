@@ -277,6 +277,43 @@ fn a_split_report_is_an_index_and_a_page_for_each_scene() {
 }
 
 #[test]
+fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
+    let version = env!("CARGO_PKG_VERSION");
+    let first = format!("// drystone {version}: interactive figures\n");
+    let folder = Folder::new(&[
+        ("a.json", STANDS),
+        ("pkg/interactive.js", &format!("{first}go(1 < 2);\n")),
+        (
+            "old.js",
+            "// drystone 0.0.1: interactive figures\ngo();\n",
+        ),
+        ("ends.js", &format!("{first}\"</script>\"\n")),
+        ("other.js", "go();\n"),
+    ]);
+    for script in ["pkg", "pkg/interactive.js"] {
+        folder.done(&format!("report a.json -o a.html --interactive {script}"));
+        let page = folder.text("a.html");
+        assert!(page.contains("go(1 < 2);"), "{script}");
+        assert!(page.contains("worker-src blob:"), "{script}");
+        assert!(page.contains("data-step=\"1\""), "{script}");
+    }
+    folder.done("report a.json -o plain.html");
+    assert!(!folder.text("plain.html").contains("worker-src"));
+    for (line, part) in [
+        ("-o a.md --interactive pkg", "only an HTML report"),
+        ("-o out --split --interactive pkg", "cannot be used with"),
+        ("-o b.html --interactive none", "build.sh"),
+        ("-o b.html --interactive old.js", "belongs to drystone 0.0.1"),
+        ("-o b.html --interactive ends.js", "is not the script"),
+        ("-o b.html --interactive other.js", "is not the script"),
+    ] {
+        let Ran(code, said) = folder.run(&format!("report a.json {line}"));
+        assert!(code == 2 && said.contains(part), "{line}: {code} {said}");
+    }
+    assert!(!folder.path("b.html").exists());
+}
+
+#[test]
 fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
     let heavier = STANDS.replace("\"weight\": 11", "\"weight\": 22");
     let shifted = heavier.replace(

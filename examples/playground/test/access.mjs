@@ -1,21 +1,11 @@
 // Everybody can use it: with the keyboard, read aloud, in light and dark, on a phone.
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { open, sceneOf, shot, start, stop, verdict } from "./lib/page.mjs";
+import { open, sceneOf, shot, start, stop, verdict, violations } from "./lib/page.mjs";
 
 before(start);
 after(stop);
-
-/** @param {any} page @returns {Promise<string[]>} what axe finds */
-async function violations(page) {
-  await page.evaluate(await readFile(process.env.PLAYGROUND_AXE ?? "", "utf8"));
-  return page.evaluate(async () => {
-    const found = await /** @type {any} */ (window).axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
-    return found.violations.flatMap((/** @type {any} */ v) => v.nodes.map((/** @type {any} */ n) => `${v.id}: ${n.target} ${n.failureSummary}`));
-  });
-}
 
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
 

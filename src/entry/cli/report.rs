@@ -1,6 +1,7 @@
 //! `drystone report`: writes a report on one or more scenes as HTML, Markdown, PDF or JSON.
 
 mod content;
+mod interactive;
 mod task;
 
 use std::path::{Path, PathBuf};
@@ -39,6 +40,10 @@ pub(crate) struct Report {
     /// Output: a file that ends in .html, .md (with its figures next to it), .pdf or .json; with --split a folder
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// Make the figures of an HTML report interactive: readers drag the stones. FILE is interactive.js, or its folder,
+    /// as examples/playground/build.sh in the repository of drystone makes it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["split", "compare"])]
+    interactive: Option<PathBuf>,
     /// Write an index and a page for each scene into the folder OUT
     #[arg(long)]
     split: bool,
@@ -96,6 +101,7 @@ struct Collected {
 impl Report {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let form = self.form().map_err(|c| vec![c])?;
+        let interactive = self.interactive_script(form).map_err(|c| vec![c])?;
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let (tasks, mut notes) = self.tasks()?;
         self.check_targets(&tasks, form).map_err(|c| vec![c])?;
@@ -139,6 +145,7 @@ impl Report {
             notes,
             compares: self.compare,
             dark: self.look.is_chosen().then(is_dark),
+            interactive,
         };
         let words = report.summary();
         self.write(report, form).map_err(|c| vec![c])?;
@@ -150,6 +157,20 @@ impl Report {
         })
     }
 
+    /// Returns the script of interactive figures if it was requested. Only an HTML report can contain it.
+    fn interactive_script(&self, form: Form) -> Result<Option<String>, CliError> {
+        match &self.interactive {
+            Some(_) if form != Form::Html => {
+                let shown = self.output.display();
+                Err(CliError::CommandLine(format!(
+                    "{shown}: only an HTML report can be interactive; give --output a name that ends in .html"
+                )))
+            }
+            Some(path) => interactive::script(path).map(Some),
+            None => Ok(None),
+        }
+    }
+
     /// Returns an error if the report would overwrite one of its inputs.
     fn check_targets(&self, tasks: &[Task], form: Form) -> Result<(), CliError> {
         let main = match form {
@@ -157,7 +178,10 @@ impl Report {
             _ => self.output.clone(),
         };
         let inputs = tasks.iter().flat_map(Task::paths);
-        let inputs: Vec<&Path> = inputs.chain(self.look.file()).collect();
+        let inputs = inputs
+            .chain(self.look.file())
+            .chain(self.interactive.as_deref());
+        let inputs: Vec<&Path> = inputs.collect();
         destination::apart(&[main], &inputs)
     }
 

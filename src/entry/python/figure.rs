@@ -122,6 +122,7 @@ pub(super) fn report(
         notes: Vec::new(),
         compares: false,
         dark: theme.map(|_| wanted.theme.page.brightness() < 0.5),
+        interactive: None,
     };
     let made = report.files(form, &stem).map_err(|e| words(&e))?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();

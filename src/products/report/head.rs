@@ -26,6 +26,8 @@ pub(super) struct Head<'r> {
     pub compares: bool,
     /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
     pub dark: Option<bool>,
+    /// The script that makes the figures interactive.
+    pub interactive: Option<&'r str>,
 }
 
 /// An explanation of “stands” for the first page of a report.

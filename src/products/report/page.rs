@@ -58,6 +58,9 @@ pub struct Report {
     pub compares: bool,
     /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
     pub dark: Option<bool>,
+    /// The script that makes the figures of [`Form::Html`] interactive: the file `interactive.js` that
+    /// `examples/playground/build.sh` makes. It is inserted without escaping.
+    pub interactive: Option<String>,
 }
 
 impl Piece {
@@ -176,6 +179,7 @@ impl Report {
             rows: self.pieces.iter().map(|p| &p.row).collect(),
             compares: self.compares,
             dark: self.dark,
+            interactive: self.interactive.as_deref(),
         }
     }
 

@@ -42,10 +42,9 @@ export async function stop() {
 }
 
 /**
- * A fresh browser with the page.
- * @param {{ url?: string, hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
+ * A fresh browser with any page. @param {string} url @param {any} [options] of the browser's context
  */
-export async function open({ url = address, hash = "", example, scene, ...options } = {}) {
+export async function visit(url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
   const faults = [];
@@ -56,18 +55,36 @@ export async function open({ url = address, hash = "", example, scene, ...option
     if (!/^(http:\/\/127\.0\.0\.1:|file:|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url()}`);
   });
   page.on("requestfailed", (request) => { if (!request.url().startsWith("blob:")) faults.push(`failed: ${request.url()}`); });
-  await page.goto(url + hash);
+  await page.goto(url);
+  const close = async () => {
+    await context.close();
+    assert.deepEqual(faults, []);
+  };
+  return { page, close, faults };
+}
+
+/**
+ * A fresh browser with the playground.
+ * @param {{ url?: string, hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
+ */
+export async function open({ url = address, hash = "", example, scene, ...options } = {}) {
+  const { page, close, faults } = await visit(url + hash, options);
   await page.waitForFunction(() => document.querySelector("#version")?.textContent !== "…" && document.querySelector("#verdict")?.getAttribute("data-state") !== "waiting", null, { timeout: 30_000 });
   if (example) await page.selectOption("#examples", example);
   if (scene !== undefined) await page.fill("#source", typeof scene === "string" ? scene : formatScene(scene));
   if (example || scene !== undefined) await page.waitForTimeout(700);
   // Writing into the text has scrolled to it.
   await page.evaluate(() => { /** @type {HTMLElement} */ (document.activeElement)?.blur(); window.scrollTo(0, 0); });
-  const close = async () => {
-    await context.close();
-    assert.deepEqual(faults, []);
-  };
   return { page, close, faults };
+}
+
+/** @param {any} page @returns {Promise<string[]>} what axe finds */
+export async function violations(page) {
+  await page.evaluate(await readFile(process.env.PLAYGROUND_AXE ?? "", "utf8"));
+  return page.evaluate(async () => {
+    const found = await /** @type {any} */ (window).axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
+    return found.violations.flatMap((/** @type {any} */ v) => v.nodes.map((/** @type {any} */ n) => `${v.id}: ${n.target} ${n.failureSummary}`));
+  });
 }
 
 /** Waits for a verdict. @param {any} page @param {"stands" | "falls" | "wrong" | "undecided"} state */

@@ -125,6 +125,7 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
         drawing,
         dark: None,
         touches: Vec::new(),
+        subject: None,
     }
 }
 

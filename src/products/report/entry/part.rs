@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use super::{Grid, HoverTarget, MarginBar};
 use crate::analysis::Verdict;
 use crate::drawing::Drawing;
+use crate::figure::Kind;
 
 /// A part of a page.
 #[derive(Clone, Debug)]
@@ -67,6 +68,8 @@ pub struct Figure {
     pub dark: Option<Drawing>,
     /// The parts of the figure that are highlighted together with rows of tables.
     pub touches: Vec<HoverTarget>,
+    /// The kind of the figure, and the index of its step; `None` in a comparison of two scenes.
+    pub subject: Option<(Kind, usize)>,
 }
 
 /// A chart as an SVG document, with its caption.

@@ -169,8 +169,8 @@ fn figures(
         Some((one(&options)?, dark.as_ref().and_then(one)))
     };
     let mut figures = Vec::new();
-    let mut add = |caption: &str, drawn: Option<(Drawing, Option<Drawing>)>| {
-        if let Some((drawing, dark)) = drawn {
+    let mut add = |caption: &str, kind: Kind, change: &dyn Fn(&mut Options)| {
+        if let Some((drawing, dark)) = drawn(kind, change) {
             let touches = match figures.is_empty() {
                 true => ranking.touches(),
                 false => Vec::new(),
@@ -180,6 +180,7 @@ fn figures(
                 drawing,
                 dark,
                 touches,
+                subject: Some((kind, number)),
             });
         }
     };
@@ -189,13 +190,13 @@ fn figures(
             if !found.mechanism.is_empty() {
                 let words =
                     "How the structure begins to fall. Dashed: the blocks before they move.";
-                add(words, drawn(Kind::Mechanism, same));
+                add(words, Kind::Mechanism, same);
             }
             let words = match found.failures.is_empty() {
                 true => "The forces on every block.",
                 false => "The forces on every block; missing forces have the colour of failures.",
             };
-            add(words, drawn(Kind::Forces, same));
+            add(words, Kind::Forces, same);
         }
         _ => {
             let (kind, words) =
@@ -203,13 +204,10 @@ fn figures(
                     true => (Kind::Forces, "The forces on every block."),
                     false => (Kind::Flow, "How the forces run from joint to joint."),
                 };
-            add(words, drawn(kind, same));
+            add(words, kind, same);
             if let Some(toward) = story::toward(found) {
                 let words = "How the structure would fall just beyond its margin.";
-                add(
-                    words,
-                    drawn(Kind::Margin, &|options| options.toward = toward),
-                );
+                add(words, Kind::Margin, &|options| options.toward = toward);
             }
         }
     }

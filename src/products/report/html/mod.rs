@@ -22,6 +22,13 @@ use crate::wording::verdict::plain;
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
+/// The content security policy of a page, which forbids all requests.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+/// The policy of a page with interactive figures, whose script starts workers from its own text.
+const INTERACTIVE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' blob: 'wasm-unsafe-eval'; \
+     worker-src blob:; img-src data:";
+
 /// If a report has more scenes than this, they are collapsed when the page opens.
 const OPEN: usize = 12;
 
@@ -76,14 +83,17 @@ pub(super) fn split(head: &Head<'_>, bodies: &[&str]) -> Vec<OutputFile> {
 fn page(head: &Head<'_>, title: &str, summary: &str, main: &Markup) -> String {
     let dark = head.dark.map(|dark| if dark { "dark" } else { "light" });
     let title = text::line(title);
+    let policy = match head.interactive {
+        Some(_) => INTERACTIVE_POLICY,
+        None => POLICY,
+    };
     html! {
         (DOCTYPE)
         html lang="en" data-theme=[dark] {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                meta http-equiv="Content-Security-Policy"
-                    content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+                meta http-equiv="Content-Security-Policy" content=(policy);
                 title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
@@ -103,6 +113,7 @@ fn page(head: &Head<'_>, title: &str, summary: &str, main: &Markup) -> String {
                     p { "drystone " (env!("CARGO_PKG_VERSION")) }
                 }
                 script { (PreEscaped(SCRIPT)) }
+                @if let Some(interactive) = head.interactive { script { (PreEscaped(interactive)) } }
             }
         }
     }

@@ -152,8 +152,10 @@ impl Writer {
         };
         let light = drawn(&figure.drawing);
         let dark = figure.dark.as_ref().map(drawn);
+        let kind = figure.subject.map(|(kind, _)| kind.name());
+        let step = figure.subject.map(|(_, index)| index + 1);
         html! {
-            figure.plate {
+            figure.plate data-kind=[kind] data-step=[step] {
                 @match dark {
                     Some(dark) => { div.paper.light { (light) } div.paper.dark { (dark) } },
                     None => div.paper { (light) },
