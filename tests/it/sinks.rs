@@ -336,6 +336,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
                 notes: vec![hostile.into()],
                 compares: false,
                 dark: None,
+                interactive: None,
             };
             for (name, bytes) in report.files(form, "r").expect("written") {
                 let text = String::from_utf8(bytes).expect("UTF-8");
