@@ -283,10 +283,7 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
     let folder = Folder::new(&[
         ("a.json", STANDS),
         ("pkg/interactive.js", &format!("{first}go(1 < 2);\n")),
-        (
-            "old.js",
-            "// drystone 0.0.1: interactive figures\ngo();\n",
-        ),
+        ("old.js", "// drystone 0.0.1: interactive figures\ngo();\n"),
         ("ends.js", &format!("{first}\"</script>\"\n")),
         ("other.js", "go();\n"),
     ]);
@@ -303,7 +300,10 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
         ("-o a.md --interactive pkg", "only an HTML report"),
         ("-o out --split --interactive pkg", "cannot be used with"),
         ("-o b.html --interactive none", "build.sh"),
-        ("-o b.html --interactive old.js", "belongs to drystone 0.0.1"),
+        (
+            "-o b.html --interactive old.js",
+            "belongs to drystone 0.0.1",
+        ),
         ("-o b.html --interactive ends.js", "is not the script"),
         ("-o b.html --interactive other.js", "is not the script"),
     ] {
