@@ -165,7 +165,7 @@ fn decide_fresh(
     let findings: Vec<Findings> = fresh.iter().map(one).collect();
     let effort = findings
         .iter()
-        .fold(Effort::default(), |sum, f| sum.and(f.effort));
+        .fold(Effort::default(), |sum, f| sum.plus(f.effort));
     for (k, found) in fresh.iter().zip(findings) {
         known.insert(keys[*k].clone(), found);
     }

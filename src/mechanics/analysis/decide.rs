@@ -153,14 +153,14 @@ impl<'a> Component<'a> {
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
         let found = if self.assembly.heaviest_load() == 0.0 {
             // Without loads, zero forces balance every body.
-            self.stands(self.prove_forces(&Amounts::none(program)))
+            self.stands(self.prove_forces(&Amounts::zero(program)))
         } else if let Some((mechanism, proof)) = self.falls_freely() {
             Findings {
                 verdict: Verdict::Unstable,
                 unsupported: true,
                 mechanism,
                 proof,
-                ..self.stands(self.prove_forces(&Amounts::none(program)))
+                ..self.stands(self.prove_forces(&Amounts::zero(program)))
             }
         } else {
             // The balance equations alone determine the forces, as in a stack.

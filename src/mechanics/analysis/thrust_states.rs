@@ -204,7 +204,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     if solved.status != Status::Solved {
         return None;
     }
-    let mut amounts = Amounts::none(&program);
+    let mut amounts = Amounts::zero(&program);
     for (column, amount) in columns.iter().zip(&solved.amounts) {
         amounts.add(column.force, *amount);
     }

@@ -74,7 +74,7 @@ pub enum Source {
 /// The state that one frame passes to the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WarmStart {
-    nearest: BoundedNnls,
+    active_set: BoundedNnls,
     /// The columns to which the active set refers, and the first column of each contact and grip.
     columns: Vec<Column>,
     begins: Vec<(usize, Origin)>,
@@ -132,11 +132,11 @@ impl WarmStart {
         self.move_to(assembly, columns);
         // Find the forces with the least residual. If the residual is 0, the frame stands. Otherwise its negative is a
         // motion by which the frame falls.
-        let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
+        let Some(rest) = self.active_set.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
         };
-        let amounts: Amounts = self.nearest.gathered(&program, &self.columns);
+        let amounts: Amounts = self.active_set.to_forces(&program, &self.columns);
         Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
     }
 
@@ -165,7 +165,7 @@ impl WarmStart {
             begins.iter().map(|(k, origin)| (*origin, *k)).collect();
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
-        self.nearest.renumber(|k| {
+        self.active_set.renumber(|k| {
             // Find the contact or grip that the old column belongs to. Then find the corresponding column of this
             // contact or grip in the new frame.
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);

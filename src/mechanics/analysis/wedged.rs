@@ -68,7 +68,7 @@ pub struct FaceCase {
 
 impl Wedged {
     /// Converts the proof for one component from program units to metres and newtons.
-    pub(super) fn new(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
+    pub(super) fn new(assembly: &Assembly, scale: Scale, self_stress: &SelfStress) -> Wedged {
         let motion = |pure: &[f64]| {
             let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
             let motions = bodies.map(|(body, v)| Motion {
@@ -78,14 +78,15 @@ impl Wedged {
             });
             motions.collect::<Vec<_>>()
         };
-        let contacts = squeeze.contacts.iter();
+        let contacts = self_stress.contacts.iter();
         Wedged {
             interfaces: contacts.map(|k| assembly.contacts[*k].interface).collect(),
-            at_least: (squeeze.least).map(|least| (least * scale.force, motion(&squeeze.bound))),
-            gives_way: motion(&squeeze.motion),
-            presses_nothing: squeeze.presses_nothing,
-            ruled_out: squeeze
-                .cases
+            at_least: (self_stress.least_normal_sum)
+                .map(|least| (least * scale.force, motion(&self_stress.bounding_motion))),
+            gives_way: motion(&self_stress.motion),
+            presses_nothing: self_stress.presses_nothing,
+            ruled_out: self_stress
+                .ruled_out
                 .iter()
                 .map(|c| described(assembly, c))
                 .collect(),

@@ -19,7 +19,7 @@ pub struct Amounts {
 
 impl Amounts {
     /// Returns amounts in which every force of the program is zero.
-    pub fn none(program: &Program) -> Amounts {
+    pub fn zero(program: &Program) -> Amounts {
         Amounts {
             normal: vec![[0.0; 2]; program.contacts.len()],
             friction: vec![0.0; program.contacts.len()],
@@ -67,12 +67,12 @@ impl Amounts {
         largest(&residual)
     }
 
-    /// Multiplies every force by the factor `by`.
-    pub(super) fn multiply(&mut self, by: f64) {
+    /// Multiplies every force by a factor.
+    pub(super) fn multiply(&mut self, factor: f64) {
         let friction = self.friction.iter_mut();
         let (normal, grip) = (self.normal.iter_mut(), self.grip.iter_mut());
         let pairs = normal.flatten().chain(friction);
-        pairs.chain(grip.flatten()).for_each(|v| *v *= by);
+        pairs.chain(grip.flatten()).for_each(|v| *v *= factor);
     }
 
     /// Adds `amount` times a unit force to the forces of its contact or grip.
@@ -116,7 +116,7 @@ pub struct Effort {
 
 impl Effort {
     /// Returns the sum of two efforts: their iterations and their programs are added up.
-    pub fn and(self, other: Effort) -> Effort {
+    pub fn plus(self, other: Effort) -> Effort {
         Effort {
             iterations: self.iterations + other.iterations,
             programs: self.programs + other.programs,

@@ -4,15 +4,15 @@
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
 //! 1. solve the dual ([`Dual`]); an unbounded dual is the motion;
-//! 2. find the face of optima from the basic columns ([`Face::narrowed`]);
+//! 2. find the face of optima from the basic columns ([`Face::optimal_face`]);
 //! 3. on the face, find the forces of least Σ force², which are unique;
 //! 4. accept them if they balance every block and cost as much as the optimum; otherwise try another margin for step 2.
 
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
     Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
-    balance_by_least_change, from_kinematic_answer, largest, least_squares_amounts, once_within,
-    refine_balance, remainder, solved_with_retry,
+    balance_by_least_change, from_kinematic_answer, largest, least_squares_amounts, refine_balance,
+    remainder, solve_once_within, solve_with_retry,
 };
 use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 
@@ -35,7 +35,7 @@ pub struct Balance {
 /// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
 /// the cost then differs, and a smaller margin helps. Near the limit of stability a column may be missing by mistake;
 /// then no forces balance, and a larger margin helps.
-const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
+const ACTIVE_MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 
 /// The largest relative difference of cost between the optimum and a balance on the face of optima.
 ///
@@ -146,20 +146,20 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
             };
             let mut face = match (best, settings.choice) {
                 (Some(best), _) => best,
-                (None, Choice::Unique) => whole.with(solved.amounts),
+                (None, Choice::Unique) => whole.with_amounts(solved.amounts),
                 // Remove the solver's residual by one linear system, which is cheaper than a later correction block by
                 // block.
                 (None, Choice::Any) => {
                     let (loads, amounts) = (&whole.loads, solved.amounts);
                     let amounts =
                         balance_by_least_change(loads, &whole.columns, amounts, settings, effort);
-                    whole.with(amounts)
+                    whole.with_amounts(amounts)
                 }
             };
             if settings.conditioning == Conditioning::Full {
                 face.amounts = refine_balance(&face.loads, &face.columns, face.amounts, effort);
             }
-            found.forces = Some(face.gathered(program).0);
+            found.forces = Some(face.to_forces(program).0);
         }
         // The loads do negative work along the velocities of the dual. The blocks therefore move in the opposite
         // direction.
@@ -189,8 +189,8 @@ fn balance_by_levels(
     // on its face.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
-    let face = whole.narrowed(&optimum, 1.0);
-    let (forces, _) = with_least_squares(face, light, settings, effort).gathered(program);
+    let face = whole.optimal_face(&optimum, 1.0);
+    let (forces, _) = with_least_squares(face, light, settings, effort).to_forces(program);
     Some(Balance {
         forces: Some(forces),
         motion: None,
@@ -214,9 +214,9 @@ fn solve_dual(
     };
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
-        once_within(&dual, settings, max_iterations, effort)
+        solve_once_within(&dual, settings, max_iterations, effort)
     } else {
-        solved_with_retry(&dual, settings, effort)
+        solve_with_retry(&dual, settings, effort)
     };
     // If many basic columns are doubtful, solve again to a finer tolerance.
     let solved = read(&dual, &answer);
@@ -228,7 +228,7 @@ fn solve_dual(
             tolerance: FINE_TOLERANCE_FACTOR * settings.tolerance,
             ..settings
         };
-        let answer = once_within(&dual, fine, MAX_ITERATIONS_MANY, effort);
+        let answer = solve_once_within(&dual, fine, MAX_ITERATIONS_MANY, effort);
         if answer.status == Status::Solved {
             let full = SolverSettings {
                 conditioning: Conditioning::Full,
@@ -241,7 +241,7 @@ fn solve_dual(
 }
 
 /// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if none of the
-/// [`MARGINS`] gives such a balance.
+/// [`ACTIVE_MARGINS`] gives such a balance.
 ///
 /// `settings` contains the settings for the repair of a balance, followed by the settings for the least squares.
 fn least_squares_balance(
@@ -254,10 +254,10 @@ fn least_squares_balance(
     let [repair_settings, face_settings] = settings;
     let size = largest(&program.loads);
     let mut best: Option<(f64, Face)> = None;
-    let mut tried = Vec::with_capacity(MARGINS.len());
-    for margin in MARGINS {
+    let mut tried = Vec::with_capacity(ACTIVE_MARGINS.len());
+    for margin in ACTIVE_MARGINS {
         // Step 2: select the columns of the face of optima.
-        let face = whole.narrowed(solved, margin);
+        let face = whole.optimal_face(solved, margin);
         // The face of a larger margin contains the face of a smaller margin. If both have equally many columns, they
         // are the same face.
         let counts = (face.columns.len(), face.at_limit.len());
@@ -293,7 +293,7 @@ fn least_squares_balance(
         }
         // Keep the balance of least cost. Stop at the first balance whose cost is within the tolerance.
         if best.as_ref().is_none_or(|best| cost < best.0) {
-            best = Some((cost, face.with(amounts)));
+            best = Some((cost, face.with_amounts(amounts)));
         }
         if difference <= COST_TOL {
             break;

@@ -129,7 +129,7 @@ impl BoundedNnls {
             if 2 * search.pivots_left < search.max_pivots {
                 entry = Entry::One;
             }
-            digits = Digits::Some;
+            digits = Digits::Half;
             // Step 2 moves columns into the passive set; steps 3 and 4 solve for their amounts.
             let entered = self.enter(&mut search, entry)?;
             if entered.is_empty() {
@@ -149,8 +149,8 @@ impl BoundedNnls {
     }
 
     /// Converts the amounts of the columns to forces of contacts and grips.
-    pub fn gathered(&self, program: &Program, columns: &[Column]) -> Amounts {
-        let mut amounts = Amounts::none(program);
+    pub fn to_forces(&self, program: &Program, columns: &[Column]) -> Amounts {
+        let mut amounts = Amounts::zero(program);
         for (k, amount) in self.passive.iter().zip(&self.amounts) {
             amounts.add(columns[*k].force, *amount);
         }
@@ -161,7 +161,7 @@ impl BoundedNnls {
     }
 
     /// Returns the indices of the columns with an amount above 0: the passive columns and the columns at their limits.
-    pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn used_columns(&self) -> impl Iterator<Item = usize> + '_ {
         self.passive.iter().chain(&self.at_limit).copied()
     }
 
@@ -204,8 +204,8 @@ impl BoundedNnls {
             }
             // Move to the first bound, and remove the column that meets it.
             let meets_limit = optimum[first] > 0.0;
-            for (now, then) in self.amounts.iter_mut().zip(&optimum) {
-                *now += step * (then - *now);
+            for (amount, optimal) in self.amounts.iter_mut().zip(&optimum) {
+                *amount += step * (optimal - *amount);
             }
             let k = self.passive[first];
             self.remove_at(first);
@@ -215,8 +215,8 @@ impl BoundedNnls {
                 self.at_limit.push(k);
             }
             // Other amounts may have reached 0 in the same step. Rounding must not make them negative.
-            for now in &mut self.amounts {
-                *now = now.max(0.0);
+            for amount in &mut self.amounts {
+                *amount = amount.max(0.0);
             }
         }
     }
@@ -226,13 +226,13 @@ impl BoundedNnls {
     /// full step keeps all bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
-        for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {
+        for (place, (amount, optimal)) in self.amounts.iter().zip(optimum).enumerate() {
             // The fraction of the step at which the amount meets 0 or its limit.
             let limit = columns[self.passive[place]].limit;
-            let step = if *then < 0.0 {
-                now.max(0.0) / (now.max(0.0) - then)
-            } else if *then > limit {
-                (limit - now.min(limit)) / (then - now.min(limit))
+            let step = if *optimal < 0.0 {
+                amount.max(0.0) / (amount.max(0.0) - optimal)
+            } else if *optimal > limit {
+                (limit - amount.min(limit)) / (optimal - amount.min(limit))
             } else {
                 continue;
             };
@@ -254,7 +254,7 @@ impl BoundedNnls {
         }
         let mut amounts = vec![0.0; self.passive.len()];
         let solves = match digits {
-            Digits::Some => 1,
+            Digits::Half => 1,
             Digits::All => 2,
         };
         for _ in 0..solves {
@@ -316,7 +316,7 @@ impl BoundedNnls {
 /// left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
-    Some,
+    Half,
     All,
 }
 
@@ -359,9 +359,9 @@ mod tests {
 
     fn found(program: &Program) -> (Vec<f64>, Amounts) {
         let columns = generators(program);
-        let mut nearest = BoundedNnls::default();
-        let rest = nearest.find(&program.loads, &columns).expect("an end");
-        (rest, nearest.gathered(program, &columns))
+        let mut active_set = BoundedNnls::default();
+        let rest = active_set.find(&program.loads, &columns).expect("an end");
+        (rest, active_set.to_forces(program, &columns))
     }
 
     #[test]
@@ -406,11 +406,11 @@ mod tests {
     fn a_passive_set_that_lost_a_column_is_completed() {
         let program = block(0.25, 1.0, vec![]);
         let columns = generators(&program);
-        let mut nearest = BoundedNnls::default();
-        nearest.find(&program.loads, &columns).expect("an end");
-        let first = nearest.numbers().next().expect("used");
-        nearest.renumber(|k| (k != first).then_some(k));
-        let rest = nearest.find(&program.loads, &columns).expect("an end");
+        let mut active_set = BoundedNnls::default();
+        active_set.find(&program.loads, &columns).expect("an end");
+        let first = active_set.used_columns().next().expect("used");
+        active_set.renumber(|k| (k != first).then_some(k));
+        let rest = active_set.find(&program.loads, &columns).expect("an end");
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
     }
 }

@@ -68,7 +68,7 @@ pub fn dual(
     cost: impl Fn(&Column) -> f64,
 ) -> Dual {
     let (conic, row_of) = kinematic_dual(loads, columns, cost);
-    let answer = solved_with_retry(&conic, settings, effort);
+    let answer = solve_with_retry(&conic, settings, effort);
     from_kinematic_answer(loads, columns, &conic, &row_of, &answer)
 }
 
@@ -141,7 +141,7 @@ pub(super) fn solve_static_form(
     cost: impl Fn(&Column) -> f64,
 ) -> Dual {
     let conic = force_primal(loads, columns, cost, None);
-    let answer = once(&conic, settings.into(), effort);
+    let answer = solve_once(&conic, settings.into(), effort);
     // The static form is infeasible if the kinematic form is unbounded, and unbounded if the kinematic form is
     // infeasible.
     let status = match answer.status {
@@ -174,41 +174,41 @@ pub(super) fn solve_static_form(
 }
 
 /// Solves a program. If plain conditioning ends without a status, solves it again with full conditioning.
-pub(super) fn solved_with_retry(
+pub(super) fn solve_with_retry(
     conic: &QuadraticProgram,
     settings: impl Into<SolverSettings>,
     effort: &mut Effort,
 ) -> Answer {
     let settings = settings.into();
-    let answer = once(conic, settings, effort);
+    let answer = solve_once(conic, settings, effort);
     if answer.status == Status::Unsolved && settings.conditioning == Conditioning::Plain {
         let full = SolverSettings {
             conditioning: Conditioning::Full,
             ..settings
         };
-        return once(conic, full, effort);
+        return solve_once(conic, full, effort);
     }
     answer
 }
 
 /// Solves a program once, without a retry, and adds the work to `effort`.
-pub(super) fn once(
+pub(super) fn solve_once(
     conic: &QuadraticProgram,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Answer {
-    once_within(conic, settings, MAX_ITERATIONS, effort)
+    solve_once_within(conic, settings, MAX_ITERATIONS, effort)
 }
 
 /// Solves a program once, in at most `iterations` iterations, and adds the work to `effort`.
-pub(super) fn once_within(
+pub(super) fn solve_once_within(
     conic: &QuadraticProgram,
     settings: SolverSettings,
     iterations: usize,
     effort: &mut Effort,
 ) -> Answer {
     let answer = solve_within(conic, settings, iterations);
-    *effort = effort.and(Effort {
+    *effort = effort.plus(Effort {
         iterations: answer.iterations,
         programs: 1,
     });

@@ -6,7 +6,7 @@
 
 use super::amounts::{Amounts, Effort};
 use super::answer::Status;
-use super::dual::{Dual, solved_with_retry};
+use super::dual::{Dual, solve_with_retry};
 use super::exact;
 use super::settings::SolverSettings;
 use crate::program::{Column, Program, least_squares};
@@ -38,7 +38,7 @@ impl Face {
     }
 
     /// Returns the same face with other amounts.
-    pub fn with(self, amounts: Vec<f64>) -> Face {
+    pub fn with_amounts(self, amounts: Vec<f64>) -> Face {
         Face { amounts, ..self }
     }
 
@@ -47,7 +47,7 @@ impl Face {
     ///
     /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance of its amount
     /// from the limit. Such columns are fixed; otherwise not every balance on the face would be an optimum.
-    pub fn narrowed(&self, solved: &Dual, margin: f64) -> Face {
+    pub fn optimal_face(&self, solved: &Dual, margin: f64) -> Face {
         let mut face = Face {
             columns: Vec::new(),
             amounts: Vec::new(),
@@ -68,7 +68,7 @@ impl Face {
     }
 
     /// Returns the face restricted to the columns for which `keep(column, amount)` is true.
-    pub fn only(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
+    pub fn restrict(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
         let mut face = Face {
             columns: Vec::new(),
             amounts: Vec::new(),
@@ -107,8 +107,8 @@ impl Face {
     }
 
     /// Converts the amounts to forces of contacts and grips. Returns the admissible forces, and the adhesion.
-    pub fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
-        let (mut admissible, mut adhesion) = (Amounts::none(program), Amounts::none(program));
+    pub fn to_forces(&self, program: &Program) -> (Amounts, Amounts) {
+        let (mut admissible, mut adhesion) = (Amounts::zero(program), Amounts::zero(program));
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
         let at_limit = self.at_limit.iter().map(|c| (c, c.limit));
         for (column, amount) in chosen.chain(at_limit) {
@@ -141,6 +141,6 @@ pub(super) fn least_squares_amounts(
     {
         return Some(amounts);
     }
-    let answer = solved_with_retry(&least_squares(loads, columns, None), settings, effort);
+    let answer = solve_with_retry(&least_squares(loads, columns, None), settings, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
 }

@@ -29,7 +29,7 @@ impl IncrementalCholesky {
     fn forward_from(&self, v: &mut [f64], begin: usize) {
         for (k, row) in self.rows.iter().enumerate().skip(begin) {
             let (before, rest) = v.split_at_mut(k);
-            let (off, diagonal) = row.parts();
+            let (off, diagonal) = row.split_diagonal();
             let from = row.first.max(begin);
             let sum = dot(&off[from - row.first..], &before[from..]);
             rest[0] = (rest[0] - sum) / diagonal;
@@ -40,7 +40,7 @@ impl IncrementalCholesky {
     pub fn backward(&self, v: &mut [f64]) {
         for (k, row) in self.rows.iter().enumerate().rev() {
             let (before, rest) = v.split_at_mut(k);
-            let (off, diagonal) = row.parts();
+            let (off, diagonal) = row.split_diagonal();
             rest[0] /= diagonal;
             for (value, entry) in before[row.first..].iter_mut().zip(off) {
                 *value -= entry * rest[0];
@@ -68,14 +68,14 @@ impl IncrementalCholesky {
         true
     }
 
-    /// Removes row and column `place` from the factored matrix.
+    /// Removes row and column `index` from the factored matrix.
     ///
     /// Each later row of the factor then has one entry to the right of the diagonal. Givens rotations of adjacent
     /// columns make the factor triangular again.
-    pub fn remove(&mut self, place: usize) {
-        self.rows.remove(place);
-        for k in place..self.rows.len() {
-            let (a, b) = (self.rows[k].at(k), self.rows[k].at(k + 1));
+    pub fn remove(&mut self, index: usize) {
+        self.rows.remove(index);
+        for k in index..self.rows.len() {
+            let (a, b) = (self.rows[k].entry(k), self.rows[k].entry(k + 1));
             // Compute the Givens rotation that sets the entry to the right of the diagonal to 0.
             let length = libm::hypot(a, b);
             let (c, s) = (a / length, b / length);
@@ -90,7 +90,7 @@ impl IncrementalCholesky {
 
 impl Row {
     /// Returns the entries to the left of the diagonal, and the diagonal entry.
-    fn parts(&self) -> (&[f64], f64) {
+    fn split_diagonal(&self) -> (&[f64], f64) {
         match self.entries.split_last() {
             Some((diagonal, off)) => (off, *diagonal),
             None => (&[], 1.0),
@@ -98,15 +98,15 @@ impl Row {
     }
 
     /// Returns the entry in column k, or 0 if it is not stored.
-    fn at(&self, k: usize) -> f64 {
-        let place = k.checked_sub(self.first);
-        let entry = place.and_then(|place| self.entries.get(place));
+    fn entry(&self, k: usize) -> f64 {
+        let index = k.checked_sub(self.first);
+        let entry = index.and_then(|index| self.entries.get(index));
         entry.copied().unwrap_or(0.0)
     }
 
     /// Givens rotation: entries x, y at k and k + 1 become c·x + s·y and c·y − s·x.
     fn rotate(&mut self, k: usize, c: f64, s: f64) {
-        let (x, y) = (self.at(k), self.at(k + 1));
+        let (x, y) = (self.entry(k), self.entry(k + 1));
         if y == 0.0 && x == 0.0 {
             return;
         }
@@ -114,9 +114,9 @@ impl Row {
             self.entries.insert(0, 0.0);
             self.first = k;
         }
-        let place = k - self.first;
-        self.entries[place] = c * x + s * y;
-        self.entries[place + 1] = c * y - s * x;
+        let index = k - self.first;
+        self.entries[index] = c * x + s * y;
+        self.entries[index + 1] = c * y - s * x;
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
-use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solved_with_retry};
+use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solve_with_retry};
 use crate::program::{Column, Correction, least_norm, least_squares};
 
 /// The largest number of rounds of [`refine_balance`]. Each gains nine digits, so two rounds reach the precision of
@@ -11,7 +11,7 @@ use crate::program::{Column, Correction, least_norm, least_squares};
 const MAX_ROUNDS: usize = 2;
 
 /// A residual up to this fraction of the largest load is rounding, and is not refined further.
-const ROUNDING: f64 = 1e-14;
+const ROUNDING_TOL: f64 = 1e-14;
 
 /// Adds to the amounts the change of least Σ change² that removes their residual. This takes one linear system.
 ///
@@ -30,7 +30,7 @@ pub(super) fn balance_by_least_change(
         return amounts;
     }
     let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
-    let answer = solved_with_retry(&least_norm(&scaled, columns), settings, effort);
+    let answer = solve_with_retry(&least_norm(&scaled, columns), settings, effort);
     if answer.status != Status::Solved {
         return amounts;
     }
@@ -52,7 +52,7 @@ pub(super) fn refine_balance(
     for _ in 0..MAX_ROUNDS {
         let rest = remainder(loads, columns, &amounts);
         let size = largest(&rest);
-        if size <= ROUNDING * largest(loads) {
+        if size <= ROUNDING_TOL * largest(loads) {
             break;
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
@@ -61,7 +61,7 @@ pub(super) fn refine_balance(
             amounts: &amounts,
             size,
         };
-        let answer = solved_with_retry(
+        let answer = solve_with_retry(
             &least_squares(&scaled, columns, Some(correction)),
             Conditioning::Full,
             effort,

@@ -14,11 +14,11 @@
 //! 4. least Σ force² on the remaining columns, which is unique.
 
 use super::limit::columns_in;
-use super::slanted::Slanted;
+use super::reduced_columns::ReducedColumns;
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
     Status, TOLERANCE, determinate, dual, from_kinematic_answer, largest, least_adhesion_levels,
-    least_squares_amounts, once, refine_balance, solve_static_form,
+    least_squares_amounts, refine_balance, solve_once, solve_static_form,
 };
 use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
 
@@ -89,7 +89,7 @@ const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
 const LIGHT_LOAD: f64 = 1e-3;
 
 /// Margins of [`Dual::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
-const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
+const ACTIVE_MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
 /// Two sums of adhesion count as equal if their relative difference is at most this.
 ///
@@ -140,7 +140,13 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     let mut face = match &precise {
         Some((first, force_size)) => {
             motion = Some(first.y.iter().map(|v| -v).collect());
-            least_adhesion_levels::chosen(&whole, first, *force_size, settings, &mut effort)
+            least_adhesion_levels::least_force_optimum(
+                &whole,
+                first,
+                *force_size,
+                settings,
+                &mut effort,
+            )
         }
         None => later_stages(&whole, &first, size, settings, &mut effort),
     };
@@ -148,7 +154,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
         face.amounts = refine_balance(&face.loads, &face.columns, face.amounts, &mut effort);
     }
     // Convert the forces back to the units of the program.
-    let (mut forces, mut adhesion) = face.gathered(program);
+    let (mut forces, mut adhesion) = face.to_forces(program);
     forces.multiply(load);
     adhesion.multiply(load);
     LeastAdhesion {
@@ -164,7 +170,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
 /// Returns the result for a stage 1 that found no balance. The result contains a motion if the dual of stage 1 is
 /// unbounded.
 fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort) -> LeastAdhesion {
-    let none = Amounts::none(program);
+    let none = Amounts::zero(program);
     let fallen = first.status == Status::Unbounded;
     LeastAdhesion {
         balanced: fallen.then_some(false),
@@ -230,20 +236,31 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
 /// static form is solved.
 fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
     // Without redundant columns, the kinematic form has fewer rows.
-    let slanted = Slanted::new(&whole.columns);
+    let reduced_columns = ReducedColumns::new(&whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
-    let (conic, row_of) = kinematic_dual(&whole.loads, &slanted.columns, cost);
+    let (conic, row_of) = kinematic_dual(&whole.loads, &reduced_columns.columns, cost);
     let finer = SolverSettings {
         crossover: Some(crossover(&whole.loads)),
         ..settings
     };
-    let answer = once(&conic, finer, effort);
-    let mut solved =
-        from_kinematic_answer(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
+    let answer = solve_once(&conic, finer, effort);
+    let mut solved = from_kinematic_answer(
+        &whole.loads,
+        &reduced_columns.columns,
+        &conic,
+        &row_of,
+        &answer,
+    );
     if solved.status == Status::Unsolved {
-        solved = solve_static_form(&whole.loads, &slanted.columns, settings, effort, cost);
+        solved = solve_static_form(
+            &whole.loads,
+            &reduced_columns.columns,
+            settings,
+            effort,
+            cost,
+        );
     }
-    slanted.in_all_columns(&whole.columns, solved)
+    reduced_columns.expand_optimum(&whole.columns, solved)
 }
 
 /// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
@@ -260,15 +277,15 @@ fn later_stages(
 ) -> Face {
     let least = whole.adhesion_sum(&first.amounts);
     let (same, margins) = match size {
-        Size::Many => (SUM_TOL_MANY, &MARGINS[..1]),
-        Size::Few => (SUM_TOL, &MARGINS[..]),
+        Size::Many => (SUM_TOL_MANY, &ACTIVE_MARGINS[..1]),
+        Size::Few => (SUM_TOL, &ACTIVE_MARGINS[..]),
     };
     // Sums that differ by less than the solver's tolerance count as equal.
     let slight = TOLERANCE * largest(&whole.loads);
     let unchanged = |face: &Face, amounts: &[f64]| {
         (face.adhesion_sum(amounts) - least).abs() <= same * least + slight
     };
-    let from_first_stage = || whole.clone().with(first.amounts.clone());
+    let from_first_stage = || whole.clone().with_amounts(first.amounts.clone());
     // The sum of the slacks of the basic columns measures how well stage 1 separates them from the others.
     let in_use = first.slack.iter().zip(first.active(1.0));
     let slack: f64 = in_use
@@ -303,7 +320,7 @@ fn later_stages(
         };
         let amounts = least_squares_amounts(&few.loads, &few.columns, squares, effort);
         if let Some(amounts) = amounts.filter(|amounts| unchanged(&few, amounts)) {
-            return few.with(amounts);
+            return few.with_amounts(amounts);
         }
     }
     face
@@ -323,16 +340,16 @@ fn least_force_face(
 ) -> Option<Face> {
     margins.iter().find_map(|margin| {
         // Restrict to the optima of stage 1, minimise the force, and check that the adhesion is unchanged.
-        let narrow = whole.narrowed(first, *margin);
+        let narrow = whole.optimal_face(first, *margin);
         let second = solve_stage(&narrow, size, settings, effort, |c| c.cost);
         if second.status != Status::Solved || !unchanged(&narrow, &second.amounts) {
             return None;
         }
-        let narrower = narrow.narrowed(&second, 1.0);
+        let narrower = narrow.optimal_face(&second, 1.0);
         Some(if unchanged(&narrower, &narrower.amounts) {
             narrower
         } else {
-            narrow.with(second.amounts)
+            narrow.with_amounts(second.amounts)
         })
     })
 }
@@ -352,7 +369,7 @@ fn solve_stage(
         Size::Few => dual(&face.loads, &face.columns, settings, effort, cost),
         Size::Many => {
             let (conic, row_of) = kinematic_dual(&face.loads, &face.columns, cost);
-            let answer = once(&conic, settings, effort);
+            let answer = solve_once(&conic, settings, effort);
             from_kinematic_answer(&face.loads, &face.columns, &conic, &row_of, &answer)
         }
     }
@@ -406,7 +423,7 @@ fn concentrate(
         // Drop the points with little adhesion; stop if there are no such points.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
-        face = face.only(|c, a| !c.force.is_adhesion() || a > drop_tolerance * most);
+        face = face.restrict(|c, a| !c.force.is_adhesion() || a > drop_tolerance * most);
         if face.columns.len() == before {
             break;
         }

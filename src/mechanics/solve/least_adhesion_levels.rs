@@ -4,7 +4,7 @@
 //! adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
 //! optima if its amount is exactly 0; no threshold relative to the largest force is used.
 
-use super::level::{WIDE_LOAD_RATIO, lightest, own_loads, refined_optimum, with_least_squares};
+use super::level::{WIDE_LOAD_RATIO, block_loads, lightest, refined_optimum, with_least_squares};
 use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
 use crate::program::Column;
 
@@ -20,52 +20,56 @@ const ZERO_ADHESION: f64 = 1e-15;
 const ZERO_ADHESION_MANY: f64 = 1e-10;
 
 /// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may have.
-const SAME_SUM: f64 = 1e-8;
+const SUM_TOL: f64 = 1e-8;
 
 /// A refined sum of adhesion below this multiple of the smallest accurate force is refined again.
-const FAR_SMALLER: f64 = 1e-2;
+const REFINE_AGAIN_RATIO: f64 = 1e-2;
 
 /// The largest number of rounds of stage 3.
 const MAX_ROUNDS: usize = 4;
 
 /// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
-/// `None` if this size is so close to the largest load that the unrefined optimum is accurate enough. `least` is the
-/// least sum of adhesion, and `many` says whether the program has many blocks.
-fn smallest_accurate_force(loads: &[f64], least: f64, many: bool) -> Option<f64> {
-    let most = largest(loads);
+/// `None` if this size is so close to the largest load that the unrefined optimum is accurate enough. `least_sum` is the
+/// least sum of adhesion, and `has_many_blocks` says whether the program has many blocks.
+fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool) -> Option<f64> {
+    let largest_load = largest(loads);
     let light = lightest(loads);
-    let zero = if many {
+    let zero_tol = if has_many_blocks {
         ZERO_ADHESION_MANY
     } else {
         ZERO_ADHESION
     };
-    let slight = zero * most < least && least < SMALL_ADHESION * most;
-    let force_size = if slight { light.min(least) } else { light };
-    (force_size < WIDE_LOAD_RATIO * most && force_size > 0.0).then_some(force_size)
+    let is_small = zero_tol * largest_load < least_sum && least_sum < SMALL_ADHESION * largest_load;
+    let force_size = if is_small {
+        light.min(least_sum)
+    } else {
+        light
+    };
+    (force_size < WIDE_LOAD_RATIO * largest_load && force_size > 0.0).then_some(force_size)
 }
 
 /// Returns the refined optimum of stage 1, and the size of the smallest forces that are accurate in it.
 ///
-/// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is the optimum
-/// of stage 1; `many` says whether the program has many blocks. Before the refinement, a small sum of adhesion is
+/// `None` if loads and adhesion do not differ by has_many_blocks powers of ten, or if the refinement fails. `first` is the optimum
+/// of stage 1; `has_many_blocks` says whether the program has many blocks. Before the refinement, a small sum of adhesion is
 /// noise. If the refined sum is far smaller, the optimum is refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
-    many: bool,
+    has_many_blocks: bool,
     effort: &mut Effort,
 ) -> Option<(Dual, f64)> {
     let (loads, columns) = (&whole.loads, &whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     let mut refined = |start: &Dual| {
-        let least = whole.adhesion_sum(&start.amounts);
-        let force_size = smallest_accurate_force(loads, least, many)?;
+        let least_sum = whole.adhesion_sum(&start.amounts);
+        let force_size = smallest_accurate_force(loads, least_sum, has_many_blocks)?;
         let found = refined_optimum(loads, columns, cost, start, force_size, effort)?;
         Some((found, force_size))
     };
     let (found, force_size) = refined(first)?;
-    match whole.adhesion_sum(&found.amounts) < FAR_SMALLER * force_size {
+    match whole.adhesion_sum(&found.amounts) < REFINE_AGAIN_RATIO * force_size {
         true => refined(&found).or(Some((found, force_size))),
         false => Some((found, force_size)),
     }
@@ -74,25 +78,25 @@ pub(super) fn precise_optimum(
 /// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with adhesion.
 ///
 /// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
-pub(super) fn chosen(
+pub(super) fn least_force_optimum(
     whole: &Face,
     first: &Dual,
     force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    let face = whole.narrowed(first, 1.0);
-    let least = face.adhesion_sum(&face.amounts);
+    let face = whole.optimal_face(first, 1.0);
+    let least_sum = face.adhesion_sum(&face.amounts);
     // A column whose true slack is smaller than the solver's error may be on the face by mistake. If a later stage
     // increases the adhesion by using such a column, its result is rejected.
-    let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SAME_SUM) * least;
+    let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SUM_TOL) * least_sum;
     // Stage 2: least force.
     let second = optimum(&face, force_size, settings, effort, |c| c.cost);
-    let narrower = second.map(|second| face.narrowed(&second, 1.0));
+    let narrower = second.map(|second| face.optimal_face(&second, 1.0));
     let face = narrower.filter(unchanged).unwrap_or(face);
     // Stages 3 and 4: fewest points, then least squares.
-    let few = concentrated(face.clone(), force_size, settings, effort);
-    let face = Some(few).filter(unchanged).unwrap_or(face);
+    let concentrated = concentrate(face.clone(), force_size, settings, effort);
+    let face = Some(concentrated).filter(unchanged).unwrap_or(face);
     let squares = with_least_squares(face.clone(), force_size, settings, effort);
     Some(squares).filter(unchanged).unwrap_or(face)
 }
@@ -115,16 +119,16 @@ fn optimum(
 ///
 /// In each round, the cost of an adhesion column increases if its amount is small. The amount is compared with the
 /// smaller load of the bodies that the column acts on.
-fn concentrated(
+fn concentrate(
     mut face: Face,
     force_size: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
     // The smaller load of the two bodies on which a column acts.
-    let own = own_loads(&face.loads);
-    let lightest_of = |column: &Column| {
-        let loads = column.entries().map(|(row, _)| own[row / 3]);
+    let block_loads = block_loads(&face.loads);
+    let lighter_load = |column: &Column| {
+        let loads = column.entries().map(|(row, _)| block_loads[row / 3]);
         let light = loads
             .filter(|load| *load > 0.0)
             .fold(f64::INFINITY, f64::min);
@@ -141,14 +145,14 @@ fn concentrated(
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
             .map(|(column, amount)| match column.force.is_adhesion() {
-                true => amount / lightest_of(column),
+                true => amount / lighter_load(column),
                 false => 0.0,
             })
             .collect();
-        let most = largest(&shares);
+        let largest_share = largest(&shares);
         for (column, share) in face.columns.iter_mut().zip(&shares) {
             if column.force.is_adhesion() {
-                column.cost = 1e-2 * most / (share + 1e-3 * most);
+                column.cost = 1e-2 * largest_share / (share + 1e-3 * largest_share);
             }
         }
         let cost = |c: &Column| if c.force.is_adhesion() { c.cost } else { 0.0 };
@@ -157,7 +161,7 @@ fn concentrated(
         };
         // Drop the columns whose amount is exactly 0; stop if there are no such columns.
         face.amounts = solved.amounts;
-        face = face.only(|column, amount| !column.force.is_adhesion() || amount > 0.0);
+        face = face.restrict(|column, amount| !column.force.is_adhesion() || amount > 0.0);
         if face.columns.iter().filter(adheres).count() == before {
             break;
         }

@@ -12,10 +12,10 @@
 
 use super::dual::amounts_of_rows;
 use super::limit::columns_in;
-use super::slanted::Slanted;
+use super::reduced_columns::ReducedColumns;
 use super::{
     Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder,
-    solve_static_form, solved_with_retry,
+    solve_static_form, solve_with_retry,
 };
 use crate::program::{Column, Program, least_residual_dual};
 
@@ -28,7 +28,7 @@ pub struct Residual {
     pub motion: Vec<f64>,
     /// Whether the result is reliable: the forces balance, the motion's power is well above the tolerance of the
     /// proofs, or the residual is the least.
-    pub nearest: bool,
+    pub is_reliable: bool,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,
 }
@@ -50,7 +50,7 @@ struct ScaledProgram<'p> {
     load: f64,
     loads: Vec<f64>,
     columns: Vec<Column>,
-    slanted: Slanted,
+    reduced_columns: ReducedColumns,
 }
 
 impl ScaledProgram<'_> {
@@ -64,7 +64,7 @@ impl ScaledProgram<'_> {
             program,
             load,
             loads: program.loads.iter().map(|v| v / load).collect(),
-            slanted: Slanted::new(&columns),
+            reduced_columns: ReducedColumns::new(&columns),
             columns,
         }
     }
@@ -72,11 +72,11 @@ impl ScaledProgram<'_> {
     /// Converts the amounts of the scaled program to forces in the units of the original program.
     fn forces(&self, amounts: &[f64]) -> Amounts {
         let mut face = Face::whole(&self.program.loads, self.columns.clone());
-        face.amounts = self.slanted.amounts_of_all(&self.columns, amounts);
+        face.amounts = self.reduced_columns.expand_amounts(&self.columns, amounts);
         face.amounts
             .iter_mut()
             .for_each(|amount| *amount *= self.load);
-        face.gathered(self.program).0
+        face.to_forces(self.program).0
     }
 }
 
@@ -84,30 +84,35 @@ impl ScaledProgram<'_> {
 /// are 0 if the solver ends without a status.
 pub fn any_balance(program: &Program) -> Residual {
     let scaled = ScaledProgram::new(program);
-    let (loads, columns) = (&scaled.loads, &scaled.slanted.columns);
+    let (loads, columns) = (&scaled.loads, &scaled.reduced_columns.columns);
     let mut effort = Effort::default();
     // Solve the static form without a cost: every admissible balance is an optimum.
-    let any = solve_static_form(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
+    let balance = solve_static_form(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
     let mut found = Residual {
-        forces: Amounts::none(program),
+        forces: Amounts::zero(program),
         motion: vec![0.0; loads.len()],
-        nearest: false,
+        is_reliable: false,
         effort,
     };
-    match any.status {
+    match balance.status {
         Status::Solved => {
             let settings = Conditioning::Plain.into();
-            let amounts =
-                balance_by_least_change(loads, columns, any.amounts, settings, &mut found.effort);
-            found.nearest = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
+            let amounts = balance_by_least_change(
+                loads,
+                columns,
+                balance.amounts,
+                settings,
+                &mut found.effort,
+            );
+            found.is_reliable = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
             found.forces = scaled.forces(&amounts);
         }
         Status::Unbounded => {
             // No forces balance the loads. The motion is the certificate of infeasibility.
-            let power: f64 = loads.iter().zip(&any.y).map(|(n, v)| n * v).sum();
-            let way: f64 = any.y.iter().map(|v| v.abs()).sum();
-            found.nearest = power > MIN_POWER * way;
-            found.motion = any.y.iter().map(|v| -v).collect();
+            let power: f64 = loads.iter().zip(&balance.y).map(|(n, v)| n * v).sum();
+            let speed_sum: f64 = balance.y.iter().map(|v| v.abs()).sum();
+            found.is_reliable = power > MIN_POWER * speed_sum;
+            found.motion = balance.y.iter().map(|v| -v).collect();
         }
         _ => {}
     }
@@ -119,8 +124,8 @@ pub fn any_balance(program: &Program) -> Residual {
 pub fn least_residual(program: &Program) -> Option<Residual> {
     let scaled = ScaledProgram::new(program);
     let mut effort = Effort::default();
-    let (conic, row_of) = least_residual_dual(&scaled.loads, &scaled.slanted.columns);
-    let answer = solved_with_retry(&conic, Conditioning::Plain, &mut effort);
+    let (conic, row_of) = least_residual_dual(&scaled.loads, &scaled.reduced_columns.columns);
+    let answer = solve_with_retry(&conic, Conditioning::Plain, &mut effort);
     if answer.status != Status::Solved {
         return None;
     }
@@ -128,7 +133,7 @@ pub fn least_residual(program: &Program) -> Option<Residual> {
     Some(Residual {
         forces: scaled.forces(&amounts),
         motion: answer.x[..scaled.loads.len()].iter().map(|v| -v).collect(),
-        nearest: true,
+        is_reliable: true,
         effort,
     })
 }

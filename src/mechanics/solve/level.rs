@@ -18,7 +18,7 @@
 
 use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
-    refine_balance, solved_with_retry,
+    refine_balance, solve_with_retry,
 };
 use crate::geometry::CompensatedSum;
 use crate::program::{Column, QuadraticProgram};
@@ -48,7 +48,7 @@ const BALANCE_TOL: f64 = 1e-10;
 const SMALL_FORCE_TOL: f64 = 1e-8;
 
 /// A residual up to this fraction of Σ |force| on the body is rounding and always allowed.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const ROUNDING_TOL: f64 = 64.0 * f64::EPSILON;
 
 /// A limit above this multiple of the loads of a level cannot be reached at that level, so its row is omitted.
 const LOOSE_LIMIT: f64 = 1e6;
@@ -57,7 +57,7 @@ const LOOSE_LIMIT: f64 = 1e6;
 const NARROW_LIMIT: f64 = 1e-9;
 
 /// Returns the size of each body's load: the larger of its force and its moment/L.
-pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
+pub(super) fn block_loads(loads: &[f64]) -> Vec<f64> {
     let bodies = loads.chunks_exact(3);
     bodies
         .map(|load| libm::hypot(load[0], load[1]).max(load[2].abs()))
@@ -66,8 +66,8 @@ pub(super) fn own_loads(loads: &[f64]) -> Vec<f64> {
 
 /// Returns the load of the lightest body, where bodies without a load do not count. Infinite if no body has a load.
 pub(super) fn lightest(loads: &[f64]) -> f64 {
-    let own = own_loads(loads).into_iter().filter(|load| *load > 0.0);
-    own.fold(f64::INFINITY, f64::min)
+    let positive = block_loads(loads).into_iter().filter(|load| *load > 0.0);
+    positive.fold(f64::INFINITY, f64::min)
 }
 
 /// True if the amounts balance every body, relative to its own load and to `force_size`. `force_size` is the size of
@@ -78,19 +78,19 @@ fn balances_every_body(
     amounts: &[f64],
     force_size: f64,
 ) -> bool {
-    let rest = residual(loads, columns, amounts);
+    let remaining = residual(loads, columns, amounts);
     // Compute Σ |force| on each body, which bounds the rounding error of its residual.
-    let mut acting = own_loads(loads);
+    let mut acting = block_loads(loads);
     for (column, amount) in columns.iter().zip(amounts) {
         for (row, value) in column.entries() {
             acting[row / 3] += (value * amount).abs();
         }
     }
-    let own = own_loads(loads);
-    let mut bodies = rest.chunks_exact(3).zip(own.iter().zip(&acting));
-    bodies.all(|(rest, (own, acting))| {
-        let allowed = (BALANCE_TOL * own).min(SMALL_FORCE_TOL * force_size);
-        largest(rest) <= allowed.max(ROUNDING * acting)
+    let own_loads = block_loads(loads);
+    let mut bodies = remaining.chunks_exact(3).zip(own_loads.iter().zip(&acting));
+    bodies.all(|(remaining, (own_load, acting))| {
+        let allowed = (BALANCE_TOL * own_load).min(SMALL_FORCE_TOL * force_size);
+        largest(remaining) <= allowed.max(ROUNDING_TOL * acting)
     })
 }
 
@@ -124,10 +124,10 @@ pub(super) fn refined_optimum(
     let mut at = start.clone();
     for _ in 0..MAX_LEVELS {
         let level = Level::new(loads, columns, &costs, &at)?;
-        let size = level.size;
-        at = level.solved(columns, &costs, at, effort)?;
+        let level_load = level.scale;
+        at = level.corrected_optimum(columns, &costs, at, effort)?;
         let balanced = balances_every_body(loads, columns, &at.amounts, force_size);
-        if size <= DIGITS_OF_LEVEL * force_size && balanced {
+        if level_load <= DIGITS_OF_LEVEL * force_size && balanced {
             return Some(at);
         }
     }
@@ -150,14 +150,14 @@ pub(super) fn with_least_squares(
         false => refine_balance(loads, columns, amounts, effort),
     });
     match found.filter(balances) {
-        Some(amounts) => face.with(amounts),
+        Some(amounts) => face.with_amounts(amounts),
         None => face,
     }
 }
 
 /// How a column may change at a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum ColumnStatus {
     /// Its amount starts from 0 and may increase.
     Lower,
     /// Its amount starts from its limit and may decrease.
@@ -170,11 +170,11 @@ enum Place {
 
 /// One level: the program of the changes, scaled to loads of 1.
 struct Level {
-    places: Vec<Place>,
+    statuses: Vec<ColumnStatus>,
     /// The loads that the changes must balance, scaled to a largest entry of 1.
     loads: Vec<f64>,
-    /// The scale: a load of 1 here is a load of `size` in the original program.
-    size: f64,
+    /// The scale: a load of 1 here is a load of `scale` in the original program.
+    scale: f64,
 }
 
 impl Level {
@@ -182,34 +182,35 @@ impl Level {
         // Step 1: compute the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
         // Step 2: classify each column, and choose its initial amount for this level.
-        let given = |k: usize| {
+        let classify = |k: usize| {
             let (column, amount) = (&columns[k], at.amounts[k]);
             let slack = costs[k] - column.dot(&at.y);
-            let room = amount.min(column.limit - amount);
-            if room > BASIC_AMOUNT_RATIO * rho && slack.abs() <= BASIC_SLACK {
-                (Place::Basic, amount)
+            let distance_to_bound = amount.min(column.limit - amount);
+            if distance_to_bound > BASIC_AMOUNT_RATIO * rho && slack.abs() <= BASIC_SLACK {
+                (ColumnStatus::Basic, amount)
             } else if column.limit.is_finite() && slack < 0.0 {
-                (Place::Upper, column.limit)
+                (ColumnStatus::Upper, column.limit)
             } else {
-                (Place::Lower, 0.0)
+                (ColumnStatus::Lower, 0.0)
             }
         };
-        let (mut places, kept): (Vec<Place>, Vec<f64>) = (0..columns.len()).map(given).unzip();
+        let (mut statuses, initial): (Vec<ColumnStatus>, Vec<f64>) =
+            (0..columns.len()).map(classify).unzip();
         // The loads of this level are the residual of these initial amounts.
-        let left = residual(loads, columns, &kept);
-        let size = largest(&left);
-        if size == 0.0 || !size.is_finite() {
+        let remaining = residual(loads, columns, &initial);
+        let scale = largest(&remaining);
+        if scale == 0.0 || !scale.is_finite() {
             return None;
         }
-        for (place, column) in places.iter_mut().zip(columns) {
-            if column.limit < NARROW_LIMIT * size {
-                *place = Place::Fixed;
+        for (status, column) in statuses.iter_mut().zip(columns) {
+            if column.limit < NARROW_LIMIT * scale {
+                *status = ColumnStatus::Fixed;
             }
         }
         Some(Level {
-            places,
-            loads: left.iter().map(|v| v / size).collect(),
-            size,
+            statuses,
+            loads: remaining.iter().map(|v| v / scale).collect(),
+            scale,
         })
     }
 
@@ -224,27 +225,31 @@ impl Level {
             bound: self.loads.clone(),
             equalities: self.loads.len(),
         };
-        for (k, (column, place)) in columns.iter().zip(&self.places).enumerate() {
-            let sign = if *place == Place::Upper { -1.0 } else { 1.0 };
+        for (k, (column, status)) in columns.iter().zip(&self.statuses).enumerate() {
+            let sign = if *status == ColumnStatus::Upper {
+                -1.0
+            } else {
+                1.0
+            };
             let reduced = costs[k] - column.dot(y);
-            if *place != Place::Fixed {
+            if *status != ColumnStatus::Fixed {
                 let entries = column.entries().map(|(row, v)| (row, k, sign * v));
                 program.matrix.extend(entries);
             }
             // The change of a basic column has no cost and no bounds.
-            if *place == Place::Basic {
+            if *status == ColumnStatus::Basic {
                 continue;
             }
             program.linear[k] = (sign * reduced).max(0.0);
             program.matrix.push((program.bound.len(), k, -1.0));
             program.bound.push(0.0);
-            if *place == Place::Fixed || column.limit < LOOSE_LIMIT * self.size {
-                let most = match place {
-                    Place::Fixed => 1.0,
-                    _ => column.limit / self.size,
+            if *status == ColumnStatus::Fixed || column.limit < LOOSE_LIMIT * self.scale {
+                let limit = match status {
+                    ColumnStatus::Fixed => 1.0,
+                    _ => column.limit / self.scale,
                 };
                 program.matrix.push((program.bound.len(), k, 1.0));
-                program.bound.push(most);
+                program.bound.push(limit);
             }
         }
         program
@@ -252,7 +257,7 @@ impl Level {
 
     /// Steps 3 and 4: solves the program of changes, and returns the corrected optimum. `None` if the solver finds no
     /// optimum.
-    fn solved(
+    fn corrected_optimum(
         &self,
         columns: &[Column],
         costs: &[f64],
@@ -260,7 +265,7 @@ impl Level {
         effort: &mut Effort,
     ) -> Option<Dual> {
         let program = self.program_of_changes(columns, costs, &at.y);
-        let answer = solved_with_retry(&program, Conditioning::Full, effort);
+        let answer = solve_with_retry(&program, Conditioning::Full, effort);
         if answer.status != Status::Solved {
             return None;
         }
@@ -269,22 +274,22 @@ impl Level {
             *y -= multiplier;
         }
         // Step 4: a column leaves its bound only if its change exceeds its reduced cost.
-        for (k, (column, place)) in columns.iter().zip(&self.places).enumerate() {
+        for (k, (column, status)) in columns.iter().zip(&self.statuses).enumerate() {
             let reduced = costs[k] - column.dot(&at.y);
             let change = answer.x[k];
             (at.slack[k], at.multipliers[k]) = (0.0, 0.0);
-            match place {
-                Place::Basic => at.amounts[k] += self.size * change,
-                Place::Fixed => {}
-                Place::Lower if change > reduced => at.amounts[k] = self.size * change,
-                Place::Lower => {
+            match status {
+                ColumnStatus::Basic => at.amounts[k] += self.scale * change,
+                ColumnStatus::Fixed => {}
+                ColumnStatus::Lower if change > reduced => at.amounts[k] = self.scale * change,
+                ColumnStatus::Lower => {
                     at.amounts[k] = 0.0;
                     at.slack[k] = reduced.max(0.0);
                 }
-                Place::Upper if change > -reduced => {
-                    at.amounts[k] = column.limit - self.size * change;
+                ColumnStatus::Upper if change > -reduced => {
+                    at.amounts[k] = column.limit - self.scale * change;
                 }
-                Place::Upper => {
+                ColumnStatus::Upper => {
                     at.amounts[k] = column.limit;
                     at.multipliers[k] = (-reduced).max(0.0);
                 }

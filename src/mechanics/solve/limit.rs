@@ -8,7 +8,7 @@
 //! [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
-use super::slanted::Slanted;
+use super::reduced_columns::ReducedColumns;
 use super::{
     Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual,
     largest, solve,
@@ -21,7 +21,7 @@ pub enum Limit {
     /// The extreme load factor; for a robot's component, its least limit in program units.
     At(f64),
     /// No value allows a balance.
-    Never,
+    Infeasible,
     /// Every value allows a balance: the load factor may grow without limit.
     Unbounded,
     /// The solver ended without a result.
@@ -30,7 +30,7 @@ pub enum Limit {
 
 /// The forces and the motion at the extreme value.
 #[derive(Clone, Debug)]
-pub struct Extreme {
+pub struct ExtremeValue {
     /// The extreme value.
     pub limit: Limit,
     /// Forces that balance the loads at the extreme value.
@@ -39,9 +39,9 @@ pub struct Extreme {
     pub motion: Option<Vec<f64>>,
 }
 
-impl From<Limit> for Extreme {
-    fn from(limit: Limit) -> Extreme {
-        Extreme {
+impl From<Limit> for ExtremeValue {
+    fn from(limit: Limit) -> ExtremeValue {
+        ExtremeValue {
             limit,
             forces: None,
             motion: None,
@@ -67,14 +67,14 @@ const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 ///
 /// Loads and direction are scaled to a largest entry of 1. With loads of 300, the solver stops for a wall of 420 bricks
 /// after a hundred iterations at λ = 0.48159; with loads of 1 it reaches the optimum λ = 0.48162.
-pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
+pub fn largest_factor(program: &Program, direction: &[f64]) -> ExtremeValue {
     factor_along(program, direction, Extremum::Largest)
 }
 
 /// Finds the λ nearest to 0, positive or negative, for which admissible forces balance `program.loads + λ·direction`.
 ///
-/// [`Limit::Never`] means that no λ allows a balance. If some λ allows one, the program has an optimum.
-pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
+/// [`Limit::Infeasible`] means that no λ allows a balance. If some λ allows one, the program has an optimum.
+pub fn nearest_factor(program: &Program, direction: &[f64]) -> ExtremeValue {
     factor_along(program, direction, Extremum::Nearest)
 }
 
@@ -105,7 +105,7 @@ impl Extremum {
 }
 
 /// Finds the largest λ, or the λ nearest to 0, for which admissible forces balance `program.loads + λ·direction`.
-fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Extreme {
+fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> ExtremeValue {
     let Some(scaled) = ScaledLoads::new(program, direction) else {
         return Limit::Unbounded.into();
     };
@@ -125,19 +125,19 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
             (Status::Solved, Some(factor)) => {
                 let total = scaled.total(factor);
                 let amounts = scaled.amounts(&total, &columns, &answer, &row_of);
-                let face = Face::whole(&total, columns).with(amounts);
-                return Extreme {
+                let face = Face::whole(&total, columns).with_amounts(amounts);
+                return ExtremeValue {
                     limit: Limit::At(scaled.factor(factor)),
-                    forces: Some(face.gathered(program).0),
+                    forces: Some(face.to_forces(program).0),
                     motion: Some(scaled.motion(&answer)),
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
             // No λ allows a balance: along this motion, the loads do work for every λ.
             (Status::Unbounded, _) => {
-                return Extreme {
+                return ExtremeValue {
                     motion: Some(scaled.motion(&answer)),
-                    ..Limit::Never.into()
+                    ..Limit::Infeasible.into()
                 };
             }
             _ => {}
@@ -178,7 +178,7 @@ impl ScaledLoads {
 
     /// Returns the columns of the program without redundant ones, with limits in the unit of the scaled loads.
     pub(super) fn columns(&self, program: &Program) -> Vec<Column> {
-        Slanted::new(&columns_in(program, self.load_size)).columns
+        ReducedColumns::new(&columns_in(program, self.load_size)).columns
     }
 
     /// Converts a factor on the scaled direction to a factor on the original direction.
@@ -242,7 +242,7 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
 
 /// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other limits
 /// stay as in `program`.
-pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
+pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> ExtremeValue {
     // Remove the limit of the component, and give each unit of it a cost of 1. The optimum then has the least amount of
     // this component.
     let mut free = program.clone();
@@ -263,14 +263,14 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
             let owned = columns.iter().zip(&solved.amounts);
             let owned = owned.filter(|(c, _)| is_own(&c.force));
             let at = owned.map(|(_, amount)| amount).sum();
-            let face = Face::whole(&free.loads, columns.clone()).with(amounts);
-            Extreme {
+            let face = Face::whole(&free.loads, columns.clone()).with_amounts(amounts);
+            ExtremeValue {
                 limit: Limit::At(at),
-                forces: Some(face.gathered(&free).0),
+                forces: Some(face.to_forces(&free).0),
                 motion: Some(solved.y.iter().map(|v| -v).collect()),
             }
         }
-        Status::Unbounded => Limit::Never.into(),
+        Status::Unbounded => Limit::Infeasible.into(),
         _ => Limit::Unsolved.into(),
     }
 }

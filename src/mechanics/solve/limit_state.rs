@@ -4,7 +4,7 @@
 //! mechanism are unique, the amount and the slack of every column are needed.
 
 use super::limit::{ScaledLoads, attempts, columns_in};
-use super::slanted::Slanted;
+use super::reduced_columns::ReducedColumns;
 use super::{Status, solve};
 use crate::program::{Column, Program, load_factor_dual};
 
@@ -53,5 +53,5 @@ pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
 
 /// Returns the columns of a program without redundant columns, with limits in program units.
 fn columns_of(program: &Program) -> Vec<Column> {
-    Slanted::new(&columns_in(program, 1.0)).columns
+    ReducedColumns::new(&columns_in(program, 1.0)).columns
 }

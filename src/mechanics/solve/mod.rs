@@ -36,12 +36,12 @@ mod limit;
 mod limit_state;
 mod normal;
 #[cfg(test)]
-mod numbers;
+mod random_numbers;
 mod rebalance_blocks;
 mod repair_motion;
 mod residual_norm;
 mod settings;
-mod slanted;
+mod reduced_columns;
 mod solver;
 mod support;
 mod least_adhesion_levels;
@@ -59,7 +59,7 @@ pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};
 pub use least_adhesion::{least_adhesion, least_adhesion_in};
 pub use least_residual::{Residual, any_balance, least_residual};
-pub use limit::{Extreme, Limit, largest_factor, least_grip_limit, nearest_factor};
+pub use limit::{ExtremeValue, Limit, largest_factor, least_grip_limit, nearest_factor};
 pub use limit_state::{LimitState, limit_state};
 pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;
@@ -71,7 +71,9 @@ pub use support::{Support, support};
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 
-use dual::{from_kinematic_answer, once, once_within, solve_static_form, solved_with_retry};
+use dual::{
+    from_kinematic_answer, solve_once, solve_once_within, solve_static_form, solve_with_retry,
+};
 use face::{Face, least_squares_amounts};
 use iterative_refinement::{balance_by_least_change, refine_balance};
 use residual_norm::{largest, remainder};

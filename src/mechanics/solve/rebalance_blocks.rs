@@ -12,7 +12,7 @@
 //! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
 use super::solver::all_finite;
-use super::{Amounts, Conditioning, Effort, Status, solved_with_retry};
+use super::{Amounts, Conditioning, Effort, Status, solve_with_retry};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
 use crate::program::{
     Column, Correction, Force, Program, QuadraticProgram, columns, least_squares,
@@ -28,7 +28,7 @@ const MAX_ROUNDS: usize = 4;
 const IMBALANCE_WEIGHT: f64 = 1e8;
 
 /// A relative residual up to this is rounding.
-const ROUNDING: f64 = 1e-14;
+const ROUNDING_TOL: f64 = 1e-14;
 
 /// A round must gain this number of decimal digits in total, or it is rejected. It corresponds to halving one block's
 /// residual.
@@ -42,7 +42,7 @@ const MIN_DIGITS_GAINED: f64 = 0.3;
 const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
 /// Returns the residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
-fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
+fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     // The sums begin with the loads; each force is then subtracted in the three rows of its block.
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
@@ -97,23 +97,23 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
             normal,
             friction,
         } => {
-            // `used` is s with the sign of T: the share of the friction limit that is used.
+            // `friction_use` is s with the sign of T: the share of the friction limit that is used.
             let pressed = amounts.normal[contact][point];
             let mu = program.contacts[contact].friction;
             let [first, second] = amounts.normal[contact];
-            let most = mu * (first + second);
-            let used = match most > 0.0 {
-                true => (amounts.friction[contact] / most).clamp(-1.0, 1.0),
+            let friction_limit = mu * (first + second);
+            let friction_use = match friction_limit > 0.0 {
+                true => (amounts.friction[contact] / friction_limit).clamp(-1.0, 1.0),
                 false => 0.0,
             };
             let share = if mu == 0.0 {
                 1.0
             } else if friction == 0.0 {
-                0.5 * (1.0 - used.abs())
-            } else if friction * used > 0.0 {
-                0.25 * (1.0 + 3.0 * used.abs())
+                0.5 * (1.0 - friction_use.abs())
+            } else if friction * friction_use > 0.0 {
+                0.25 * (1.0 + 3.0 * friction_use.abs())
             } else {
-                0.25 * (1.0 - used.abs())
+                0.25 * (1.0 - friction_use.abs())
             };
             share * pressed / normal
         }
@@ -144,21 +144,28 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
 /// moment 1/(Σ|force|·longest arm).
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     // Find the longest arm of each block.
-    let mut reach = vec![0.0; program.blocks];
-    let mut reaches = |block: usize, arm: Vector| reach[block] = f64::max(reach[block], arm.norm());
+    let mut longest_arm = vec![0.0; program.blocks];
+    let mut extend_arm =
+        |block: usize, arm: Vector| longest_arm[block] = f64::max(longest_arm[block], arm.norm());
     for contact in &program.contacts {
         let sides = [Some(contact.on), contact.from];
         for (block, arms) in sides.into_iter().flatten() {
-            arms.into_iter().for_each(|arm| reaches(block, arm));
+            arms.into_iter().for_each(|arm| extend_arm(block, arm));
         }
     }
     for grip in &program.grips {
-        reaches(grip.block, grip.arm);
+        extend_arm(grip.block, grip.arm);
     }
-    let one = |v: f64| if v > 0.0 { 1.0 / v } else { 1.0 };
-    let rows = total.iter().zip(&reach);
-    rows.flat_map(|(total, reach)| [one(*total), one(*total), one(*total) * one(*reach)])
-        .collect()
+    let reciprocal = |v: f64| if v > 0.0 { 1.0 / v } else { 1.0 };
+    let rows = total.iter().zip(&longest_arm);
+    rows.flat_map(|(total, longest_arm)| {
+        [
+            reciprocal(*total),
+            reciprocal(*total),
+            reciprocal(*total) * reciprocal(*longest_arm),
+        ]
+    })
+    .collect()
 }
 
 /// Returns the largest absolute entry of a residual after each row is multiplied by its scale.
@@ -179,23 +186,23 @@ pub fn rebalance_relative(
     effort: &mut Effort,
 ) -> Option<Amounts> {
     let list = columns(program);
-    let (mut best, mut better) = (amounts.clone(), false);
+    let (mut best, mut is_improved) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
         // Compute the residual of each block, relative to the forces on it.
-        let (left, total) = residual(program, &best);
+        let (residual, total) = block_residuals(program, &best);
         let scales = row_scales(program, &total);
-        let size = largest_scaled(&left, &scales);
-        if size <= ROUNDING {
+        let size = largest_scaled(&residual, &scales);
+        if size <= ROUNDING_TOL {
             break;
         }
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
-        let conic = relative_changes(&list, &used, &weights, &scales, &left, size);
+        let conic = relative_changes(&list, &used, &weights, &scales, &residual, size);
         // Stop if the scales are infinite, because the loads are near the smallest number of f64.
         if !all_finite(&conic) {
             break;
         }
-        let answer = solved_with_retry(&conic, Conditioning::Full, effort);
+        let answer = solve_with_retry(&conic, Conditioning::Full, effort);
         if answer.status != Status::Solved {
             break;
         }
@@ -205,32 +212,33 @@ pub fn rebalance_relative(
             changes[*k] = (answer.x[unknown] * size).max(-0.5) * weights[*k];
         }
         let next = apply(&best, &list, &changes);
-        let (after, total) = residual(program, &next);
+        let (after, total) = block_residuals(program, &next);
         // Convergence test: the sum of the digits of all blocks must increase. Some blocks may have no balance at all.
-        if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + MIN_DIGITS_GAINED
+        if balanced_digits(&after, &row_scales(program, &total))
+            < balanced_digits(&residual, &scales) + MIN_DIGITS_GAINED
         {
             break;
         }
-        (best, better) = (next, true);
+        (best, is_improved) = (next, true);
     }
-    better.then_some(best)
+    is_improved.then_some(best)
 }
 
 /// Builds the quadratic program for one round of [`rebalance_relative`]: its unknowns are the relative changes ε of the
 /// columns `used` and the remaining residual v of each row.
 ///
-/// `left` is the residual, and `size` its largest scaled entry.
+/// `block_residuals` is the residual, and `size` its largest scaled entry.
 fn relative_changes(
     list: &[Column],
     used: &[usize],
     weights: &[f64],
     scales: &[f64],
-    left: &[f64],
+    residual: &[f64],
     size: f64,
 ) -> QuadraticProgram {
-    let rows = left.len();
+    let rows = residual.len();
     let unknowns = used.len() + rows;
-    let scaled = left.iter().zip(scales).map(|(v, d)| v * d / size);
+    let scaled = residual.iter().zip(scales).map(|(v, d)| v * d / size);
     let mut conic = QuadraticProgram {
         unknowns,
         quadratic: Vec::with_capacity(unknowns),
@@ -255,10 +263,11 @@ fn relative_changes(
 }
 
 /// Returns the number of decimal digits to which each block is balanced, summed over all blocks.
-fn digits(left: &[f64], scales: &[f64]) -> f64 {
-    left.chunks_exact(3)
+fn balanced_digits(residual: &[f64], scales: &[f64]) -> f64 {
+    residual
+        .chunks_exact(3)
         .zip(scales.chunks_exact(3))
-        .map(|(left, scales)| -libm::log10(largest_scaled(left, scales).max(1e-16)))
+        .map(|(residual, scales)| -libm::log10(largest_scaled(residual, scales).max(1e-16)))
         .sum()
 }
 
@@ -270,19 +279,19 @@ pub fn rebalance_absolute(
     effort: &mut Effort,
 ) -> Option<Amounts> {
     let list = columns(program);
-    let (mut best, mut better) = (amounts.clone(), false);
+    let (mut best, mut is_improved) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
         let Some(next) = (UNBOUNDED_RATIOS.into_iter())
             .find_map(|ratio| correct_once(program, &list, &best, ratio, effort))
         else {
             break;
         };
-        (best, better) = (next, true);
+        (best, is_improved) = (next, true);
     }
-    better.then_some(best)
+    is_improved.then_some(best)
 }
 
-/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None` if it finds
+/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the block_residuals, or `None` if it finds
 /// no such forces.
 ///
 /// Only amounts below `ratio` times the residual get a lower bound.
@@ -294,14 +303,14 @@ fn correct_once(
     effort: &mut Effort,
 ) -> Option<Amounts> {
     // Scale the residual to size 1.
-    let (left, _) = residual(program, best);
-    let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let (residual, _) = block_residuals(program, best);
+    let size = residual.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let weights = ray_amounts(program, list, best);
-    let most = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
-    if size <= f64::EPSILON * most || size == 0.0 {
+    let largest_weight = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
+    if size <= f64::EPSILON * largest_weight || size == 0.0 {
         return None;
     }
-    let scaled: Vec<f64> = left.iter().map(|v| v / size).collect();
+    let scaled: Vec<f64> = residual.iter().map(|v| v / size).collect();
     let bounded: Vec<f64> = weights.iter().map(|w| w.min(ratio * size)).collect();
     let correction = Correction {
         amounts: &bounded,
@@ -311,15 +320,18 @@ fn correct_once(
     if !all_finite(&conic) {
         return None;
     }
-    let answer = solved_with_retry(&conic, Conditioning::Full, effort);
+    let answer = solve_with_retry(&conic, Conditioning::Full, effort);
     if answer.status != Status::Solved {
         return None;
     }
     let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
     // Accept the change only if it halves the residual.
-    let next = apply(best, list, &changes);
-    let (left, _) = residual(program, &next);
-    left.iter().all(|v| v.abs() <= 0.5 * size).then_some(next)
+    let changed = apply(best, list, &changes);
+    let (residual, _) = block_residuals(program, &changed);
+    residual
+        .iter()
+        .all(|v| v.abs() <= 0.5 * size)
+        .then_some(changed)
 }
 
 #[cfg(test)]
@@ -373,8 +385,8 @@ mod tests {
         let start = rough(&weights);
         let mut effort = Effort::default();
         let found = rebalance_relative(&program, &start, &mut effort).expect("it stands");
-        let (left, total) = residual(&program, &found);
-        assert!(largest_scaled(&left, &row_scales(&program, &total)) < 1e-11);
+        let (residual, total) = block_residuals(&program, &found);
+        assert!(largest_scaled(&residual, &row_scales(&program, &total)) < 1e-11);
         assert!(found.normal.iter().flatten().all(|n| *n >= 0.0));
     }
 

@@ -8,7 +8,7 @@
 //! none. Otherwise, contacts that cannot open stay closed to rounding. Reference: Higham, Accuracy and Stability of
 //! Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
-use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solved_with_retry};
+use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
 use crate::program::{Column, Force, Program, columns, least_change};
 
 /// The speed at which every contact is made to open, relative to the largest velocity (about 1).
@@ -22,7 +22,7 @@ const EXTRA_OPENING: f64 = 1e-12;
 const NEARLY_CLOSED: f64 = 1e3;
 
 /// If contacts cannot open, a round may leave this fraction of the worst violation. The program then has an interior.
-const LEFT_TO_NEXT_ROUND: f64 = 1e-4;
+const MAX_REMAINING_SHARE: f64 = 1e-4;
 
 /// The solver's tolerance for a change, as a fraction of the violation that may remain.
 ///
@@ -33,7 +33,7 @@ const TOLERANCE_SHARE: f64 = 1e-2;
 const MAX_TOLERANCE: f64 = 1e-3;
 
 /// Violations up to this are the rounding of velocities.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// The largest number of rounds.
 const MAX_ROUNDS: usize = 5;
@@ -71,13 +71,17 @@ fn open_contacts(
     effort: &mut Effort,
 ) -> Option<Vec<f64>> {
     let mut motion = motion.to_vec();
-    let small = if extra == 0.0 { ROUNDING } else { 0.5 * extra };
+    let tolerance = if extra == 0.0 {
+        ROUNDING_TOL
+    } else {
+        0.5 * extra
+    };
     for round in 0..=MAX_ROUNDS {
         // Convergence test: stop if the worst violation is small.
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| extra - c.dot(&motion));
         let worst = torn.chain(closing).fold(0.0, f64::max);
-        if worst <= small {
+        if worst <= tolerance {
             return Some(motion);
         }
         if round == MAX_ROUNDS {
@@ -86,7 +90,7 @@ fn open_contacts(
         // If contacts cannot open, the program has an interior only if each round may leave a small part of the
         // violation.
         let left = match extra {
-            0.0 => LEFT_TO_NEXT_ROUND.max(ROUNDING / worst),
+            0.0 => MAX_REMAINING_SHARE.max(ROUNDING_TOL / worst),
             _ => 0.0,
         };
         let mut rows: Vec<(&Column, f64)> =
@@ -101,10 +105,10 @@ fn open_contacts(
         // Find the shortest change that removes the scaled violations, and add it to the motion.
         let conic = least_change(motion.len(), &rows, held.len());
         let settings = SolverSettings {
-            tolerance: (TOLERANCE_SHARE * small / worst).clamp(TOLERANCE, MAX_TOLERANCE),
+            tolerance: (TOLERANCE_SHARE * tolerance / worst).clamp(TOLERANCE, MAX_TOLERANCE),
             ..Conditioning::Plain.into()
         };
-        let answer = solved_with_retry(&conic, settings, effort);
+        let answer = solve_with_retry(&conic, settings, effort);
         if answer.status != Status::Solved {
             return (extra == 0.0 && round > 0).then_some(motion);
         }

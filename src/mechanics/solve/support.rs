@@ -7,7 +7,7 @@
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};
-use super::slanted::Slanted;
+use super::reduced_columns::ReducedColumns;
 use super::{Amounts, Conditioning, Face, Status, TOLERANCE, largest, solve};
 use crate::geometry::Vector;
 use crate::program::{Column, Force, Program, kinematic_dual};
@@ -25,7 +25,7 @@ pub enum Support {
     /// Forces of any size are possible.
     Unbounded,
     /// No force of the grip balances the loads.
-    Never,
+    Infeasible,
     /// The solver ended without a result.
     Unsolved,
 }
@@ -39,40 +39,40 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. `is_again`
+/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. `is_retry`
 /// is true if the result with plain conditioning could not be proved; only full conditioning is then tried.
-pub fn support(program: &Program, grip: usize, direction: Vector, is_again: bool) -> Support {
+pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,
         load => load,
     };
     let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-    let columns = Slanted::new(&columns_in(program, load)).columns;
+    let columns = ReducedColumns::new(&columns_in(program, load)).columns;
     let cost = |column: &Column| match column.force {
         Force::Grip {
-            grip: own,
+            grip: column_grip,
             component,
             sign,
-        } if own == grip && component < 2 => -sign * direction[component],
+        } if column_grip == grip && component < 2 => -sign * direction[component],
         _ => 0.0,
     };
     let (problem, row_of) = kinematic_dual(&loads, &columns, cost);
-    for (tolerance, conditioning) in ATTEMPTS.into_iter().skip(usize::from(is_again)) {
+    for (tolerance, conditioning) in ATTEMPTS.into_iter().skip(usize::from(is_retry)) {
         let answer = solve(&problem, tolerance, conditioning);
         match answer.status {
             Status::Solved => {
                 let amounts = amounts_of_rows(&answer, &row_of);
                 let mut amounts = rebalanced(&loads, &columns, amounts);
                 amounts.iter_mut().for_each(|amount| *amount *= load);
-                let face = Face::whole(&loads, columns).with(amounts);
+                let face = Face::whole(&loads, columns).with_amounts(amounts);
                 return Support::At {
-                    forces: face.gathered(program).0,
+                    forces: face.to_forces(program).0,
                     motion: answer.x[..loads.len()].iter().map(|v| -v).collect(),
                 };
             }
             // No mechanism moves the grip point with this velocity, so nothing limits the force.
             Status::Infeasible => return Support::Unbounded,
-            Status::Unbounded => return Support::Never,
+            Status::Unbounded => return Support::Infeasible,
             Status::Unsolved => {}
         }
     }

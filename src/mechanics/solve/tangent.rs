@@ -10,8 +10,8 @@
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};
-use super::slanted::Slanted;
-use super::{Amounts, Conditioning, Effort, Face, Status, largest, solved_with_retry};
+use super::reduced_columns::ReducedColumns;
+use super::{Amounts, Conditioning, Effort, Face, Status, largest, solve_with_retry};
 use crate::geometry::{Vector, quarter_turn};
 use crate::program::{Column, Force, Program, least_residual_dual};
 
@@ -19,7 +19,7 @@ use crate::program::{Column, Force, Program, least_residual_dual};
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// V: Σ |residual|, relative to the largest load.
-    pub left: f64,
+    pub residual_sum: f64,
     columns: Vec<Column>,
     amounts: Vec<f64>,
     y: Vec<f64>,
@@ -37,16 +37,16 @@ impl Tangent {
         };
         let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
         // The loads are scaled to a largest load of 1, as in `least_residual`.
-        let columns = Slanted::new(&columns_in(program, load)).columns;
+        let columns = ReducedColumns::new(&columns_in(program, load)).columns;
         let (conic, row_of) = least_residual_dual(&loads, &columns);
-        let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
+        let answer = solve_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
         if answer.status != Status::Solved {
             return None;
         }
         // V is the optimal value; the solver minimises its negative.
         let objective = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
         let mut tangent = Tangent {
-            left: -objective.sum::<f64>(),
+            residual_sum: -objective.sum::<f64>(),
             amounts: amounts_of_rows(&answer, &row_of),
             columns,
             y: answer.x[..loads.len()].to_vec(),
@@ -58,8 +58,8 @@ impl Tangent {
     }
 
     /// Estimates, to first order, the least residual V of another program with the same loads and changed contacts.
-    pub fn of_sibling(&self, sibling: &Program) -> f64 {
-        self.left + self.work - self.work_in(sibling)
+    pub fn estimate_residual(&self, sibling: &Program) -> f64 {
+        self.residual_sum + self.work - self.work_in(sibling)
     }
 
     /// Returns the motion of largest power: three velocities per block.
@@ -72,8 +72,8 @@ impl Tangent {
         let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
         let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
         amounts.iter_mut().for_each(|amount| *amount *= self.load);
-        let face = Face::whole(&loads, self.columns.clone()).with(amounts);
-        face.gathered(program).0
+        let face = Face::whole(&loads, self.columns.clone()).with_amounts(amounts);
+        face.to_forces(program).0
     }
 
     /// Returns the work of the contact forces along y, if each contact has full friction and the normal, points and
@@ -96,12 +96,12 @@ impl Tangent {
                 let [u, v, spin] = [0, 1, 2].map(|row| self.y[3 * block + row]);
                 Vector::new(u, v) + quarter_turn(arms[point]) * spin
             };
-            let apart = speed(contact.on) - contact.from.map_or(Vector::zeros(), speed);
-            let slip = quarter_turn(contact.normal).dot(&apart);
+            let relative_velocity = speed(contact.on) - contact.from.map_or(Vector::zeros(), speed);
+            let slip = quarter_turn(contact.normal).dot(&relative_velocity);
             // For a pure normal force, the sign of friction follows from the slip.
             let sense = if friction == 0.0 { slip } else { friction };
-            let rubbed = contact.friction * slip * sense.signum();
-            sum += amount * normal * (contact.normal.dot(&apart) + rubbed);
+            let friction_speed = contact.friction * slip * sense.signum();
+            sum += amount * normal * (contact.normal.dot(&relative_velocity) + friction_speed);
         }
         sum
     }

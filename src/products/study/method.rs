@@ -123,7 +123,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
             .count();
         return Outcome::falls(Some(adhesion), points, effort);
     }
-    let mut amounts = Amounts::none(program);
+    let mut amounts = Amounts::zero(program);
     let mut next = 0;
     for (k, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
@@ -213,7 +213,7 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
 }
 
 fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) -> Outcome {
-    let mut amounts = Amounts::none(program);
+    let mut amounts = Amounts::zero(program);
     let mut own = Vec::with_capacity(columns.len());
     for (column, x) in columns.iter().zip(x) {
         let x = if column.force.is_adhesion() { 0.0 } else { *x };
@@ -280,7 +280,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
         return Outcome::stands(&amounts, off, hard.effort);
     }
     let soft = least_adhesion_in(program, settings);
-    let effort = hard.effort.and(soft.effort);
+    let effort = hard.effort.plus(soft.effort);
     let certain = hard.motion.is_some();
     if soft.balanced == Some(true) {
         let least = soft.adhesion.total();

@@ -161,16 +161,16 @@ impl Probe {
         }
     }
 
-    fn farthest_in(&self, program: &Program, direction: Vector, is_again: bool) -> Farthest {
+    fn farthest_in(&self, program: &Program, direction: Vector, is_retry: bool) -> Farthest {
         let grip = self.given.grips.len();
-        match support(program, grip, direction, is_again) {
+        match support(program, grip, direction, is_retry) {
             Support::At { forces, motion } => {
                 let near = forces.grip[grip];
                 let near = Vector::new(near[0], near[1]) * self.program.scale.force;
                 match self.proves {
                     true => Farthest::At {
                         carried: match self.carried(&forces) {
-                            None if is_again => self.carried_near(near, direction),
+                            None if is_retry => self.carried_near(near, direction),
                             carried => carried,
                         },
                         line: self.line(near, direction, &motion),
@@ -182,7 +182,7 @@ impl Probe {
                 }
             }
             Support::Unbounded => Farthest::Unbounded,
-            Support::Never | Support::Unsolved => Farthest::None,
+            Support::Infeasible | Support::Unsolved => Farthest::None,
         }
     }
 

@@ -47,7 +47,7 @@ impl Component<'_> {
                 break;
             }
             let solved = balance_in(program, *settings);
-            decision.effort = decision.effort.and(solved.effort);
+            decision.effort = decision.effort.plus(solved.effort);
             if sought == 0 && solved.forces.is_none() {
                 break;
             }
@@ -83,7 +83,7 @@ impl Component<'_> {
                 break;
             }
             let least_adhesion = least_adhesion_in(program, *settings);
-            decision.effort = decision.effort.and(least_adhesion.effort);
+            decision.effort = decision.effort.plus(least_adhesion.effort);
             if least_adhesion.balanced == Some(true)
                 && self
                     .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
@@ -107,7 +107,7 @@ impl Component<'_> {
         for settings in &self.settings {
             let least_adhesion = ready.take().unwrap_or_else(|| {
                 let least_adhesion = least_adhesion_in(program, *settings);
-                decision.effort = decision.effort.and(least_adhesion.effort);
+                decision.effort = decision.effort.plus(least_adhesion.effort);
                 least_adhesion
             });
             let forces = self.prove_forces(&least_adhesion.forces).proof;

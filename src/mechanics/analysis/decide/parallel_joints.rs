@@ -40,7 +40,7 @@ impl Component<'_> {
         let settings = self.settings.iter().find(wanted)?;
         let straight = program.with_parallel_joints()?;
         let attempt = Strategy::Force(*settings).attempt(&straight);
-        *effort = effort.and(attempt.effort);
+        *effort = effort.plus(attempt.effort);
         let amounts = rebalance_absolute(program, attempt.forces.as_ref()?, effort)?;
         let proof = self.prove_forces(&amounts).proof;
         if !self.believes(&proof) {

@@ -78,7 +78,7 @@ impl Component<'_> {
             }
             // Solve one program, then try to prove its forces, then its motion.
             let attempt = strategy.attempt(program);
-            progress.effort = progress.effort.and(attempt.effort);
+            progress.effort = progress.effort.plus(attempt.effort);
             progress.no_status |=
                 strategy.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
             let decided = self
@@ -199,7 +199,7 @@ impl Component<'_> {
             };
         }
         let forces = attempt.as_ref().and_then(|a| a.unproved_forces());
-        let amounts = forces.cloned().unwrap_or_else(|| Amounts::none(program));
+        let amounts = forces.cloned().unwrap_or_else(|| Amounts::zero(program));
         let proof = self.prove_forces(&amounts).proof;
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
         // Neither forces nor a motion are proved. The reason reports the errors of both.
@@ -223,7 +223,7 @@ impl Decision {
         Decision {
             verdict: Verdict::Stable,
             doubt: None,
-            amounts: Amounts::none(program),
+            amounts: Amounts::zero(program),
             force_bound: None,
             least_force: false,
             adhesion: None,

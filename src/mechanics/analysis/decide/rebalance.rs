@@ -190,7 +190,7 @@ impl Component<'_> {
             };
         }
         let decision = component.complete(&program, component.decide_by_programs(&program));
-        *effort = effort.and(decision.effort);
+        *effort = effort.plus(decision.effort);
         let whole = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
         match decision.verdict {
             Verdict::Stable => PartOutcome::Changed(whole(&decision.amounts)),
@@ -221,7 +221,7 @@ impl Component<'_> {
                 spin: 0.0,
             })
             .collect();
-        let mut adhesion = Some(Amounts::none(program));
+        let mut adhesion = Some(Amounts::zero(program));
         for (part, fall) in falling {
             for (body, motion) in part.bodies.iter().zip(&fall.mechanism) {
                 mechanism[*body] = *motion;

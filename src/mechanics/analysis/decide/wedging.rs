@@ -57,19 +57,24 @@ fn shown<'n>(
     body: impl Fn(usize) -> &'n str,
     face: impl Fn(usize) -> String,
 ) -> String {
-    let moving = self_stress.moving().map(|block| body(block).to_string());
+    let moving = self_stress
+        .moving_blocks()
+        .map(|block| body(block).to_string());
     let mut words = format!("as they give way, {} moves", several(moving));
     if self_stress.presses_nothing {
         words.push_str(" and presses nothing");
     }
     let faces = several(self_stress.contacts.iter().map(|contact| face(*contact)));
-    if let Some(least) = self_stress.least.filter(|least| *least > 0.0) {
+    if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
         let newtons = least * unit;
         words.push_str(&format!(
             "; to balance, {faces} must press with {newtons:.3e} N or more in all"
         ));
     }
-    words.push_str(&format!("; cases ruled out: {}", self_stress.cases.len()));
+    words.push_str(&format!(
+        "; cases ruled out: {}",
+        self_stress.ruled_out.len()
+    ));
     words
 }
 

@@ -71,7 +71,7 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     // stands at no value, the motion is that at the value `present`.
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
-        Limit::Never => [present; 3],
+        Limit::Infeasible => [present; 3],
         _ => line.around(at, toward_present),
     };
     trial.learn_edge(&program, &found, beyond, line.setting, None);
@@ -113,7 +113,7 @@ fn end(
         }
         // The program finds no balancing forces at the start. The component stands there only within the tolerance of
         // the proof, so the start is also the end.
-        Limit::Never => line.end(trial, start, outward, Some(start)),
+        Limit::Infeasible => line.end(trial, start, outward, Some(start)),
         // The program failed, or its result (unbounded) was not confirmed. Search for the end by verdicts only.
         _ => line.end(trial, start, outward, None),
     }

@@ -49,7 +49,7 @@ impl Steps {
         value: f64,
     ) -> Option<bool> {
         let found = trial.tangent(&setting(value))?;
-        let falls = found.left > LEFT;
+        let falls = found.residual_sum > LEFT;
         if falls {
             (self.outside, self.tangent) = (value, found);
         } else {
@@ -86,14 +86,14 @@ impl Threshold {
         // computed. `share`: the length of the next step from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
         for _ in 0..STEPS {
-            if at.tangent.left <= LEFT {
+            if at.tangent.residual_sum <= LEFT {
                 return None;
             }
             let (inside, outside) = (at.inside, at.outside);
             let size = inside.max(outside);
             let root = trial.root(&at.tangent, setting, [outside, inside]);
             // Compute by how much the parameter must change to change the least residual by 1.
-            let run = (root - outside).abs() / at.tangent.left;
+            let run = (root - outside).abs() / at.tangent.residual_sum;
             let is_within = at.contains(root);
             let is_near = is_within || (root - inside).abs() <= 4.0 * LEFT * run;
             let agrees = |[other, tangent_at]: [f64; 2]| {

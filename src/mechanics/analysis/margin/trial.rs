@@ -14,7 +14,7 @@ use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
 use crate::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::scene::{Limits, RobotId};
-use crate::solve::{Extreme, Tangent};
+use crate::solve::{ExtremeValue, Tangent};
 
 /// The number of changed components that this process has decided.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
@@ -166,8 +166,8 @@ impl<'a> Trial<'a> {
         setting: &dyn Fn(f64) -> Setting,
         [from, to]: [f64; 2],
     ) -> f64 {
-        let there = tangent.of_sibling(&self.program(&setting(to)));
-        from + (to - from) * tangent.left / (tangent.left - there)
+        let estimate = tangent.estimate_residual(&self.program(&setting(to)));
+        from + (to - from) * tangent.residual_sum / (tangent.residual_sum - estimate)
     }
 
     /// Adds the results of a least-residual program to the cache: its forces if the verdict is stable, its motion if it
@@ -190,7 +190,7 @@ impl<'a> Trial<'a> {
     pub fn learn_edge(
         &mut self,
         program: &Program,
-        extreme: &Extreme,
+        extreme: &ExtremeValue,
         [at, inside, beyond]: [f64; 3],
         setting: &dyn Fn(f64) -> Setting,
         base: Option<f64>,

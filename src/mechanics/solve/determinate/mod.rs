@@ -35,7 +35,7 @@ const EXTRA_OPENING: f64 = 1e-14;
 /// Returns the contact forces that balance the loads. `None` if they are not unique, or if a contact cannot exert them.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
-    let split = Split::new(program, &joints)?;
+    let split = SplitForces::new(program, &joints)?;
     let holds = |joint: &Joint| split.speeds(joint) == ([0.0; 2], 0.0);
     joints.iter().all(holds).then_some(split.forces)
 }
@@ -67,7 +67,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
 /// a friction coefficient exceeds 1.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
-    Split::new(program, &joints)?.into_least_adhesion(program, &joints)
+    SplitForces::new(program, &joints)?.into_least_adhesion(program, &joints)
 }
 
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
@@ -76,7 +76,7 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 /// `None` if the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
-    let split = Split::new(program, &joints)?;
+    let split = SplitForces::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
@@ -126,28 +126,30 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option
 }
 
 /// The forces that balance the loads, split into the part that contacts can exert and the part that needs adhesion.
-struct Split {
+struct SplitForces {
     forces: Amounts,
     adhesion: Amounts,
 }
 
-impl Split {
-    fn new(program: &Program, joints: &[Joint]) -> Option<Split> {
-        let (mut forces, mut adhesion) = (Amounts::none(program), Amounts::none(program));
-        for (joint, ([first, second], along)) in joints.iter().zip(needed_forces(program, joints)) {
-            if !(first.is_finite() && second.is_finite() && along.is_finite()) {
+impl SplitForces {
+    fn new(program: &Program, joints: &[Joint]) -> Option<SplitForces> {
+        let (mut forces, mut adhesion) = (Amounts::zero(program), Amounts::zero(program));
+        for (joint, ([first, second], tangential)) in
+            joints.iter().zip(needed_forces(program, joints))
+        {
+            if !(first.is_finite() && second.is_finite() && tangential.is_finite()) {
                 return None;
             }
             // The contact exerts the part of the force inside its friction cone. The rest is adhesion.
             let pressed = [first.max(0.0), second.max(0.0)];
             let limit = joint.contact.friction * (pressed[0] + pressed[1]);
-            let friction = along.clamp(-limit, limit);
+            let friction = tangential.clamp(-limit, limit);
             forces.normal[joint.number] = pressed;
             forces.friction[joint.number] = friction;
             adhesion.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
-            adhesion.friction[joint.number] = along - friction;
+            adhesion.friction[joint.number] = tangential - friction;
         }
-        Some(Split { forces, adhesion })
+        Some(SplitForces { forces, adhesion })
     }
 
     /// Returns the optimum of the program of least adhesion. In its motion, all failing joints open or slide.

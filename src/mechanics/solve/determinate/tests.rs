@@ -7,13 +7,14 @@ use crate::program::ContactTerm;
 use crate::program::{Scale, adhesion_columns, columns};
 use crate::solve::Conditioning;
 use crate::solve::least_adhesion::by_programs;
-use crate::solve::numbers::Numbers;
+use crate::solve::random_numbers::RandomNumbers;
 
 /// Blocks that each touch one earlier one or the ground, in any direction and with any load.
-fn branches(blocks: usize, numbers: &mut Numbers) -> Program {
-    let point = |numbers: &mut Numbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
+fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {
+    let point =
+        |numbers: &mut RandomNumbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
     let centroids: Vec<Vector> = (0..blocks).map(|_| point(numbers)).collect();
-    let contact = |body: usize, numbers: &mut Numbers| {
+    let contact = |body: usize, numbers: &mut RandomNumbers| {
         let angle = 4.0 * numbers.next();
         let normal = Vector::new(libm::cos(angle), libm::sin(angle));
         let middle = point(numbers);
@@ -53,7 +54,7 @@ fn branches(blocks: usize, numbers: &mut Numbers) -> Program {
 
 #[test]
 fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does() {
-    let mut numbers = Numbers(3);
+    let mut numbers = RandomNumbers(3);
     let mut stuck_somewhere = 0;
     for blocks in [1, 2, 3, 5, 8].repeat(8) {
         let program = branches(blocks, &mut numbers);
@@ -102,7 +103,7 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
 
 #[test]
 fn its_forces_are_those_that_stick_nowhere() {
-    let mut numbers = Numbers(11);
+    let mut numbers = RandomNumbers(11);
     for blocks in [1, 2, 4, 9].repeat(10) {
         let mut program = branches(blocks, &mut numbers);
         program.loads.fill(0.0);
@@ -125,7 +126,7 @@ fn its_forces_are_those_that_stick_nowhere() {
 
 #[test]
 fn where_forces_have_a_choice_it_says_nothing() {
-    let mut numbers = Numbers(5);
+    let mut numbers = RandomNumbers(5);
     let tree = branches(4, &mut numbers);
     assert!(least_adhesion(&tree).is_some());
     let mut ring = tree.clone();

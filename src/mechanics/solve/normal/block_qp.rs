@@ -159,7 +159,7 @@ impl BlockQp {
             .filter(|e| e.0 < problem.equalities)
             .map(|(row, column, value)| (*column, *row, *value));
         let mut columns = ColumnGroups::with_groups(problem.equalities, &quadratic.blocks, balance);
-        if columns.max_entries() > super::MAX_ENTRIES {
+        if columns.max_entries() > super::MAX_COLUMN_ENTRIES {
             return None;
         }
         let factor = Cholesky::new(&mut columns)?;

@@ -11,7 +11,7 @@
 /// It is some hundred times the relative rounding of an f64. If it were ten times larger, weak but real supports would
 /// be dropped; if it were ten times smaller, the rounding of a sum of many terms would count as a support and make the
 /// unknown very large.
-const LOST_PIVOT: f64 = 1e-13;
+const PIVOT_TOL: f64 = 1e-13;
 
 /// The number of columns that are factored one by one before all columns to their right are updated together.
 const BLOCK_COLUMNS: usize = 16;
@@ -121,7 +121,7 @@ pub(super) fn factor_columns(
             }
             // Scale the column by the pivot, or drop it if the pivot is lost to rounding.
             let pivot = column[0];
-            if pivot > LOST_PIVOT * diagonal[k] {
+            if pivot > PIVOT_TOL * diagonal[k] {
                 let scale = 1.0 / pivot.sqrt();
                 column[0] = scale;
                 column[1..].iter_mut().for_each(|v| *v *= scale);

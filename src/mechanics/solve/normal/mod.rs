@@ -61,7 +61,7 @@ const CHAIN_OPERATIONS: f64 = 1e3;
 
 /// Programs with a column of more entries than this are refused: such a column couples many blocks and fills the
 /// factor.
-const MAX_ENTRIES: usize = 12;
+const MAX_COLUMN_ENTRIES: usize = 12;
 
 /// Solves a program. Returns an optimum, a certificate that there is no optimum, or an answer without a status.
 ///
@@ -100,7 +100,7 @@ fn solve_any_size(
         None => return None,
     };
     let (mut columns, cost, loads) = form.pair(problem);
-    if columns.max_entries() > MAX_ENTRIES {
+    if columns.max_entries() > MAX_COLUMN_ENTRIES {
         return None;
     }
     let mut factor = Cholesky::new(&mut columns)?;
@@ -127,7 +127,7 @@ fn solve_least_norm(
     chain_operations: f64,
 ) -> Option<Answer> {
     let (mut columns, _, loads) = LinearForm::Forces.pair(problem);
-    if columns.max_entries() > MAX_ENTRIES {
+    if columns.max_entries() > MAX_COLUMN_ENTRIES {
         return None;
     }
     let mut factor = Cholesky::new(&mut columns)?;

@@ -2,11 +2,15 @@
 
 use super::*;
 use crate::clock::Instant;
-use crate::solve::numbers::Numbers;
+use crate::solve::random_numbers::RandomNumbers;
 use crate::solve::{Conditioning, TOLERANCE};
 
 /// Columns between neighbours on a lattice of blocks, and to the ground below the first row: five of each pair.
-fn lattice(wide: usize, high: usize, numbers: &mut Numbers) -> (usize, Vec<Vec<(usize, f64)>>) {
+fn lattice(
+    wide: usize,
+    high: usize,
+    numbers: &mut RandomNumbers,
+) -> (usize, Vec<Vec<(usize, f64)>>) {
     let mut columns = Vec::new();
     let mut pair = |blocks: &[usize]| {
         for _ in 0..5 {
@@ -102,7 +106,7 @@ fn columns(problem: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
 
 #[test]
 fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
-    let mut numbers = Numbers(7);
+    let mut numbers = RandomNumbers(7);
     for (wide, high) in [(1, 1), (1, 30), (30, 1), (9, 12), (23, 5)] {
         let (unknowns, columns) = lattice(wide, high, &mut numbers);
         let mut posed = elements(unknowns, &columns);
@@ -173,7 +177,7 @@ fn what_nothing_holds_does_not_move() {
 
 #[test]
 fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds() {
-    let mut numbers = Numbers(11);
+    let mut numbers = RandomNumbers(11);
     for (wide, high) in [(6, 4), (13, 9)] {
         let (unknowns, list) = lattice(wide, high, &mut numbers);
         // Amounts that balance and velocities within every cost: so there is an optimum.
@@ -233,7 +237,7 @@ fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds()
 
 #[test]
 fn where_there_is_no_optimum_a_direction_shows_it() {
-    let mut numbers = Numbers(5);
+    let mut numbers = RandomNumbers(5);
     let (unknowns, list) = lattice(7, 5, &mut numbers);
     let cost: Vec<f64> = list.iter().map(|_| 1.0).collect();
     // No column pulls at unknown 4, and the load wants it.
@@ -276,7 +280,7 @@ fn where_there_is_no_optimum_a_direction_shows_it() {
 
 #[test]
 fn it_gives_up_after_its_iterations_and_at_its_deadline() {
-    let mut numbers = Numbers(3);
+    let mut numbers = RandomNumbers(3);
     let (unknowns, list) = lattice(6, 6, &mut numbers);
     let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
     let problem = kinematic(&loads, &list, &vec![1.0; list.len()]);
@@ -296,7 +300,7 @@ fn it_gives_up_after_its_iterations_and_at_its_deadline() {
 
 #[test]
 fn other_kinds_of_programs_are_left_to_clarabel() {
-    let mut numbers = Numbers(13);
+    let mut numbers = RandomNumbers(13);
     let (unknowns, list) = lattice(5, 5, &mut numbers);
     let (loads, cost) = (vec![1.0; unknowns], vec![1.0; list.len()]);
     let plain = kinematic(&loads, &list, &cost);
@@ -335,7 +339,7 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
 
 #[test]
 fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
-    let mut numbers = Numbers(17);
+    let mut numbers = RandomNumbers(17);
     let (unknowns, list) = lattice(8, 6, &mut numbers);
     // Some rows hold at y = 0, others push away from it.
     let y: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
@@ -374,7 +378,7 @@ fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
 
 #[test]
 fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds() {
-    let mut numbers = Numbers(19);
+    let mut numbers = RandomNumbers(19);
     // Amounts ≥ 0; then corrections of amounts of which some are next to nothing and some immense.
     for floors in [[0.0, 0.0, 0.0], [1e-3, 1.0, 1e9]] {
         let (unknowns, list) = lattice(9, 7, &mut numbers);
@@ -435,7 +439,7 @@ fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds
 
 #[test]
 fn columns_of_the_same_two_bodies_are_one_group_and_act_as_before() {
-    let mut numbers = Numbers(3);
+    let mut numbers = RandomNumbers(3);
     let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
         unknowns.iter().map(|i| (*i, numbers.next())).collect()
     };

@@ -29,18 +29,18 @@ const MAX_ROWS: usize = 100_000;
 
 /// The result of the search.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Search {
+pub(super) enum SearchOutcome {
     /// No springs come to rest: the listed nodes cover all patterns, and each was ruled out.
     NoRest(Vec<RuledOut>),
     /// Springs come to rest.
-    Rests,
+    RestFound,
     /// Undecided: too many nodes, or a node that was neither ruled out nor led to a rest.
-    Open,
+    Undecided,
 }
 
 /// Searches the patterns of pressing points and sliding faces, depth first, for a state of rest or for a proof that
 /// there is none.
-pub(super) fn search(program: &Program) -> Search {
+pub(super) fn search(program: &Program) -> SearchOutcome {
     let springs = Springs::new(program, 1.0);
     let layout = VariableLayout::new(&springs);
     let mut open_nodes = vec![Node::root(&springs)];
@@ -50,20 +50,20 @@ pub(super) fn search(program: &Program) -> Search {
         let relaxation = layout.relaxation(&springs, &node);
         (explored, rows) = (explored + 1, rows + relaxation.bound.len());
         if explored > MAX_NODES || rows > MAX_ROWS {
-            return Search::Open;
+            return SearchOutcome::Undecided;
         }
         // Step 1: solve the relaxation.
         let answer = solve(&relaxation, TOLERANCE, Conditioning::Full);
         let branch = match answer.status {
             // Step 2: prune the node if the certificate is valid.
             Status::Infeasible if proves_infeasible(&relaxation, &answer.z, program) => {
-                ruled_out.push(node.described(&springs));
+                ruled_out.push(node.ruled_out(&springs));
                 continue;
             }
             // Steps 3 and 4: complete the solution, or find where to branch.
             Status::Solved => {
                 if leads_to_rest(program, &springs, &layout, &node, &answer.x) {
-                    return Search::Rests;
+                    return SearchOutcome::RestFound;
                 }
                 layout.most_violated(&springs, &node, &answer.x)
             }
@@ -71,11 +71,11 @@ pub(super) fn search(program: &Program) -> Search {
             _ => node.first_open(&springs),
         };
         let Some(branch) = branch else {
-            return Search::Open;
+            return SearchOutcome::Undecided;
         };
         open_nodes.extend(node.children(branch));
     }
-    Search::NoRest(ruled_out)
+    SearchOutcome::NoRest(ruled_out)
 }
 
 /// True if the springs come to rest in the pattern of a relaxation's solution `x`. Tries this pattern as it is, and
@@ -92,7 +92,7 @@ fn leads_to_rest(
     // robots' forces of the solution at its displacements.
     let components = layout.grips(x).iter().zip(&springs.grips);
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
-    let robots = Springs::around(program, &given, 1.0);
+    let robots = Springs::with_given_forces(program, &given, 1.0);
     let pattern = robots.pattern(u, &robots.all_pressed());
     [node.impose_on(&pattern), pattern]
         .iter()

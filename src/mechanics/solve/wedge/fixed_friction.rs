@@ -111,7 +111,9 @@ impl Springs<'_> {
         for (k, tangent) in self.tangents.iter().enumerate() {
             // q ≥ ±(s − e).
             let (spring, slide) = (stretched + k, slid + k);
-            conic.quadratic.push((spring, spring, self.along));
+            conic
+                .quadratic
+                .push((spring, spring, self.tangential_stiffness));
             conic.linear[slide] = friction_limits[k];
             for sign in [1.0, -1.0] {
                 let row = conic.bound.len();

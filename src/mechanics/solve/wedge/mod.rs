@@ -18,7 +18,7 @@ mod spring;
 
 use super::{Conditioning, Effort, Status, dual};
 use crate::program::{Column, Force, Program, columns};
-use branch_and_bound::{Search, search};
+use branch_and_bound::{SearchOutcome, search};
 use spring::Springs;
 
 pub use node::RuledOut;
@@ -45,17 +45,17 @@ pub struct SelfStress {
     /// Whether the motion closes no contact at all.
     pub presses_nothing: bool,
     /// The least sum of normal forces at these contacts in any balance, in program units.
-    pub least: Option<f64>,
+    pub least_normal_sum: Option<f64>,
     /// The motion that proves this bound. Along it, these contacts take at most a work of 1 for each unit of normal
     /// force, and all others take none.
-    pub bound: Vec<f64>,
+    pub bounding_motion: Vec<f64>,
     /// The patterns that the proof ruled out. Together they cover all patterns of pressing and sliding.
-    pub cases: Vec<RuledOut>,
+    pub ruled_out: Vec<RuledOut>,
 }
 
 impl SelfStress {
     /// Returns the indices of the blocks with a velocity above 0.001. The largest velocity of the motion is 1.
-    pub fn moving(&self) -> impl Iterator<Item = usize> {
+    pub fn moving_blocks(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
         blocks.filter_map(|(block, v)| v.iter().any(|v| v.abs() > 1e-3).then_some(block))
     }
@@ -116,7 +116,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
         .collect();
     // Fast attempts to find a state of rest: first with robots' springs that start at the given forces, then at 0, then
     // by the iteration with fixed friction limits.
-    let motion = match Springs::around(program, &given, 1.0).find_rest() {
+    let motion = match Springs::with_given_forces(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
     };
@@ -131,22 +131,28 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
     // Search for a proof that there is no state of rest.
     let found = search(program);
-    if found == Search::Rests {
+    if found == SearchOutcome::RestFound {
         return SelfStressCheck::FromRest;
     }
-    let other = |along: &f64| Springs::around(program, &given, *along).find_rest().is_ok();
-    if OTHER_STIFFNESSES.iter().any(other) {
+    let rests = |stiffness: &f64| {
+        Springs::with_given_forces(program, &given, *stiffness)
+            .find_rest()
+            .is_ok()
+    };
+    if OTHER_STIFFNESSES.iter().any(rests) {
         return SelfStressCheck::Undecided(WedgingUndecided::Stiffness);
     }
     match found {
-        Search::NoRest(cases) => SelfStressCheck::OnlyWedged(self_stress(program, motion, cases)),
+        SearchOutcome::NoRest(ruled_out) => {
+            SelfStressCheck::OnlyWedged(self_stress(program, motion, ruled_out))
+        }
         _ => SelfStressCheck::Undecided(WedgingUndecided::NotFound),
     }
 }
 
 /// Returns the self-stress that a program needs if its springs do not come to rest. Its size is the least sum of normal
 /// forces at the contacts that open or slide in `motion`.
-fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
+fn self_stress(program: &Program, motion: Vec<f64>, ruled_out: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     // Find the contacts that open or slide, and whether any point closes.
     let mut moved = vec![false; program.contacts.len()];
@@ -177,8 +183,8 @@ fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Sel
         motion,
         contacts,
         presses_nothing,
-        least: (pressed.status == Status::Solved).then_some(pressed.objective),
-        bound: pressed.y.iter().map(|v| -v).collect(),
-        cases,
+        least_normal_sum: (pressed.status == Status::Solved).then_some(pressed.objective),
+        bounding_motion: pressed.y.iter().map(|v| -v).collect(),
+        ruled_out,
     }
 }

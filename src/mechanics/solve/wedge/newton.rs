@@ -65,7 +65,7 @@ impl Springs<'_> {
         }
         for (k, tangent) in self.tangents.iter().enumerate() {
             let limit = self.program.contacts[k].friction * normal[k];
-            let force = (-self.along * tangent.dot(u)).clamp(-limit, limit);
+            let force = (-self.tangential_stiffness * tangent.dot(u)).clamp(-limit, limit);
             tangent.add_to(&mut residual, -force);
         }
         let sum: f64 = residual

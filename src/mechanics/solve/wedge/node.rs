@@ -66,7 +66,7 @@ impl Node {
     }
 
     /// Returns the decisions of the node, with the indices of their contacts and application points.
-    pub fn described(&self, springs: &Springs) -> RuledOut {
+    pub fn ruled_out(&self, springs: &Springs) -> RuledOut {
         // Returns the index of a point within its contact, 0 or 1.
         let end = |k: usize| {
             let former = springs.points[..k].iter();

@@ -11,7 +11,7 @@ use crate::program::Column;
 const BALANCE_TOL: f64 = 1e-7;
 
 /// The residual that is always allowed, as a fraction of the sum of forces on a block: the rounding of that sum.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_TOL: f64 = 1e-13;
 
 /// The largest violation of the springs' law, as a fraction of the lighter block's load.
 ///
@@ -85,7 +85,7 @@ impl Springs<'_> {
             .iter()
             .enumerate()
             .map(|(k, slides)| match slides {
-                Slide::Sticks => -self.along * slip[k],
+                Slide::Sticks => -self.tangential_stiffness * slip[k],
                 _ => slides.friction_sign() * self.program.contacts[k].friction * sum[k],
             });
         let grips = self.grips.iter().zip(&pattern.limits).zip(yielded);
@@ -117,16 +117,16 @@ impl Springs<'_> {
     }
 
     /// Returns, for each block, the largest entry of its own load, and Σ |force| on it.
-    fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
+    fn force_sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
         let own = self
             .program
             .loads
             .chunks(3)
             .map(|r| (r.iter().fold(0.0, |m: f64, v| m.max(v.abs())), 0.0));
-        let mut sizes: Vec<(f64, f64)> = own.collect();
+        let mut force_sizes: Vec<(f64, f64)> = own.collect();
         let mut add = |column: &Column, force: f64| {
             for (row, value) in column.entries() {
-                sizes[row / 3].1 += (value * force).abs();
+                force_sizes[row / 3].1 += (value * force).abs();
             }
         };
         self.points
@@ -141,23 +141,23 @@ impl Springs<'_> {
             .iter()
             .zip(&rest.grips)
             .for_each(|(g, f)| add(&g.column, *f));
-        sizes
+        force_sizes
     }
 
     /// True if the residual of every block is within the tolerance, which is relative to the block's own load.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
-        self.sizes(rest)
+        self.force_sizes(rest)
             .iter()
             .zip(residual.chunks(3))
             .all(|((own, forces), residual)| {
-                let allowed = BALANCE_TOL * own + ROUNDING * forces;
+                let allowed = BALANCE_TOL * own + ROUNDING_TOL * forces;
                 residual.iter().all(|v| v.abs() <= allowed)
             })
     }
 
     /// True if the forces obey the springs' law at all points and faces, and the limits of the robots.
     fn obeys(&self, rest: &Rest, gap: &[f64], slip: &[f64]) -> bool {
-        let sizes = self.sizes(rest);
+        let force_sizes = self.force_sizes(rest);
         let contacts = &self.program.contacts;
         let normal = normal_sums(self, rest.normal.iter().copied());
         let allowed: Vec<f64> = contacts
@@ -165,10 +165,9 @@ impl Springs<'_> {
             .enumerate()
             .map(|(k, c)| {
                 // The tolerance is relative to the smaller load of the two bodies.
-                let lighter = c
-                    .from
-                    .as_ref()
-                    .map_or(sizes[c.on.0].0, |f| sizes[c.on.0].0.min(sizes[f.0].0));
+                let lighter = c.from.as_ref().map_or(force_sizes[c.on.0].0, |f| {
+                    force_sizes[c.on.0].0.min(force_sizes[f.0].0)
+                });
                 LAW_TOL * lighter + 1e-3 * LAW_TOL * (normal[k].abs() + rest.friction[k].abs())
             })
             .collect();
@@ -193,7 +192,7 @@ impl Springs<'_> {
             && contacts.iter().enumerate().all(|(k, c)| {
                 // Faces: T is the force of the spring, limited to the friction cone.
                 let limit = c.friction * normal[k].max(0.0);
-                let law = (-self.along * slip[k]).clamp(-limit, limit);
+                let law = (-self.tangential_stiffness * slip[k]).clamp(-limit, limit);
                 (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)
             })
     }

@@ -11,7 +11,7 @@ use super::band::{Band, order};
 use crate::program::{Column, Force, Program, adhesion_columns, columns};
 
 /// Openings and slips below this fraction of their terms are rounding.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_TOL: f64 = 1e-13;
 
 /// Whether and in which direction one face slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +87,7 @@ pub(super) struct Springs<'a> {
     pub(super) tangents: Vec<Column>,
     pub(super) grips: Vec<SpringGrip>,
     /// ρ: the stiffness along a face, relative to that of an application point.
-    pub(super) along: f64,
+    pub(super) tangential_stiffness: f64,
     /// The position of each block in the banded matrix, and its bandwidth.
     position: Vec<usize>,
     bandwidth: usize,
@@ -96,8 +96,12 @@ pub(super) struct Springs<'a> {
 impl<'a> Springs<'a> {
     /// Creates the springs of a program. `given` contains, for each simulated component of a robot in the order of the
     /// grips, the force of its spring at displacement 0.
-    pub(super) fn around(program: &'a Program, given: &[f64], along: f64) -> Springs<'a> {
-        let mut springs = Springs::new(program, along);
+    pub(super) fn with_given_forces(
+        program: &'a Program,
+        given: &[f64],
+        tangential_stiffness: f64,
+    ) -> Springs<'a> {
+        let mut springs = Springs::new(program, tangential_stiffness);
         for (grip, given) in springs.grips.iter_mut().zip(given) {
             grip.given = *given;
         }
@@ -105,7 +109,7 @@ impl<'a> Springs<'a> {
     }
 
     /// Creates the springs of a program. The robots' springs exert no force at displacement 0.
-    pub(super) fn new(program: &'a Program, along: f64) -> Springs<'a> {
+    pub(super) fn new(program: &'a Program, tangential_stiffness: f64) -> Springs<'a> {
         // Without friction and grips, the columns of a program are the normal forces at its application points.
         let normals = columns(&Program {
             contacts: program
@@ -146,7 +150,7 @@ impl<'a> Springs<'a> {
             points,
             tangents,
             grips,
-            along,
+            tangential_stiffness,
             position,
             bandwidth: 3 * distance + 2,
         }
@@ -174,7 +178,7 @@ impl<'a> Springs<'a> {
         let mut normal = vec![0.0; self.tangents.len()];
         for (point, pressed) in self.points.iter().zip(&mut found.pressed) {
             let gap = point.column.dot(u);
-            if gap.abs() > ROUNDING * size(&point.column) {
+            if gap.abs() > ROUNDING_TOL * size(&point.column) {
                 *pressed = gap < 0.0;
             }
             if *pressed {
@@ -185,12 +189,12 @@ impl<'a> Springs<'a> {
         for (k, slides) in found.slides.iter_mut().enumerate() {
             let slip = self.tangents[k].dot(u);
             let limit = self.program.contacts[k].friction * normal[k].max(0.0);
-            let rounding = ROUNDING * size(&self.tangents[k]);
-            if self.along * slip.abs() < limit - rounding {
+            let rounding = ROUNDING_TOL * size(&self.tangents[k]);
+            if self.tangential_stiffness * slip.abs() < limit - rounding {
                 *slides = Slide::Sticks;
-            } else if slip > rounding && self.along * slip > limit + rounding {
+            } else if slip > rounding && self.tangential_stiffness * slip > limit + rounding {
                 *slides = Slide::Forth;
-            } else if slip < -rounding && self.along * -slip > limit + rounding {
+            } else if slip < -rounding && self.tangential_stiffness * -slip > limit + rounding {
                 *slides = Slide::Back;
             }
         }
@@ -237,7 +241,7 @@ impl<'a> Springs<'a> {
         // Add the springs along the faces that stick.
         for (tangent, slides) in self.tangents.iter().zip(&pattern.slides) {
             if *slides == Slide::Sticks {
-                enter(tangent, tangent, self.along);
+                enter(tangent, tangent, self.tangential_stiffness);
             }
         }
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {

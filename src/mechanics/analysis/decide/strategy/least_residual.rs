@@ -17,7 +17,7 @@ pub(super) fn attempt(program: &Program) -> Attempt {
 fn of(solved: Option<Residual>) -> Attempt {
     match solved {
         Some(left) => Attempt {
-            forces: left.nearest.then_some(left.forces),
+            forces: left.is_reliable.then_some(left.forces),
             motion: Some(left.motion),
             witness: None,
             least_adhesion: None,

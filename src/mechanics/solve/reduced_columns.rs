@@ -1,4 +1,4 @@
-//! [`Slanted`]: the columns of a program, without the pure normal forces that are sums of two rays of a friction cone.
+//! [`ReducedColumns`]: the columns of a program, without the pure normal forces that are sums of two rays of a friction cone.
 //!
 //! If admissible forces have no cost, a pure normal force is redundant. It is half the sum of the two rays of its
 //! friction cone times 1 + μ. The rays are (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Omitting these columns
@@ -8,39 +8,40 @@ use super::Dual;
 use crate::program::{Column, Force};
 
 /// The columns that remain after redundant ones are omitted.
-pub(super) struct Slanted {
+pub(super) struct ReducedColumns {
     /// The remaining columns.
     pub columns: Vec<Column>,
     /// The index of each remaining column among all columns.
-    places: Vec<usize>,
+    original_indices: Vec<usize>,
 }
 
-impl Slanted {
+impl ReducedColumns {
     /// Selects all columns except the pure normal forces that are followed by the two rays of their friction cone.
-    pub fn new(all: &[Column]) -> Slanted {
-        let places: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
-        Slanted {
-            columns: places.iter().map(|k| all[*k]).collect(),
-            places,
+    pub fn new(all: &[Column]) -> ReducedColumns {
+        let original_indices: Vec<usize> =
+            (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
+        ReducedColumns {
+            columns: original_indices.iter().map(|k| all[*k]).collect(),
+            original_indices,
         }
     }
 
     /// Returns the amounts of all columns; 0 for the omitted columns.
-    pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
+    pub fn expand_amounts(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
-        for (amount, place) in amounts.iter().zip(&self.places) {
-            full[*place] = *amount;
+        for (amount, original) in amounts.iter().zip(&self.original_indices) {
+            full[*original] = *amount;
         }
         full
     }
 
     /// Converts an optimum for the remaining columns to an optimum for all columns. Half of the common amount of the
     /// two rays of a cone becomes a pure normal force.
-    pub fn in_all_columns(&self, all: &[Column], solved: Dual) -> Dual {
+    pub fn expand_optimum(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
-            amounts: self.amounts_of_all(all, &solved.amounts),
-            slack: self.amounts_of_all(all, &solved.slack),
-            multipliers: self.amounts_of_all(all, &solved.multipliers),
+            amounts: self.expand_amounts(all, &solved.amounts),
+            slack: self.expand_amounts(all, &solved.slack),
+            multipliers: self.expand_amounts(all, &solved.multipliers),
             ..solved
         };
         for k in (0..all.len()).filter(|k| is_redundant(all, *k)) {

@@ -2,9 +2,9 @@
 
 /// A linear congruential generator of numbers between −1 and 1. The sequence is the same in every run (constants of
 /// Knuth's MMIX).
-pub(super) struct Numbers(pub u64);
+pub(super) struct RandomNumbers(pub u64);
 
-impl Numbers {
+impl RandomNumbers {
     /// Returns the next pseudo-random number: at least −1 and below 1.
     pub fn next(&mut self) -> f64 {
         self.0 = self
