@@ -23,10 +23,10 @@ use crate::geometry::{Bounds, Vector};
 /// over most of their lengths. Arrows at a larger angle cross, and a reader can distinguish them.
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Gap between two parallel arrows, in widths of the wider shaft.
-pub(super) const GAP: f64 = 0.4;
+pub(super) const ARROW_GAP: f64 = 0.4;
 /// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows
 /// of the frame. This order saves time and does not change the result; see `offset_of_least_change`.
-const NEARBY: f64 = 24.0;
+const NEARBY_DISTANCE: f64 = 24.0;
 /// Largest number of candidates that are tried. If none of them is free, the page is full at this position, and the
 /// arrow is drawn at its ideal offset.
 const MAX_CANDIDATES: usize = 1000;
@@ -53,7 +53,7 @@ pub(crate) fn apart(marks: &mut Marks) {
         if let Some(across) = across(&original[i]) {
             let has_opposite = has_opposite(&by_x, &original, i);
             let ideal = if has_opposite {
-                -0.5 * (1.0 + GAP) * original[i].width
+                -0.5 * (1.0 + ARROW_GAP) * original[i].width
             } else {
                 0.0
             };
@@ -101,9 +101,11 @@ fn offset_of_least_change(
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
     // If the offset is small, do not search again: arrows farther away can only give larger offsets.
-    let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));
+    let nearby = nearest(Some(
+        space_around(arrow).grown(NEARBY_DISTANCE * arrow.width),
+    ));
     nearby
-        .filter(|offset| offset.abs() < 0.5 * NEARBY * arrow.width)
+        .filter(|offset| offset.abs() < 0.5 * NEARBY_DISTANCE * arrow.width)
         .or_else(|| nearest(None))
         .unwrap_or(ideal)
 }
@@ -116,7 +118,7 @@ fn space_around(arrow: &ForceArrow) -> Bounds {
         min: arrow.at.inf(&tip),
         max: arrow.at.sup(&tip),
     };
-    ends.grown((HEAD_WIDTH + 2.0 * GAP) * arrow.width)
+    ends.grown((HEAD_WIDTH + 2.0 * ARROW_GAP) * arrow.width)
 }
 
 /// True if another arrow begins at the same point as arrow `i` and points in the opposite direction. `by_x` lists the x
@@ -162,7 +164,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let project = |d: Vector| d.dot(&along);
     let from = project(b.at - a.at);
     let sense = project(v).signum();
-    let gap = GAP * a.width.max(b.width);
+    let gap = ARROW_GAP * a.width.max(b.width);
     let needed = parts(a)
         .iter()
         .flat_map(|p| parts(b).map(|q| (*p, q)))

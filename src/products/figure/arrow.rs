@@ -64,7 +64,7 @@ impl ArrowKind {
 }
 
 /// An arrow shorter than this from tail to tip, pixels, is not visible.
-pub(crate) const LEAST_SEEN: f64 = 2.0;
+pub(crate) const MIN_VISIBLE_ARROW: f64 = 2.0;
 
 /// The position of an arrow's head.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,7 +154,7 @@ impl Marks {
     /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
     /// all arrows are visible. `unit` is the unit edge in metres; `scale` is in pixels per metre.
     pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
-        let least = LEAST_SEEN / scale;
+        let least = MIN_VISIBLE_ARROW / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
         // Torque arrows of loads have a minimum length, so they are always visible.

@@ -6,9 +6,9 @@ use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 
 /// Forces below this share of the largest force may be numerical noise of the solver …
-const NOISE: f64 = 1e-6;
+const FORCE_TOL: f64 = 1e-6;
 /// … unless they exceed this share of the block's own weight, so that forces on very light blocks count too.
-const SHARE: f64 = 1e-3;
+const WEIGHT_TOL: f64 = 1e-3;
 
 /// The force of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,9 +49,9 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
 /// `largest` is the largest force of the frame (N).
 pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     if weight > 0.0 {
-        f64::min(NOISE * largest, SHARE * weight)
+        f64::min(FORCE_TOL * largest, WEIGHT_TOL * weight)
     } else if largest.is_finite() {
-        NOISE * largest
+        FORCE_TOL * largest
     } else {
         0.0
     }

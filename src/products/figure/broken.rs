@@ -2,7 +2,7 @@
 
 mod picture;
 
-use picture::{DISC, Marked, disc, numbers, structure, view};
+use picture::{DISC_RADIUS, Marked, disc, numbers, structure, view};
 
 use super::layout::MAX_MARGIN;
 use super::option::Options;
@@ -12,11 +12,11 @@ use crate::interface::Interfaces;
 use crate::scene::{Problem, Sketch, Spot};
 
 /// Largest number of problems, and of gaps, that are marked and listed. All others are only counted.
-const SHOWN: usize = 30;
+const MAX_MARKED: usize = 30;
 /// Width of the page if the options give none, pixels.
-const WIDE: f64 = 900.0;
+const DEFAULT_WIDTH: f64 = 900.0;
 /// Largest height of the picture of the structure, as a share of the page's width.
-const HIGH: f64 = 0.7;
+const MAX_HEIGHT_SHARE: f64 = 0.7;
 
 /// An entry of the list below the picture.
 struct ListEntry {
@@ -35,7 +35,7 @@ impl ListEntry {
 
     /// Returns a last entry such as `And 3 more gaps.` if the list does not show all `count` entries; otherwise `None`.
     fn rest(count: usize, what: &str) -> Option<ListEntry> {
-        let more = count.saturating_sub(SHOWN);
+        let more = count.saturating_sub(MAX_MARKED);
         (more > 0).then(|| ListEntry {
             number: None,
             words: format!("And {more} more {what}."),
@@ -57,7 +57,7 @@ impl ListEntry {
 /// ```
 pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     let theme = &options.theme;
-    let wide = options.width.unwrap_or(WIDE);
+    let wide = options.width.unwrap_or(DEFAULT_WIDTH);
     let room = wide - 2.0 * MAX_MARGIN;
     let (marks, entries) = marks(sketch);
     let title = title(sketch);
@@ -73,7 +73,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
     y += 0.5 * MAX_MARGIN;
     if let Some(view) = view(sketch, &marks) {
-        let scale = (room / view.width()).min(HIGH * wide / view.height());
+        let scale = (room / view.width()).min(MAX_HEIGHT_SHARE * wide / view.height());
         let rect = PageRect {
             at: PagePoint::new(MAX_MARGIN + (room - scale * view.width()) / 2.0, y),
             width: scale * view.width(),
@@ -118,13 +118,13 @@ fn title(sketch: &Sketch) -> String {
 fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Group, f64) {
     let theme = &options.theme;
     let size = theme.sizes.reason;
-    let indent = 2.0 * DISC + 10.0;
+    let indent = 2.0 * DISC_RADIUS + 10.0;
     let mut list = Group::with_class("problems");
     for entry in entries {
         let lines = wrap(&entry.words, Face::Sans, size, room - indent);
         y += 0.6 * size;
         if let Some(number) = entry.number {
-            let at = PagePoint::new(MAX_MARGIN + DISC, y + 0.65 * size);
+            let at = PagePoint::new(MAX_MARGIN + DISC_RADIUS, y + 0.65 * size);
             list = list.with(disc(number, at, options));
         }
         for line in cut(lines, 6, Face::Sans, size, room - indent) {
@@ -142,7 +142,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
     let mut marks = Vec::new();
     let mut entries = Vec::new();
     let problems = sketch.problems.list.iter().zip(&sketch.places);
-    for (i, (problem, spot)) in problems.enumerate().take(SHOWN) {
+    for (i, (problem, spot)) in problems.enumerate().take(MAX_MARKED) {
         let number = i + 1;
         if let Some(Spot { at, bodies }) = spot {
             marks.push(Marked {
@@ -160,8 +160,8 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
     let scene = sketch.scene.as_ref();
     let near = scene.map(|scene| Interfaces::new(scene).near_misses);
     let near = near.unwrap_or_default();
-    for (i, gap) in near.iter().enumerate().take(SHOWN) {
-        let number = sketch.problems.list.len().min(SHOWN) + i + 1;
+    for (i, gap) in near.iter().enumerate().take(MAX_MARKED) {
+        let number = sketch.problems.list.len().min(MAX_MARKED) + i + 1;
         let name = |id| sketch.body(id).map_or("", |body| body.name.as_str());
         let words = format!(
             "A gap of at most {} {} between {} and {}: they do not touch, so no force acts between them.",

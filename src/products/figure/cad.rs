@@ -14,22 +14,22 @@ use crate::scene::{Frame, Scene};
 
 /// The layers with their AutoCAD colour numbers.
 const LAYERS: [(&str, i32); 7] = [
-    (GROUND, 8),
-    (BLOCKS, 7),
-    (HOLES, 9),
-    (ROBOTS, 2),
-    (NAMES, 8),
-    (THRUST, 5),
-    (MECHANISM, 1),
+    (GROUND_LAYER, 8),
+    (BLOCK_LAYER, 7),
+    (HOLE_LAYER, 9),
+    (ROBOT_LAYER, 2),
+    (NAME_LAYER, 8),
+    (THRUST_LAYER, 5),
+    (MECHANISM_LAYER, 1),
 ];
-const GROUND: &str = "ground";
-const BLOCKS: &str = "blocks";
+const GROUND_LAYER: &str = "ground";
+const BLOCK_LAYER: &str = "blocks";
 /// The layer for holes. Version R12 has no outlines with holes.
-const HOLES: &str = "guide holes";
-const ROBOTS: &str = "robots";
-const NAMES: &str = "guide names";
-const THRUST: &str = "guide thrust line";
-const MECHANISM: &str = "guide mechanism";
+const HOLE_LAYER: &str = "guide holes";
+const ROBOT_LAYER: &str = "robots";
+const NAME_LAYER: &str = "guide names";
+const THRUST_LAYER: &str = "guide thrust line";
+const MECHANISM_LAYER: &str = "guide mechanism";
 /// The height of letters relative to the unit edge of the scene.
 const LETTER_SHARE: f64 = 0.15;
 
@@ -56,16 +56,16 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
     let mut file = DxfWriter::default();
     file.head();
     for ground in &scene.ground {
-        file.outline(GROUND, &ground.body.polygon);
+        file.outline(GROUND_LAYER, &ground.body.polygon);
     }
     file.blocks(scene, placed, LETTER_SHARE * unit);
     for hold in &placed.holds {
-        file.entity("POINT", ROBOTS);
+        file.entity("POINT", ROBOT_LAYER);
         file.point(10, hold.at);
     }
     if found.verdict == Verdict::Stable {
         for segment in funicular::segments(scene, placed, found) {
-            file.entity("LINE", THRUST);
+            file.entity("LINE", THRUST_LAYER);
             file.point(10, segment.from);
             file.point(11, segment.to);
         }
@@ -75,7 +75,7 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
         if let Some(displacement) = displacement {
             let outline = block.body.polygon.outline().iter();
             let corners: Vec<Point> = outline.map(|p| displacement.moved(*p)).collect();
-            file.polyline(MECHANISM, &corners);
+            file.polyline(MECHANISM_LAYER, &corners);
         }
     }
     file.group(0, "ENDSEC");
@@ -148,8 +148,8 @@ impl DxfWriter {
     fn blocks(&mut self, scene: &Scene, frame: &Frame, letters: f64) {
         for id in &frame.placed {
             let block = &scene.blocks[id.0];
-            self.outline(BLOCKS, &block.body.polygon);
-            self.entity("TEXT", NAMES);
+            self.outline(BLOCK_LAYER, &block.body.polygon);
+            self.entity("TEXT", NAME_LAYER);
             self.point(10, block.body.polygon.centroid());
             self.number(40, letters);
             self.group(1, &ascii(&block.id));
@@ -159,7 +159,7 @@ impl DxfWriter {
     fn outline(&mut self, layer: &str, polygon: &Polygon) {
         self.polyline(layer, polygon.outline());
         for hole in polygon.holes() {
-            self.polyline(HOLES, hole);
+            self.polyline(HOLE_LAYER, hole);
         }
     }
 

@@ -29,9 +29,9 @@ use plan::{Plan, Small, falling};
 /// Opacity of the area of carried forces.
 const AREA_OPACITY: f64 = 0.34;
 /// Width of an edge with and without a number, pixels.
-const EDGE: (f64, f64) = (2.4, 1.3);
+const EDGE_WIDTHS: (f64, f64) = (2.4, 1.3);
 /// Radius of the dot at the force 0, pixels.
-const DOT: f64 = 3.2;
+const DOT_RADIUS: f64 = 3.2;
 
 /// The figure of the forces that a block can carry.
 pub(crate) struct CarriedForces;
@@ -152,9 +152,9 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     for side in &plan.sides {
         let [from, to] = side.ends.map(|p| pen.camera.place(p));
         let width = if side.number.is_some() {
-            EDGE.0
+            EDGE_WIDTHS.0
         } else {
-            EDGE.1
+            EDGE_WIDTHS.1
         };
         ink.line(from, to, width);
         let stroke = Stroke::new(colour, width);
@@ -180,8 +180,8 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
         let at = pen
             .camera
             .place(plan.zero + plan.capacity.vertices[0].force * plan.scale);
-        ink.disc(at, DOT);
-        group = group.with(Path::filled(Outline::circle(at, DOT), colour));
+        ink.disc(at, DOT_RADIUS);
+        group = group.with(Path::filled(Outline::circle(at, DOT_RADIUS), colour));
     }
     if !plan.is_apart {
         let at = pen.camera.place(plan.zero);
@@ -193,7 +193,7 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
             ink.arrow(at, along, 2.0);
             group = group.with(Path::filled(straight(at, along, 2.0), colour));
         }
-        ink.disc(at, DOT + 1.0);
+        ink.disc(at, DOT_RADIUS + 1.0);
         group = group.with(dot(at, theme));
     }
     group
@@ -312,7 +312,8 @@ fn edge_colour(theme: &Theme) -> crate::drawing::Colour {
 }
 
 fn dot(at: PagePoint, theme: &Theme) -> Path {
-    Path::filled(Outline::circle(at, DOT), theme.page).with_stroke(Stroke::new(theme.ink, 1.5))
+    Path::filled(Outline::circle(at, DOT_RADIUS), theme.page)
+        .with_stroke(Stroke::new(theme.ink, 1.5))
 }
 
 /// Returns a small triangle at `end`, which shows that the edge from `other` continues beyond `end` without limit.
@@ -339,7 +340,7 @@ fn area_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
         Path::filled(outline.clone(), theme.safe)
             .with_opacity(AREA_OPACITY)
             .into(),
-        Path::stroked(outline, Stroke::new(edge_colour(theme), EDGE.1)).into(),
+        Path::stroked(outline, Stroke::new(edge_colour(theme), EDGE_WIDTHS.1)).into(),
     ]
 }
 
@@ -349,7 +350,7 @@ fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 
 fn open_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let end = at.moved(19.0, 0.0);
-    let stroke = Stroke::new(edge_colour(theme), EDGE.1);
+    let stroke = Stroke::new(edge_colour(theme), EDGE_WIDTHS.1);
     vec![
         Path::stroked(Outline::line([at, end]), stroke).into(),
         Path::filled(open_end(end, at), edge_colour(theme)).into(),

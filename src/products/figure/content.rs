@@ -219,15 +219,15 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
 }
 
 /// Least length of the longest arrow, pixels (9 mm).
-const LONG_ARROW: f64 = 34.0;
+const MIN_LONGEST_ARROW: f64 = 34.0;
 /// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in others.
-const MOST_STRETCH: (f64, f64) = (3.0, 1.5);
+const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a share of the longer side of the shown part.
-const LONGEST_SHARE: f64 = 0.25;
+const MAX_ARROW_SHARE: f64 = 0.25;
 
 /// Least length of the longest arrow of a load, pixels.
-const LONG_LOAD: f64 = 24.0;
+const MIN_LONGEST_LOAD_ARROW: f64 = 24.0;
 
 /// Returns two lengths. The first is the length of the longest arrow in unit edges, at least 1. It is larger than 1 if
 /// a unit edge is short on the page, so that small arrows keep a visible shaft. The second is the least length of the
@@ -238,12 +238,14 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let scale = Layout::new(&bare, analysis.frames.len()).scale;
     let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
     let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
-        true => MOST_STRETCH.1,
-        false => MOST_STRETCH.0,
+        true => MAX_ARROW_UNIT_EDGES.1,
+        false => MAX_ARROW_UNIT_EDGES.0,
     };
-    let longest = LONGEST_SHARE * bare.view.width().max(bare.view.height());
-    let stretch = (LONG_ARROW / (unit * scale)).min(longest / unit).min(most);
-    let load = (LONG_LOAD / scale).min(longest);
+    let longest = MAX_ARROW_SHARE * bare.view.width().max(bare.view.height());
+    let stretch = (MIN_LONGEST_ARROW / (unit * scale))
+        .min(longest / unit)
+        .min(most);
+    let load = (MIN_LONGEST_LOAD_ARROW / scale).min(longest);
     match stretch.is_finite() && load.is_finite() {
         true => (stretch.max(1.0), load),
         false => (1.0, 0.0),

@@ -3,7 +3,7 @@
 
 use core::cell::{Cell, OnceCell};
 
-use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks};
+use super::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, Marks};
 use super::displacement::{self, Course, Displacement};
 use super::fill::{FillScale, Fills};
 use super::option::Options;
@@ -118,7 +118,7 @@ impl<'a> FigureContext<'a> {
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
-        let seen = |a: &&ForceArrow| a.reach().norm() * scale >= LEAST_SEEN;
+        let seen = |a: &&ForceArrow| a.reach().norm() * scale >= MIN_VISIBLE_ARROW;
         let count = arrows().filter(carried).count();
         (arrows().filter(carried).filter(seen).count() as f64) < MIN_VISIBLE_SHARE * count as f64
     }

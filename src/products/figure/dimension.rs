@@ -8,12 +8,12 @@ use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
 /// Height of the space below a picture for the dimension of its width, pixels.
-pub(crate) const BELOW: f64 = 26.0;
+pub(crate) const SPACE_BELOW: f64 = 26.0;
 /// Width of the space to the left of a picture for the dimension of its height, pixels. The same space on the right
 /// keeps the picture in the middle of its panel.
-pub(crate) const ASIDE: f64 = 58.0;
+pub(crate) const SPACE_LEFT: f64 = 58.0;
 /// Half the length of the mark at each end, pixels.
-const TICK: f64 = 4.0;
+const HALF_TICK: f64 = 4.0;
 
 /// Draws the dimension lines below and to the left of the picture of a frame. `view` is the part of the scene that the
 /// picture shows, in metres. The group is empty for a frame without blocks.
@@ -38,18 +38,24 @@ pub(crate) fn lines(
     let stroke = || Stroke::new(theme.faint, 0.8);
     let words = |value: f64| quantity(value, scene.units.length());
 
-    let y = page.at.y + page.height + 0.5 * BELOW;
+    let y = page.at.y + page.height + 0.5 * SPACE_BELOW;
     let (left, right) = (measured.at.x, measured.at.x + measured.width);
     let mut across = Outline::line([PagePoint::new(left, y), PagePoint::new(right, y)]);
     for x in [left, right] {
-        let ends = [PagePoint::new(x, y - TICK), PagePoint::new(x, y + TICK)];
+        let ends = [
+            PagePoint::new(x, y - HALF_TICK),
+            PagePoint::new(x, y + HALF_TICK),
+        ];
         across.extend(Outline::line(ends));
     }
     let x = page.at.x - 10.0;
     let (top, bottom) = (measured.at.y, measured.at.y + measured.height);
     let mut up = Outline::line([PagePoint::new(x, top), PagePoint::new(x, bottom)]);
     for y in [top, bottom] {
-        let ends = [PagePoint::new(x - TICK, y), PagePoint::new(x + TICK, y)];
+        let ends = [
+            PagePoint::new(x - HALF_TICK, y),
+            PagePoint::new(x + HALF_TICK, y),
+        ];
         up.extend(Outline::line(ends));
     }
     let label = |at: PagePoint, value: f64, anchor| {

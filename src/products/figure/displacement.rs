@@ -33,10 +33,10 @@ const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;
 /// Number of positions along the path at which overlaps are measured.
-const PLACES: u32 = 8;
+const TESTED_POSITIONS: u32 = 8;
 /// Largest number of reductions of the amplitude while blocks overlap, and the smallest factor of one reduction.
 const MAX_REDUCTIONS: u32 = 24;
-const REDUCTION: f64 = 0.6;
+const MIN_REDUCTION_FACTOR: f64 = 0.6;
 /// Overlaps are not measured if more blocks move, because this would take longer than the drawing.
 const MAX_TESTED_BLOCKS: usize = 500;
 
@@ -94,7 +94,8 @@ impl Course {
     /// Returns a box, in metres, that contains the moving blocks and all arrows at every position along the path.
     /// Returns `None` if no block moves. `marks` are the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
-        let places = (0..=PLACES).map(|place| self.at(f64::from(place) / f64::from(PLACES)));
+        let places = (0..=TESTED_POSITIONS)
+            .map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
         let each = places.filter_map(|displaced| {
             let blocks = displaced.iter().zip(&scene.blocks);
             let corners = blocks.filter_map(|(displacement, block)| {
@@ -128,7 +129,8 @@ impl Course {
             let Some((place, pairs)) = self.first_overlap(&clearance) else {
                 return;
             };
-            let factor = ((f64::from(place) - 0.5) / f64::from(PLACES)).max(REDUCTION);
+            let factor =
+                ((f64::from(place) - 0.5) / f64::from(TESTED_POSITIONS)).max(MIN_REDUCTION_FACTOR);
             let mut reduced: Vec<usize> = pairs
                 .into_iter()
                 .flatten()
@@ -144,10 +146,10 @@ impl Course {
     }
 
     /// Returns the first position along the path at which blocks overlap, and the pairs of blocks that overlap there.
-    /// The [`PLACES`] tested positions are numbered from 1. Returns `None` if no blocks overlap at any of them.
+    /// The [`TESTED_POSITIONS`] tested positions are numbered from 1. Returns `None` if no blocks overlap at any of them.
     fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
-        (1..=PLACES).find_map(|place| {
-            let displaced = self.at(f64::from(place) / f64::from(PLACES));
+        (1..=TESTED_POSITIONS).find_map(|place| {
+            let displaced = self.at(f64::from(place) / f64::from(TESTED_POSITIONS));
             let pairs = clearance.overlapping(&displaced);
             (!pairs.is_empty()).then_some((place, pairs))
         })

@@ -10,11 +10,11 @@ use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Drawing;
 
 /// Time between two pictures of an animated motion, seconds.
-const MOTION_STEP: f64 = 0.1;
+const MOTION_FRAME_SECONDS: f64 = 0.1;
 /// The least and the largest number of steps of a motion, in addition to the first picture.
-const MOTION_STEPS: (f64, f64) = (12.0, 150.0);
+const MOTION_STEP_LIMITS: (f64, f64) = (12.0, 150.0);
 /// Time for which the end of a motion is shown, seconds.
-const MOTION_REST: f64 = 1.0;
+const MOTION_END_SECONDS: f64 = 1.0;
 
 /// Draws a figure of this kind with one panel for each frame of the analysis.
 ///
@@ -69,9 +69,9 @@ pub fn film(
     }
     let mut steps: Vec<(usize, f64)> = Vec::new();
     let mut times = Vec::new();
-    let count = (seconds / MOTION_STEP)
+    let count = (seconds / MOTION_FRAME_SECONDS)
         .round()
-        .clamp(MOTION_STEPS.0, MOTION_STEPS.1) as u32;
+        .clamp(MOTION_STEP_LIMITS.0, MOTION_STEP_LIMITS.1) as u32;
     for (frame, found) in analysis.frames.iter().enumerate() {
         if found.verdict != Verdict::Unstable {
             steps.push((frame, 1.0));
@@ -80,7 +80,7 @@ pub fn film(
         }
         steps.extend((0..=count).map(|step| (frame, eased(f64::from(step) / f64::from(count)))));
         times.extend((0..count).map(|_| (seconds / f64::from(count)).max(0.01)));
-        times.push(MOTION_REST);
+        times.push(MOTION_END_SECONDS);
     }
     let pages = strip::steps_of(&analysis, kind.content(), &options, steps.into_iter());
     pages.into_iter().zip(times).collect()

@@ -16,7 +16,7 @@ use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
-use super::label::{self, Callout, SAME_FORCE};
+use super::label::{self, Callout, EQUAL_FORCE_TOL};
 use super::legend::Entry;
 use super::limit;
 use super::mark;
@@ -32,15 +32,15 @@ use crate::geometry::Bounds;
 use crate::scene::Scene;
 
 /// Width of the band of the largest force, unit edges; its least and its largest width, pixels.
-const LARGEST_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
+const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
 /// Least width of a band, pixels; thinner bands are not visible.
-const LEAST_WIDTH: f64 = 0.4;
+const MIN_BAND_WIDTH: f64 = 0.4;
 /// In frames with more blocks than this, bands of one colour are one path, and joints have no dots.
-const MANY_STRANDS: usize = 150;
+const MAX_SINGLE_STRANDS: usize = 150;
 /// Length of the longest arrow of a load or a missing force, as a share of the longer side of the structure.
-const LONGEST_ARROW: f64 = 0.1;
+const LONGEST_ARROW_SHARE: f64 = 0.1;
 /// Width of the shaft of such an arrow, as a share of the length of the longest arrow.
-const SHAFT: f64 = 0.055;
+const SHAFT_SHARE: f64 = 0.055;
 
 /// The figure of force flow.
 pub(crate) struct ForceFlow;
@@ -106,13 +106,13 @@ fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
         .map(|b| b.body.polygon.bounds())
         .reduce(Bounds::union);
     let longer = all.map_or(edge, |b| b.width().max(b.height()));
-    edge.max(LONGEST_ARROW * longer)
+    edge.max(LONGEST_ARROW_SHARE * longer)
 }
 
 /// Returns the arrows of loads and of missing forces. The tip of a load's arrow is at the point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let width = SHAFT * longest_arrow(analysis, options);
+    let width = SHAFT_SHARE * longest_arrow(analysis, options);
     let shown = |arrow: ForceArrow| match arrow.kind {
         ArrowKind::Load => Some(ForceArrow {
             at: arrow.at - arrow.vector,
@@ -144,7 +144,7 @@ pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
     let contacts = found.contacts.iter();
     contacts.filter(|c| force(c) > 0.0).reduce(|most, c| {
-        if force(&c) > (1.0 + SAME_FORCE) * force(&most) {
+        if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) {
             c
         } else {
             most
@@ -165,7 +165,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
 
 /// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit edge in pixels.
 fn widest(unit: f64) -> f64 {
-    let (width, least, most) = LARGEST_WIDTH;
+    let (width, least, most) = LARGEST_BAND_WIDTH;
     (width * unit).clamp(least, most)
 }
 
@@ -230,10 +230,10 @@ impl<'a> Picture<'a> {
         )
     }
 
-    /// True if the frame has more than [`MANY_STRANDS`] blocks. All bands of one colour are then drawn as one shape
+    /// True if the frame has more than [`MAX_SINGLE_STRANDS`] blocks. All bands of one colour are then drawn as one shape
     /// without tooltips, and joints have no dots.
     fn many(&self) -> bool {
-        self.scene.frames[self.pen.number].placed.len() > MANY_STRANDS
+        self.scene.frames[self.pen.number].placed.len() > MAX_SINGLE_STRANDS
     }
 
     /// Draws the bands: first weights, then carried forces over them, and missing forces on top.
@@ -265,7 +265,7 @@ impl<'a> Picture<'a> {
     /// Returns the outline of the band of a strand. Adds its axis to the ink, so that no label covers the band.
     fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
         let camera = self.pen.camera;
-        let width = |newtons: &f64| camera.metres((newtons * self.scale).max(LEAST_WIDTH));
+        let width = |newtons: &f64| camera.metres((newtons * self.scale).max(MIN_BAND_WIDTH));
         let mut widths: Vec<f64> = strand.widths.iter().map(width).collect();
         let mut axis = strand.axis.clone();
         if self.many() && !strand.exact {

@@ -17,9 +17,9 @@ use crate::geometry::{Bounds, Point};
 
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.
-const BEYOND_KERNEL: f64 = 1.0 + 1e-6;
+const KERNEL_TOL: f64 = 1.0 + 1e-6;
 /// Width of the line of a safe part, unit edges; its least and its largest width, pixels.
-const STRETCH_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
+const SAFE_LINE_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// The figure of kernels.
 pub(crate) struct Kernel;
@@ -54,10 +54,10 @@ impl PanelContent for Kernel {
         let mut entries = Vec::new();
         if frames.iter().any(|f| !f.contacts.is_empty()) {
             let safe = "safe part of an interface".to_owned();
-            entries.push(Entry::Sign(safe_sign, WIDE, safe));
+            entries.push(Entry::Sign(safe_sign, SIGN_WIDTH, safe));
             if scene.kernel > 0.0 {
                 let rest = format!("unsafe part, for a kernel of {}", scene.kernel);
-                entries.push(Entry::Sign(rest_sign, WIDE, rest));
+                entries.push(Entry::Sign(rest_sign, SIGN_WIDTH, rest));
             }
         }
         let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
@@ -136,7 +136,7 @@ fn at_end(bearing: &Bearing) -> bool {
 }
 
 fn bold(unit: f64) -> f64 {
-    let (width, least, most) = STRETCH_WIDTH;
+    let (width, least, most) = SAFE_LINE_WIDTH;
     (width * unit).clamp(least, most)
 }
 
@@ -252,23 +252,21 @@ fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour
         let r = 1.35 * radius;
         let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
         let diamond = Outline::ring(corners.map(|(x, y)| at.moved(x, y)));
-        let outside = bearing
-            .eccentricity
-            .is_some_and(|share| share > BEYOND_KERNEL);
+        let outside = bearing.eccentricity.is_some_and(|share| share > KERNEL_TOL);
         return (if outside { theme.falls } else { theme.ink }, diamond);
     }
     (theme.ink, Outline::circle(at, radius))
 }
 
-const WIDE: f64 = 26.0;
+const SIGN_WIDTH: f64 = 26.0;
 
 fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![Path::stroked(line, Stroke::new(theme.safe, 4.0)).into()]
 }
 
 fn rest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![Path::stroked(line, rest(theme, 4.0)).into()]
 }
 

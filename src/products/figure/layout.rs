@@ -216,7 +216,7 @@ impl Row<'_> {
 /// lines.
 fn dimensions(context: &FigureContext<'_>) -> f64 {
     if context.options.dimensions {
-        2.0 * dimension::ASIDE
+        2.0 * dimension::SPACE_LEFT
     } else {
         0.0
     }

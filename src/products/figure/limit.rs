@@ -11,7 +11,7 @@ use crate::interface::ContactKind;
 use crate::scene::Scene;
 
 /// A resultant acts at the edge if its distance from an end of the joint is below this share of the joint's length.
-const AT_EDGE: f64 = 0.01;
+const EDGE_TOL: f64 = 0.01;
 
 /// The distance of a joint from its limit.
 struct Nearness<'a> {
@@ -25,7 +25,7 @@ struct Nearness<'a> {
 
 impl Nearness<'_> {
     fn reached(&self) -> bool {
-        self.friction >= FULL || self.edge >= 1.0 - 2.0 * AT_EDGE
+        self.friction >= FULL || self.edge >= 1.0 - 2.0 * EDGE_TOL
     }
 
     fn share(&self) -> f64 {
@@ -64,7 +64,7 @@ pub(crate) fn reached<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<&'a Co
 }
 
 /// Shares whose relative difference is below this count as equal.
-const SAME_SHARE: f64 = 1e-6;
+const EQUAL_SHARE_TOL: f64 = 1e-6;
 
 /// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
@@ -109,7 +109,7 @@ impl<'a> Marked<'a> {
 fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
     // If several joints are equally near to their limits except for rounding, take the first, so that rounding errors
     // do not change the result.
-    let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + SAME_SHARE) * a.share();
+    let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + EQUAL_SHARE_TOL) * a.share();
     let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
 }
@@ -169,4 +169,4 @@ pub(crate) fn key_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 /// The meaning of the sign in the legend.
-pub(crate) const MEANING: &str = "joint at its limit: friction used up, or force at the edge";
+pub(crate) const LEGEND_TEXT: &str = "joint at its limit: friction used up, or force at the edge";

@@ -30,7 +30,7 @@ const FULL_OUTLINE_UNIT_EDGE: f64 = 1.5 / 0.028;
 /// If a unit edge is at least this long, pixels, borders of arrows have their full width.
 const FULL_CASING_UNIT_EDGE: f64 = 0.9 / 0.012;
 /// Least width of a shaft, pixels, if blocks are large enough for it.
-const LEAST_SHAFT: f64 = 2.5;
+const MIN_SHAFT_WIDTH: f64 = 2.5;
 
 /// Converts a colour of a scene file to a colour of a drawing.
 pub(crate) fn colour(rgb: Rgb) -> Colour {
@@ -102,7 +102,7 @@ impl<'a> Pen<'a> {
             wider: if unit < MIN_READABLE_UNIT_EDGE {
                 1.0
             } else {
-                (LEAST_SHAFT / (widths.force * unit)).clamp(1.0, 1.35)
+                (MIN_SHAFT_WIDTH / (widths.force * unit)).clamp(1.0, 1.35)
             },
         }
     }

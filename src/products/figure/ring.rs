@@ -10,31 +10,31 @@ use crate::drawing::{
 };
 
 /// Width of the page, pixels.
-const PAGE: f64 = 360.0;
+const PAGE_WIDTH: f64 = 360.0;
 /// Inner and outer radius of the ring, pixels.
-const RING: (f64, f64) = (58.0, 112.0);
+const RING_RADII: (f64, f64) = (58.0, 112.0);
 /// Font size, pixels.
-const WORDS: f64 = 14.0;
+const FONT_SIZE: f64 = 14.0;
 
 /// Draws the colour wheel of the forces on blocks. The sectors begin at the right with entry 0 of the theme's colours
 /// and continue anticlockwise. Each sector lists the numbers of its blocks, counted from 1 in placing order.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {
-    let centre = PagePoint::new(PAGE / 2.0, 30.0 + RING.1);
+    let centre = PagePoint::new(PAGE_WIDTH / 2.0, 30.0 + RING_RADII.1);
     let mut items: Vec<Item> = Vec::new();
     for entry in 0..theme.arrows.len() {
         items.push(labelled_sector(centre, entry, theme).into());
     }
     let line = |y: f64, words: &str| -> Item {
         let at = PagePoint::new(centre.x, y);
-        Text::new(at, words, Face::Sans, WORDS, theme.faint)
+        Text::new(at, words, Face::Sans, FONT_SIZE, theme.faint)
             .anchored(Anchor::Middle)
             .into()
     };
-    items.push(line(centre.y - 0.15 * WORDS, "forces on"));
-    items.push(line(centre.y + 1.05 * WORDS, "blocks"));
-    let mut y = centre.y + RING.1 + 40.0;
+    items.push(line(centre.y - 0.15 * FONT_SIZE, "forces on"));
+    items.push(line(centre.y + 1.05 * FONT_SIZE, "blocks"));
+    let mut y = centre.y + RING_RADII.1 + 40.0;
     items.extend(robots(PagePoint::new(centre.x, y), theme));
     y += 32.0;
     items.push(line(y, "robots, over and over"));
@@ -46,7 +46,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     y += 28.0;
     items.push(line(y, "what would have to stick or be given"));
     Drawing {
-        width: PAGE,
+        width: PAGE_WIDTH,
         height: (y + 24.0).ceil(),
         title: "The colours of forces".into(),
         description: "The forces on a block wear one colour; block i, in placing order from 1, takes entry i mod \
@@ -69,7 +69,8 @@ fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
     let blocks = format!("{first}, {}, …", first + count);
     let sector = Path::filled(sector(centre, from, sweep), colour);
     let middle = from + sweep / 2.0;
-    let at = polar(centre, (RING.0 + RING.1) / 2.0, middle).moved(0.0, 0.36 * WORDS);
+    let at =
+        polar(centre, (RING_RADII.0 + RING_RADII.1) / 2.0, middle).moved(0.0, 0.36 * FONT_SIZE);
     let ink = theme.letters_on(colour, None);
     let words = Text::new(at, blocks.as_str(), Face::SansBold, 12.0, ink);
     Group::with_class("sector")
@@ -102,8 +103,10 @@ fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {
 fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
     let steps = 72;
     let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);
-    let outer = (0..=steps).map(|s| polar(centre, RING.1, angle(s)));
-    let inner = (0..=steps).rev().map(|s| polar(centre, RING.0, angle(s)));
+    let outer = (0..=steps).map(|s| polar(centre, RING_RADII.1, angle(s)));
+    let inner = (0..=steps)
+        .rev()
+        .map(|s| polar(centre, RING_RADII.0, angle(s)));
     let mut outline = Outline::line(outer.chain(inner));
     outline.segments.push(Segment::Close);
     outline

@@ -8,7 +8,7 @@
 
 mod plan;
 
-use super::arrow::{ForceArrow, LEAST_SEEN, Marks};
+use super::arrow::{ForceArrow, MIN_VISIBLE_ARROW, Marks};
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::label::{self, Callout};
@@ -30,9 +30,9 @@ use crate::wording::sensitivity::{length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
 
 /// Radius of the disc of a number without an arrow, as a multiple of the font size.
-const DISC: f64 = 0.68;
+const DISC_RADIUS: f64 = 0.68;
 /// Length of the arrow that shows the scale, pixels, at most.
-const SCALE_ARROW: f64 = 60.0;
+const MAX_SCALE_ARROW: f64 = 60.0;
 
 /// The figure of the effects of corners on a margin.
 pub(crate) struct CornerEffects;
@@ -165,7 +165,7 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         let from = pen.camera.place(arrow.at);
         let along = pen.camera.turn(arrow.effect * scale);
         let long = libm::hypot(along.0, along.1);
-        if long < LEAST_SEEN {
+        if long < MIN_VISIBLE_ARROW {
             continue;
         }
         let width = width(pen.unit(), arrow.number.is_some());
@@ -278,7 +278,7 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
 fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
-    let amount = round_below(longest.min(SCALE_ARROW) / pixels * plan.step);
+    let amount = round_below(longest.min(MAX_SCALE_ARROW) / pixels * plan.step);
     let drawn = amount / plan.step * pixels;
     let sign = match (plan.kind, plan.is_high) {
         (MarginKind::Tilt | MarginKind::HorizontalLoad, _) | (_, true) => '+',
@@ -322,7 +322,7 @@ fn number_colour(theme: &Theme) -> Colour {
 }
 
 fn disc_radius(theme: &Theme) -> f64 {
-    DISC * theme.sizes.amount
+    DISC_RADIUS * theme.sizes.amount
 }
 
 /// Draws a disc with the number of a change.

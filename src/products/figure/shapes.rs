@@ -9,8 +9,8 @@ use crate::drawing::{
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::scene::{Body, shape};
 
-const UNIT: f64 = 46.0;
-const ACROSS: f64 = 900.0;
+const UNIT_EDGE: f64 = 46.0;
+const MAX_ROW_WIDTH: f64 = 900.0;
 
 /// Draws an overview of the built-in shapes on the triangular lattice.
 pub fn shapes(theme: &Theme) -> Drawing {
@@ -83,7 +83,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     let shapes = named.iter();
     let shapes = shapes.filter_map(|(name, cells)| SheetShape::new(lattice, name, cells));
     let shapes: Vec<SheetShape<'_>> = shapes.collect();
-    let scale = UNIT / lattice.side;
+    let scale = UNIT_EDGE / lattice.side;
     // The shapes of a row are on the same baseline. The tallest shape of the sheet determines the height of all rows.
     let heights = shapes.iter().map(|shape| shape.view.height() * scale);
     let tallest = heights.fold(0.0, f64::max);
@@ -92,7 +92,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     for shape in &shapes {
         let (wide, high) = (shape.view.width() * scale, shape.view.height() * scale);
         let width = wide.max(100.0);
-        if x > MAX_MARGIN && x + width > ACROSS {
+        if x > MAX_MARGIN && x + width > MAX_ROW_WIDTH {
             (x, y) = (MAX_MARGIN, y + tallest + 64.0);
         }
         let at = PagePoint::new(x + (width - wide) / 2.0, y + tallest - high);

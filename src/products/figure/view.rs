@@ -7,11 +7,11 @@ use crate::scene::{BlockId, Frame, Scene};
 
 /// The width of ground shown beyond the blocks, as a share of the structure's diagonal; at least one unit edge is
 /// shown.
-const GROUND_BEYOND: f64 = 0.12;
+const SIDE_GROUND_SHARE: f64 = 0.12;
 /// A piece of ground near the structure is not cut if both its width and its height are at most this, unit edges.
-const WHOLE_GROUND: f64 = 3.0;
+const MAX_UNCUT_GROUND: f64 = 3.0;
 /// Distance from a block to the edge of its zoomed view, as a share of the block's larger side.
-const ZOOM_REACH: f64 = 0.5;
+const ZOOM_PADDING: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
 
@@ -76,10 +76,11 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
         return ground().reduce(Bounds::union);
     };
     let reach = structure.diagonal().max(unit);
-    let near = structure.grown((GROUND_BEYOND * reach).max(unit));
+    let near = structure.grown((SIDE_GROUND_SHARE * reach).max(unit));
     let far = structure.grown(reach);
     let shown = |part: Bounds| {
-        let small = part.width() <= WHOLE_GROUND * unit && part.height() <= WHOLE_GROUND * unit;
+        let small =
+            part.width() <= MAX_UNCUT_GROUND * unit && part.height() <= MAX_UNCUT_GROUND * unit;
         if small && far.intersects(part) {
             Some(part)
         } else {
@@ -92,7 +93,7 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
 /// Returns a box around a block, metres: the bounding box, enlarged on all sides by half of its longer side.
 pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
-    bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))
+    bounds.grown(ZOOM_PADDING * bounds.width().max(bounds.height()))
 }
 
 /// True if a point lies in a box or on its boundary.

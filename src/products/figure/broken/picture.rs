@@ -10,9 +10,9 @@ use crate::geometry::{Bounds, Point};
 use crate::scene::{BodyId, Code, Sketch, SketchedBody};
 
 /// Radius of a number's disc, pixels.
-pub(super) const DISC: f64 = 9.0;
+pub(super) const DISC_RADIUS: f64 = 9.0;
 /// Distance between the hatched lines of an overlap, pixels.
-const HATCH: f64 = 5.0;
+const HATCH_SPACING: f64 = 5.0;
 
 /// A numbered mark.
 pub(super) struct Marked {
@@ -78,8 +78,8 @@ pub(super) fn structure(
                 body.rings.iter().map(ring).collect()
             };
             let common = shared(
-                &hatch(&rings(a), rect, HATCH),
-                &hatch(&rings(b), rect, HATCH),
+                &hatch(&rings(a), rect, HATCH_SPACING),
+                &hatch(&rings(b), rect, HATCH_SPACING),
             );
             let stroke = Stroke::new(theme.failure, 1.4);
             group = group.with(Path::stroked(lines(&common), stroke));
@@ -112,12 +112,12 @@ fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Option
         return None;
     }
     let middle = PagePoint::new(rect.at.x + rect.width / 2.0, rect.at.y + rect.height / 2.0);
-    let reach = width(&body.name, Face::Sans, size) / 2.0 + 2.0 * DISC;
+    let reach = width(&body.name, Face::Sans, size) / 2.0 + 2.0 * DISC_RADIUS;
     let covered = marks.iter().any(|mark| {
         let place = camera.place(mark.at);
         (place.x - middle.x).abs() < reach && (place.y - middle.y).abs() < size
     });
-    let down = if covered { size + DISC } else { 0.0 };
+    let down = if covered { size + DISC_RADIUS } else { 0.0 };
     if down + 0.5 * size > rect.height / 2.0 {
         return None;
     }
@@ -186,7 +186,7 @@ fn arm(at: PagePoint, x: f64, y: f64) -> Outline {
 
 /// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`.
 fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
-    const AROUND: [(f64, f64); 8] = [
+    const DIRECTIONS: [(f64, f64); 8] = [
         (0.7, -0.7),
         (-0.7, -0.7),
         (0.7, 0.7),
@@ -198,11 +198,11 @@ fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     ];
     let clear = |at: &PagePoint| {
         let apart = |other: &PagePoint| libm::hypot(at.x - other.x, at.y - other.y);
-        taken.iter().all(|other| apart(other) > 2.2 * DISC)
+        taken.iter().all(|other| apart(other) > 2.2 * DISC_RADIUS)
     };
-    let far = |turn: usize| 2.2 * DISC * (1 + turn) as f64;
+    let far = |turn: usize| 2.2 * DISC_RADIUS * (1 + turn) as f64;
     let places =
-        (0..20).flat_map(|turn| AROUND.map(|(x, y)| place.moved(far(turn) * x, far(turn) * y)));
+        (0..20).flat_map(|turn| DIRECTIONS.map(|(x, y)| place.moved(far(turn) * x, far(turn) * y)));
     let mut places = places.filter(clear);
     places.next().unwrap_or(place)
 }
@@ -210,7 +210,7 @@ fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
 /// Draws a disc with a number.
 pub(super) fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
     let theme = &options.theme;
-    let size = 1.2 * DISC;
+    let size = 1.2 * DISC_RADIUS;
     let words = Text::new(
         at.moved(0.0, 0.36 * size),
         number.to_string(),
@@ -220,7 +220,7 @@ pub(super) fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
     );
     Group::with_class("number")
         .with(
-            Path::filled(Outline::circle(at, DISC), theme.page)
+            Path::filled(Outline::circle(at, DISC_RADIUS), theme.page)
                 .with_stroke(Stroke::new(theme.ink, 1.2)),
         )
         .with(words.anchored(Anchor::Middle))

@@ -5,25 +5,25 @@ use crate::figure::view;
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
 
 /// Largest distance of the polygon from its point, as a share of the size of the structure.
-const REACH: f64 = 0.42;
+const MAX_POLYGON_SHARE: f64 = 0.42;
 /// A polygon that is smaller than this share of its largest force is drawn apart from its point, at a separate scale.
-const SMALL: f64 = 0.25;
+const SMALL_POLYGON_SHARE: f64 = 0.25;
 /// Size of a polygon that is drawn apart, as a share of the size of the structure.
-const APART: f64 = 0.4;
+const SEPARATE_POLYGON_SHARE: f64 = 0.4;
 /// Gap between the structure and the items next to it, as a share of the size of the structure.
-const GAP: f64 = 0.1;
+const GAP_SHARE: f64 = 0.1;
 /// Unbounded sets of forces are cut off at this multiple of the largest force of a vertex.
-const CUT: f64 = 1.7;
+const CUT_OFF_RATIO: f64 = 1.7;
 /// The largest number of small pictures.
-const MOST_PICTURES: usize = 4;
+const MAX_SMALL_PICTURES: usize = 4;
 /// Size of a small picture relative to the structure: next to it, and below it.
-const SMALLER: (f64, f64) = (0.36, 0.21);
+const SMALL_PICTURE_SCALES: (f64, f64) = (0.36, 0.21);
 /// A structure wider than this multiple of its height has its small pictures below it.
-const WIDE: f64 = 1.5;
+const WIDE_RATIO: f64 = 1.5;
 /// Structures with more blocks have no small pictures.
-const MOST_BLOCKS: usize = 300;
+const MAX_BLOCKS_WITH_PICTURES: usize = 300;
 /// The number of corners of the circle at which unbounded sets are cut off.
-const ROUND: usize = 48;
+const CIRCLE_CORNERS: usize = 48;
 
 /// The positions of the polygon of a frame, its edges and its small pictures.
 pub(super) struct Plan<'a> {
@@ -94,20 +94,20 @@ impl<'a> Plan<'a> {
         let farthest = farthest(analysis, cut);
         let is_bounded = capacity.rays.is_empty();
         let is_apart = is_bounded
-            && extent < SMALL * farthest
+            && extent < SMALL_POLYGON_SHARE * farthest
             && extent > 1e-6 * farthest
             && analysis.frames.len() == 1;
         let (scale, zero) = if is_apart {
-            let scale = APART * size / extent;
+            let scale = SEPARATE_POLYGON_SHARE * size / extent;
             let own = bounds_of(&ring);
-            let right = right(analysis, structure, unit) + GAP * size;
+            let right = right(analysis, structure, unit) + GAP_SHARE * size;
             let height = 0.5 * (own.min.y + own.max.y) * scale;
             (
                 scale,
                 Point::new(right - own.min.x * scale, point.y - height),
             )
         } else {
-            (REACH * size / farthest, point)
+            (MAX_POLYGON_SHARE * size / farthest, point)
         };
         let place = |force: &Vector| zero + force * scale;
         let numbers = numbers(analysis, capacity);
@@ -154,11 +154,14 @@ impl<'a> Plan<'a> {
             .map_or(structure, |ground| structure.union(ground))
             .union(polygon);
         let size = structure.width().max(structure.height());
-        let is_wide = whole.width() > WIDE * whole.height();
+        let is_wide = whole.width() > WIDE_RATIO * whole.height();
         let (share, columns) = match (is_wide, numbers.len()) {
-            (true, n) => (SMALLER.1 * (whole.width() / source.width()).min(1.4), n),
-            (false, 1) => (SMALLER.0, 1),
-            (false, n) => (SMALLER.0, n.div_ceil(2)),
+            (true, n) => (
+                SMALL_PICTURE_SCALES.1 * (whole.width() / source.width()).min(1.4),
+                n,
+            ),
+            (false, 1) => (SMALL_PICTURE_SCALES.0, 1),
+            (false, n) => (SMALL_PICTURE_SCALES.0, n.div_ceil(2)),
         };
         let step = Vector::new(source.width(), source.height()) * share
             + Vector::new(0.08 * size, 0.12 * size);
@@ -256,7 +259,7 @@ fn largest(analysis: &Analysis) -> f64 {
 
 /// Returns the magnitude at which unbounded sets of forces are cut off, N.
 fn cut(analysis: &Analysis) -> f64 {
-    CUT * largest(analysis)
+    CUT_OFF_RATIO * largest(analysis)
 }
 
 /// Returns the largest magnitude of a drawn force, N: `cut` if a set is unbounded.
@@ -273,16 +276,16 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
     if capacity.rays.is_empty() {
         return capacity.vertices.iter().map(|v| v.force).collect();
     }
-    let far = FAR * cut;
+    let far = UNBOUNDED_RATIO * cut;
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let (Some(from), Some(to)) = (corners.first(), corners.last()) else {
         return Vec::new();
     };
     let corner = |k: usize| {
-        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / ROUND as f64);
+        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / CIRCLE_CORNERS as f64);
         Vector::new(cos, sin) * cut
     };
-    let mut ring: Vec<Vector> = (0..ROUND).map(corner).collect();
+    let mut ring: Vec<Vector> = (0..CIRCLE_CORNERS).map(corner).collect();
     // `outline` is the unbounded set as a polygon that is cut off far outside the circle.
     let mut outline = corners.clone();
     match capacity.rays[..] {
@@ -312,19 +315,19 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 }
 
 /// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
-const FAR: f64 = 1e3;
+const UNBOUNDED_RATIO: f64 = 1e3;
 
 /// Returns the indices of the longest edges, which get small pictures, in ascending order. The list is empty if the
 /// analysis has several frames or many blocks.
 fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
     let frames = analysis.scene.frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);
-    if analysis.frames.len() > 1 || most > MOST_BLOCKS {
+    if analysis.frames.len() > 1 || most > MAX_BLOCKS_WITH_PICTURES {
         return Vec::new();
     }
     let mut chosen: Vec<usize> = capacity.longest_edges();
     // Unbounded edges come first, then the longest edges.
-    chosen.truncate(MOST_PICTURES);
+    chosen.truncate(MAX_SMALL_PICTURES);
     // Numbers run anticlockwise.
     chosen.sort_unstable();
     chosen

@@ -19,12 +19,12 @@ use crate::scene::{BlockId, BodyId, Scene};
 const MAX_BODIES: usize = 40;
 const MAX_STEPS: usize = 12;
 /// Tolerance of closed joints, as a share of the length of the frame.
-const CLOSED: f64 = 1e-7;
+const CLOSURE_TOL: f64 = 1e-7;
 /// If a correction is larger than this share of the path, the joints cannot all be closed. In this case no joint is
 /// closed.
 const MAX_CORRECTION: f64 = 1.0;
 /// Regularization for redundant equations, relative to the largest diagonal entry.
-const RIDGE: f64 = 1e-10;
+const REGULARIZATION: f64 = 1e-10;
 
 /// A condition of a closed joint.
 #[derive(Clone, Copy, Debug)]
@@ -157,7 +157,7 @@ impl Linkage {
         let mut poses = start.to_vec();
         for _ in 0..MAX_STEPS {
             let (rows, gaps) = self.equations(&poses);
-            if gaps.amax() <= CLOSED * self.length {
+            if gaps.amax() <= CLOSURE_TOL * self.length {
                 let far = |(pose, start): (&Pose, &Pose)| (pose.way - start.way).norm();
                 let correction = poses.iter().zip(start).map(far).fold(0.0, f64::max);
                 let way = start
@@ -167,7 +167,7 @@ impl Linkage {
                 return (correction <= MAX_CORRECTION * way).then_some(poses);
             }
             let mut square = &rows * rows.transpose();
-            let ridge = RIDGE * square.diagonal().amax().max(f64::MIN_POSITIVE);
+            let ridge = REGULARIZATION * square.diagonal().amax().max(f64::MIN_POSITIVE);
             for i in 0..square.nrows() {
                 square[(i, i)] += ridge;
             }

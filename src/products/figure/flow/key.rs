@@ -5,7 +5,7 @@ use super::super::legend::{self, Entry};
 use super::super::option::ArrowScale;
 use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
-use super::{LEAST_WIDTH, MANY_STRANDS, carried, colour, dot_sign, largest, widest};
+use super::{MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, carried, colour, dot_sign, largest, widest};
 use crate::analysis::Verdict;
 
 /// Returns the legend entries of a figure of force flow. `unit` is the unit edge in pixels.
@@ -24,7 +24,7 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     }
     entries.extend(bands(context, unit, &all));
     let most = scene.frames.iter().map(|f| f.placed.len()).max();
-    if !all.is_empty() && most.unwrap_or(0) <= MANY_STRANDS {
+    if !all.is_empty() && most.unwrap_or(0) <= MAX_SINGLE_STRANDS {
         let words = "resultant of a joint".to_owned();
         entries.push(Entry::Sign(dot_sign, 8.0, words));
     }
@@ -53,7 +53,7 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
             Verdict::Stable => "force",
             _ => "carried force",
         };
-        let thin = LEAST_WIDTH / widest(unit) * largest;
+        let thin = MIN_BAND_WIDTH / widest(unit) * largest;
         let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
         let least = match all.iter().any(|s| thinner(&s.1)) {
             true => format!(

@@ -8,9 +8,9 @@ use crate::geometry::{Point, Polygon, Vector, cross};
 /// Tolerance of the distance between a line and a point, as a share of the block's size.
 const LENGTH_TOL: f64 = 1e-6;
 /// Largest distance of corners of the path outside the block, as a share of the square root of the block's area.
-const NEAR: f64 = 0.15;
+const MAX_OUTSIDE_SHARE: f64 = 0.15;
 /// The sine of the angle below which two lines of action are parallel.
-const PARALLEL: f64 = 1e-6;
+const PARALLEL_TOL: f64 = 1e-6;
 /// Largest number of loads, including the weight, for which a path is searched.
 const MAX_ORDERED: usize = 4;
 
@@ -48,7 +48,7 @@ pub(super) fn path(
     let size = polygon.area().sqrt();
     let search = Search {
         polygon,
-        near: NEAR * size,
+        near: MAX_OUTSIDE_SHARE * size,
         miss: LENGTH_TOL * size,
         second,
         loads,
@@ -125,7 +125,7 @@ impl Search<'_> {
 /// and `None` if they are parallel.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);
-    if sine.abs() <= PARALLEL * along_a.norm() * along_b.norm() {
+    if sine.abs() <= PARALLEL_TOL * along_a.norm() * along_b.norm() {
         let way = b - a;
         let aside = cross(along_a, way) / along_a.norm();
         return (aside.abs() <= LENGTH_TOL * way.norm()).then_some(b);

@@ -4,7 +4,7 @@ use crate::drawing::{Camera, Outline};
 use crate::geometry::{Point, Vector, quarter_turn};
 
 /// Largest width of a band at a corner, as a multiple of its width before and after the corner.
-const LONGEST_MITRE: f64 = 1.6;
+const MAX_MITRE: f64 = 1.6;
 
 /// Returns the outline of a band along `axis` on the page. `widths` has the full width of the band at each point of the
 /// axis, in metres. If a point occurs twice with different widths, the width changes abruptly there.
@@ -41,7 +41,7 @@ fn aside(axis: &[Point], i: usize) -> Vector {
             if half < 1e-9 {
                 return before;
             }
-            sum / sum.norm() * (1.0 / half).min(LONGEST_MITRE)
+            sum / sum.norm() * (1.0 / half).min(MAX_MITRE)
         }
         (before, behind) => before.or(behind).unwrap_or_else(Vector::zeros),
     }

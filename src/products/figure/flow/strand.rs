@@ -14,11 +14,11 @@ use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 
 /// If the component of a force along gravity is below this share of the force, the component across gravity decides
 /// whether the force enters or leaves the block.
-const ACROSS: f64 = 1e-6;
+const ALONG_GRAVITY_TOL: f64 = 1e-6;
 /// Number of segments of a schematic curve.
-const PIECES: usize = 12;
+const CURVE_SEGMENTS: usize = 12;
 /// Distance of the control points of a curve from its ends, as a share of the chord's component along the force.
-const STRAIGHT: f64 = 0.2;
+const HANDLE_SHARE: f64 = 0.2;
 
 /// The origin of a force on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -231,7 +231,7 @@ impl Sharing {
     /// is positive, and leaves the block otherwise.
     fn enters(&self, acting: &Acting) -> bool {
         let along = acting.force.dot(&self.down);
-        if along.abs() > ACROSS * acting.force.norm() {
+        if along.abs() > ALONG_GRAVITY_TOL * acting.force.norm() {
             return along > 0.0;
         }
         acting.force.dot(&quarter_turn(self.down)) > 0.0
@@ -321,10 +321,10 @@ impl Sharing {
 /// direction that points away from the chord is ignored.
 fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
     let chord = b - a;
-    let handle = |along: Vector| STRAIGHT * chord.dot(&along).max(0.0);
+    let handle = |along: Vector| HANDLE_SHARE * chord.dot(&along).max(0.0);
     let (p, q) = (a + along_a * handle(along_a), b - along_b * handle(along_b));
     let at = |i: usize| {
-        let t = i as f64 / PIECES as f64;
+        let t = i as f64 / CURVE_SEGMENTS as f64;
         let s = 1.0 - t;
         let sum = a.coords * (s * s * s)
             + p.coords * (3.0 * s * s * t)
@@ -332,5 +332,5 @@ fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
             + b.coords * (t * t * t);
         Point::from(sum)
     };
-    (0..=PIECES).map(at).collect()
+    (0..=CURVE_SEGMENTS).map(at).collect()
 }

@@ -11,7 +11,7 @@ use crate::figure::words::quantity;
 use crate::scene::{BodyId, Scene};
 
 /// Forces that differ by less than this share are equally large.
-const ALIKE: f64 = 1e-3;
+const EQUAL_FORCE_TOL: f64 = 1e-3;
 
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
@@ -62,7 +62,7 @@ fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
         return String::new();
     };
     let most = contact.resultant.force.norm();
-    let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - ALIKE) * most;
+    let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - EQUAL_FORCE_TOL) * most;
     let joints = found.contacts.iter().filter(alike).count();
     let pair = description::pair(scene, contact.interface.bodies);
     let others = match joints - 1 {

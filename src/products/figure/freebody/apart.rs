@@ -3,7 +3,7 @@
 //! In the middle of a pile, forces push a block up on the same line on which its weight pulls it down. On this line,
 //! the two arrows would overlap. Only the position of the arrow changes; the list of forces keeps the line of action.
 
-use super::arrow::{Arrow, WIDTH};
+use super::arrow::{Arrow, SHAFT_WIDTH};
 use crate::drawing::Camera;
 use crate::drawing::arrow::HEAD_WIDTH;
 
@@ -12,7 +12,7 @@ const PARALLEL_ANGLE: f64 = 0.12;
 /// Arrows that overlap along their line by less than this, pixels, are not moved.
 const END_TO_END: f64 = 2.0;
 /// Distance of two axes, pixels: the width of a head and a small gap.
-const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
+const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * SHAFT_WIDTH;
 
 /// Moves each arrow that overlaps an earlier arrow sideways, by one or two arrow widths to its left or right. Without
 /// enough space, the arrow is not moved.

@@ -8,7 +8,7 @@ use crate::geometry::{Bounds, Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
 /// Space beyond the tip of an arrow for its name: width and height, pixels.
-const NAMED: (f64, f64) = (38.0, 24.0);
+const NAME_SPACE: (f64, f64) = (38.0, 24.0);
 
 /// Returns the bodies that touch a block, without duplicates.
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
@@ -183,10 +183,10 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
         let (right, floor) = (shown.at.x + shown.width, shown.at.y + shown.height);
         for end in ends {
             let beyond = [
-                shown.at.x - end.x + NAMED.0,
-                shown.at.y - end.y + NAMED.1,
-                end.x - right + NAMED.0,
-                end.y - floor + NAMED.1,
+                shown.at.x - end.x + NAME_SPACE.0,
+                shown.at.y - end.y + NAME_SPACE.1,
+                end.x - right + NAME_SPACE.0,
+                end.y - floor + NAME_SPACE.1,
             ];
             for (pad, more) in pads.iter_mut().zip(beyond) {
                 *pad = pad.max(more);

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 /// Length of the longest arrow, pixels.
 pub(super) const MAX_LENGTH: f64 = 64.0;
 /// Width of a shaft, pixels.
-pub(super) const WIDTH: f64 = 2.4;
+pub(super) const SHAFT_WIDTH: f64 = 2.4;
 
 /// An arrow on the page.
 #[derive(Clone, Debug)]

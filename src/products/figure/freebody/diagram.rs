@@ -5,7 +5,7 @@ use super::super::option::{Corners, Options};
 use super::super::unit::unit;
 use super::apart::apart;
 use super::around::{aside, corners, distinct, inward};
-use super::arrow::{Arrow, MAX_LENGTH, WIDTH};
+use super::arrow::{Arrow, MAX_LENGTH, SHAFT_WIDTH};
 use super::force::{Detail, Force, detail, largest};
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::Camera;
@@ -118,7 +118,7 @@ impl Diagram<'_> {
                 at: force.at,
                 along: (0.0, 0.0),
                 turn: None,
-                width: WIDTH,
+                width: SHAFT_WIDTH,
                 colour: force.colour,
                 hollow: matches!(force.what, "Load" | "Torque of a load"),
             };
@@ -179,7 +179,7 @@ impl Diagram<'_> {
                     at: corner.at,
                     along: self.on_page(direction, length),
                     turn: None,
-                    width: WIDTH,
+                    width: SHAFT_WIDTH,
                     colour: self.options.theme.ink,
                     hollow: false,
                 });

@@ -1,13 +1,13 @@
 //! Draws the lower part of a free-body diagram: the verdict, the scale of the arrows, notes, and the list of forces.
 
-use super::arrow::WIDTH;
+use super::arrow::SHAFT_WIDTH;
 use super::diagram::longest;
 use super::force::largest;
 use super::table::Table;
 use super::value::{self, Piece, rows};
-use super::{AMOUNT, MARGIN, Sheet};
+use super::{LIST_SIZE, MARGIN, Sheet};
 use crate::drawing::{Anchor, Face, Group, Item, PagePoint, Text, text};
-use crate::figure::arrow::{LEAST_SEEN, round_above};
+use crate::figure::arrow::{MIN_VISIBLE_ARROW, round_above};
 use crate::figure::legend;
 use crate::figure::option::Corners;
 use crate::figure::unit::unit;
@@ -45,17 +45,17 @@ impl Sheet<'_> {
         }
         y += 12.0;
         let top = PagePoint::new(middle, y);
-        let (list, height) = self.table().draw(top, room, AMOUNT, theme);
+        let (list, height) = self.table().draw(top, room, LIST_SIZE, theme);
         group.items.push(list.into());
         y += height + 6.0;
         if self.guides() {
             let values = value::places(self.analysis, self.block, &self.contacts);
-            for row in rows(&values, AMOUNT, room) {
-                y += 1.55 * AMOUNT;
-                let wide: f64 = value::width(&row, AMOUNT);
+            for row in rows(&values, LIST_SIZE, room) {
+                y += 1.55 * LIST_SIZE;
+                let wide: f64 = value::width(&row, LIST_SIZE);
                 let mut at = PagePoint::new(middle - wide / 2.0, y);
                 for piece in row {
-                    let (items, width) = piece.draw(at, AMOUNT, theme);
+                    let (items, width) = piece.draw(at, LIST_SIZE, theme);
                     group.items.extend(items);
                     at = at.moved(width, 0.0);
                 }
@@ -105,7 +105,7 @@ impl Sheet<'_> {
             let length = amount / largest * longest;
             legend::Entry::Scale(
                 length,
-                WIDTH,
+                SHAFT_WIDTH,
                 quantity(amount, self.analysis.scene.units.force()),
             )
         })
@@ -123,7 +123,7 @@ impl Sheet<'_> {
             let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
             let longest = longest(self.analysis, self.block, &self.camera);
             let amount = quantity(
-                round_above(largest * LEAST_SEEN / longest),
+                round_above(largest * MIN_VISIBLE_ARROW / longest),
                 self.analysis.scene.units.force(),
             );
             let forces = if unseen == 1 { "force" } else { "forces" };

@@ -1,7 +1,7 @@
 //! Writes the heading of a free-body diagram: the title of the scene, the name of the block, and the step of the
 //! construction.
 
-use super::{HEADING, MARGIN, SUBHEADING};
+use super::{HEADING_SIZE, MARGIN, SUBHEADING_SIZE};
 use crate::analysis::Analysis;
 use crate::drawing::{Face, text};
 use crate::figure::option::Options;
@@ -37,8 +37,8 @@ pub(super) fn heading(
     };
     let mut lines = Vec::new();
     if !scene.title.is_empty() {
-        lines.extend(broken(&scene.title, 3, Face::SerifBold, HEADING));
+        lines.extend(broken(&scene.title, 3, Face::SerifBold, HEADING_SIZE));
     }
-    lines.extend(broken(&which, 3, Face::Serif, SUBHEADING));
+    lines.extend(broken(&which, 3, Face::Serif, SUBHEADING_SIZE));
     lines
 }

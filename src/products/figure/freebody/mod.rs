@@ -37,23 +37,23 @@ use crate::geometry::{Bounds, Polygon};
 use crate::scene::{BlockId, BodyId};
 
 /// Font size of names in the drawing, pixels.
-const NAME: f64 = 19.0;
+const NAME_SIZE: f64 = 19.0;
 /// Font size of the list below it, pixels.
-const AMOUNT: f64 = 15.0;
+const LIST_SIZE: f64 = 15.0;
 /// Font size of the heading, pixels.
-const HEADING: f64 = 20.0;
+const HEADING_SIZE: f64 = 20.0;
 /// Font size of the line below the heading, pixels.
-const SUBHEADING: f64 = 15.0;
+const SUBHEADING_SIZE: f64 = 15.0;
 /// Largest width and height of a picture, pixels.
-const LARGEST: f64 = 440.0;
+const MAX_PICTURE_SIZE: f64 = 440.0;
 /// Space to the left of the picture for axes and names of coordinates, pixels.
-const ASIDE: f64 = 74.0;
+const SPACE_LEFT: f64 = 74.0;
 /// Space below the picture for axes and names of coordinates, pixels.
-const BELOW: f64 = 58.0;
+const SPACE_BELOW: f64 = 58.0;
 /// Margin of the page, pixels.
 const MARGIN: f64 = 24.0;
 /// Width of the page if the options give none, pixels.
-const PAGE: f64 = 2.0 * MARGIN + ASIDE + LARGEST;
+const DEFAULT_WIDTH: f64 = 2.0 * MARGIN + SPACE_LEFT + MAX_PICTURE_SIZE;
 
 /// Draws the free-body diagram of a block of a frame. Frames are counted from 0. Returns `None` if the frame does not
 /// exist or does not contain the block.
@@ -116,19 +116,19 @@ impl<'a> Sheet<'a> {
         let touches = |c: &&Contact| c.interface.bodies.contains(&BodyId::Block(block));
         let contacts: Vec<&Contact> = found.contacts.iter().filter(touches).collect();
         let view = view(analysis, block, &contacts);
-        let width = options.width.unwrap_or(PAGE);
+        let width = options.width.unwrap_or(DEFAULT_WIDTH);
         let heading = heading(analysis, frame, block, options, width);
         let high: f64 = heading.iter().map(|h| 1.2 * h.2).sum();
         let top = MARGIN + if heading.is_empty() { 0.0 } else { high + 10.0 };
         let forces = forces(analysis, frame, block, &contacts, options);
         let guided = guided(analysis, frame, block, &contacts);
-        let left = if guided { MARGIN + ASIDE } else { MARGIN };
+        let left = if guided { MARGIN + SPACE_LEFT } else { MARGIN };
         let room = (width - MARGIN - left).max(60.0);
         // Arrows and their names need margins (`pads`) around the shown part of the scene. Compute the scale for the
         // space between these margins.
         let fitted = |pads: [f64; 4]| {
             let across = (room - pads[0] - pads[2]).max(40.0) / view.width();
-            let scale = across.min(LARGEST / view.height());
+            let scale = across.min(MAX_PICTURE_SIZE / view.height());
             let scale = if scale.is_finite() { scale } else { 1.0 };
             let spare = room - pads[0] - pads[2] - view.width() * scale;
             let at = PagePoint::new(left + pads[0] + spare.max(0.0) / 2.0, top + pads[1]);
@@ -201,7 +201,7 @@ impl<'a> Sheet<'a> {
         items.push(self.axes(&mut ink).into());
         let (names, nameless) = self.names(&mut ink, &requests);
         items.push(names.into());
-        let (values, end) = self.values(self.floor() + BELOW + 8.0, nameless);
+        let (values, end) = self.values(self.floor() + SPACE_BELOW + 8.0, nameless);
         items.push(values.into());
         Drawing {
             width: self.width.ceil(),

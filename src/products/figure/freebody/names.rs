@@ -1,7 +1,7 @@
 //! Places the names of forces, coordinates and bodies of a free-body diagram, so that they do not cover other shapes.
 
 use super::around::{neighbours, runs_on};
-use super::{BELOW, NAME, Sheet};
+use super::{NAME_SIZE, SPACE_BELOW, Sheet};
 use crate::drawing::placement::{Ink, LabelRequest, place, place_avoiding};
 use crate::drawing::symbol::Symbol;
 use crate::drawing::{Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
@@ -41,7 +41,7 @@ impl Sheet<'_> {
         PageRect {
             at: PagePoint::new(4.0, self.picture.at.y - 6.0),
             width: self.width - 8.0,
-            height: self.picture.height + BELOW + 2.0,
+            height: self.picture.height + SPACE_BELOW + 2.0,
         }
     }
 
@@ -64,7 +64,7 @@ impl Sheet<'_> {
             if let Some(leader) = placed.leader {
                 label = label.with(self.leader(leader));
             }
-            let label = label.with(symbol.draw(placed.rect, NAME, self.options.theme.ink));
+            let label = label.with(symbol.draw(placed.rect, NAME_SIZE, self.options.theme.ink));
             group.items.push(label.into());
         }
         nameless
@@ -83,7 +83,10 @@ impl Sheet<'_> {
         let request = LabelRequest {
             anchor: self.camera.place(polygon.centroid()),
             first_ring: 4.0,
-            size: (text::width(name, Face::SerifItalic, NAME), 0.96 * NAME),
+            size: (
+                text::width(name, Face::SerifItalic, NAME_SIZE),
+                0.96 * NAME_SIZE,
+            ),
             preferred: self.inside(polygon),
             padding: 8.0,
             max_distance: own.then_some(f64::INFINITY),
@@ -111,8 +114,14 @@ impl Sheet<'_> {
         if let Some(leader) = placed.leader {
             group.items.push(self.leader(leader).into());
         }
-        let at = placed.rect.at.moved(0.0, 0.8 * NAME);
-        let words = Text::new(at, name, Face::SerifItalic, NAME, self.options.theme.faint);
+        let at = placed.rect.at.moved(0.0, 0.8 * NAME_SIZE);
+        let words = Text::new(
+            at,
+            name,
+            Face::SerifItalic,
+            NAME_SIZE,
+            self.options.theme.faint,
+        );
         let label = Group::with_class("name").with(words);
         group.items.push(label.into());
         true

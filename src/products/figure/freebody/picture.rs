@@ -3,18 +3,18 @@
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;
-use super::{BELOW, MARGIN, NAME, Sheet};
+use super::{MARGIN, NAME_SIZE, SPACE_BELOW, Sheet};
 use crate::drawing::arrow::{straight, turning};
 use crate::drawing::hatch::{hatch, lines};
 use crate::drawing::placement::{Ink, LabelRequest};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke};
-use crate::figure::arrow::LEAST_SEEN;
+use crate::figure::arrow::MIN_VISIBLE_ARROW;
 use crate::geometry::{Point, Polygon};
 use crate::scene::BodyId;
 
 /// Distance of hatching lines, pixels.
-const HATCH: f64 = 7.0;
+const HATCH_SPACING: f64 = 7.0;
 
 impl Sheet<'_> {
     /// Draws the outlines of the bodies that touch the block. Ground is hatched.
@@ -33,7 +33,7 @@ impl Sheet<'_> {
             if let BodyId::Ground(_) = body {
                 let ring = |ring: &Vec<Point>| ring.iter().map(|p| self.camera.place(*p)).collect();
                 let rings: Vec<Vec<PagePoint>> = polygon.rings().iter().map(ring).collect();
-                let hatching = hatch(&rings, page, HATCH);
+                let hatching = hatch(&rings, page, HATCH_SPACING);
                 for [from, to] in hatching.iter().filter_map(|line| page.part_of(*line)) {
                     ink.line(from, to, 0.8);
                 }
@@ -101,7 +101,7 @@ impl Sheet<'_> {
                 group = group.with(Path::stroked(Outline::line([end, p]), dash()));
                 ink.line(end, p, 1.2);
                 let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
-                let (wide, high) = symbol.size(NAME);
+                let (wide, high) = symbol.size(NAME_SIZE);
                 // Names that would overlap on the axis get different distances from it (rows).
                 let place = |row: f64| match axis {
                     "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
@@ -127,7 +127,7 @@ impl Sheet<'_> {
     pub(super) fn seen(arrow: &Arrow) -> bool {
         let (x, y) = arrow.along;
         let length = libm::hypot(x, y);
-        arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
+        arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= MIN_VISIBLE_ARROW
     }
 
     /// Draws the arrows of the forces and torques that are long enough to be visible. Adds the names of the forces to
@@ -161,7 +161,7 @@ impl Sheet<'_> {
             let Some(symbol) = &arrow.symbol else {
                 continue;
             };
-            let (wide, high) = symbol.size(NAME);
+            let (wide, high) = symbol.size(NAME_SIZE);
             requests.push((
                 symbol.clone(),
                 LabelRequest {
@@ -182,7 +182,12 @@ impl Sheet<'_> {
         let theme = &self.options.theme;
         let origin = PagePoint::new(
             MARGIN + 4.0,
-            self.floor() + if self.guides() { 30.0 } else { BELOW - 4.0 },
+            self.floor()
+                + if self.guides() {
+                    30.0
+                } else {
+                    SPACE_BELOW - 4.0
+                },
         );
         let mut group = Group::with_class("axes").titled("Axes: x to the right, y up");
         let ends = [
@@ -193,7 +198,7 @@ impl Sheet<'_> {
             ink.arrow(origin, along, 1.4);
             group = group.with(Path::filled(straight(origin, along, 1.4), theme.ink));
             let symbol = Symbol::new(name, Accent::None, "");
-            let (wide, high) = symbol.size(NAME);
+            let (wide, high) = symbol.size(NAME_SIZE);
             let at = origin.moved(
                 along.0 + beyond.0 - wide / 2.0,
                 along.1 + beyond.1 - 0.62 * high,
@@ -204,7 +209,7 @@ impl Sheet<'_> {
                 height: high,
             };
             ink.rect(rect);
-            group = group.with(symbol.draw(rect, NAME, theme.ink));
+            group = group.with(symbol.draw(rect, NAME_SIZE, theme.ink));
         }
         group
     }

@@ -13,17 +13,17 @@ use crate::scene::Unit;
 use crate::scene::format::UnitsEntry;
 
 /// Space between columns, pixels.
-const BETWEEN: f64 = 14.0;
+const COLUMN_GAP: f64 = 14.0;
 /// Height of a row, as a multiple of the font size.
-const ROW: f64 = 1.6;
+const ROW_HEIGHT: f64 = 1.6;
 /// Largest number of lines of a name that is too long for its column …
-const MOST_LINES: usize = 4;
+const MAX_NAME_LINES: usize = 4;
 /// … and the distance of its lines, as a multiple of the font size.
-const PITCH: f64 = 1.15;
+const LINE_PITCH: f64 = 1.15;
 /// Significant digits of the largest amount of a column.
 const DIGITS: i32 = 4;
 /// Moments below this share of the largest force times the block's size count as zero.
-const NOISE: f64 = 1e-9;
+const MOMENT_TOL: f64 = 1e-9;
 
 /// The forces on a block, row by row.
 pub(super) struct Table {
@@ -87,7 +87,7 @@ impl Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
             let moment = f.moment(centroid);
-            if moment.abs() <= NOISE * most * size {
+            if moment.abs() <= MOMENT_TOL * most * size {
                 0.0
             } else {
                 moment
@@ -171,9 +171,9 @@ impl Table {
             let (items, lines) = writer.row(row, y);
             group.items.extend(items);
             for _ in 1..lines {
-                y += PITCH * size;
+                y += LINE_PITCH * size;
             }
-            y += ROW * size;
+            y += ROW_HEIGHT * size;
         }
         // `y` is the baseline of a further row. Subtract most of it, so that only half a row of space remains below the
         // table.
@@ -211,21 +211,21 @@ impl Columns {
                 numbers.fold(named(symbol).max(wide(unit)), f64::max)
             })
             .collect();
-        let numbers = names + widths.iter().map(|c| c + BETWEEN).sum::<f64>();
-        let left_over = (room - numbers - BETWEEN).max(0.0);
+        let numbers = names + widths.iter().map(|c| c + COLUMN_GAP).sum::<f64>();
+        let left_over = (room - numbers - COLUMN_GAP).max(0.0);
         let froms = table.rows.iter().map(|r| wide(&r.from));
         let from_width = froms.fold(wide("from"), f64::max).min(left_over);
-        let total = numbers + BETWEEN + from_width;
+        let total = numbers + COLUMN_GAP + from_width;
         let left = middle - total / 2.0;
         let mut edge = left + names;
         let edges = widths.iter().map(|width| {
-            edge += BETWEEN + width;
+            edge += COLUMN_GAP + width;
             edge
         });
         Columns {
             left,
             numbers: edges.collect(),
-            from: edge + BETWEEN,
+            from: edge + COLUMN_GAP,
             from_width,
             total,
         }
@@ -276,7 +276,11 @@ impl TableWriter<'_> {
         let lines = in_lines(&row.from, columns.from_width + 0.5, self.size);
         let mut y = y;
         for (number, line) in lines.iter().enumerate() {
-            y += if number > 0 { PITCH * self.size } else { 0.0 };
+            y += if number > 0 {
+                LINE_PITCH * self.size
+            } else {
+                0.0
+            };
             items.push(self.words(columns.from, y, line, Anchor::Start));
         }
         (items, lines.len().max(1))
@@ -304,7 +308,7 @@ impl TableWriter<'_> {
     }
 }
 
-/// Breaks a name into lines of at most `room` pixels. If the name needs more than [`MOST_LINES`] lines, it is
+/// Breaks a name into lines of at most `room` pixels. If the name needs more than [`MAX_NAME_LINES`] lines, it is
 /// shortened.
 fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
     if text::width(name, Face::Serif, size) <= room {
@@ -312,5 +316,5 @@ fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
     }
     let words = name.replace(text::NO_BREAK, " ");
     let lines = text::wrap(&words, Face::Serif, size, room);
-    text::cut(lines, MOST_LINES, Face::Serif, size, room)
+    text::cut(lines, MAX_NAME_LINES, Face::Serif, size, room)
 }

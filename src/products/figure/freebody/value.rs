@@ -8,7 +8,7 @@ use crate::drawing::{Face, Item, PagePoint, PageRect, Text, Theme, text};
 use crate::scene::BlockId;
 
 /// Space between values in a row, pixels.
-const BETWEEN: f64 = 26.0;
+const VALUE_GAP: f64 = 26.0;
 
 /// A part of a line: a symbol, text or a gap.
 #[derive(Clone)]
@@ -23,7 +23,7 @@ impl Piece {
         match self {
             Piece::Symbol(symbol) => symbol.size(size).0,
             Piece::Words(words) => text::width(words, Face::Serif, size),
-            Piece::Gap => BETWEEN,
+            Piece::Gap => VALUE_GAP,
         }
     }
 
@@ -67,7 +67,7 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
     let mut rows: Vec<Vec<Piece>> = Vec::new();
     for value in values {
         match rows.last_mut() {
-            Some(row) if width(row, size) + BETWEEN + width(value, size) <= room => {
+            Some(row) if width(row, size) + VALUE_GAP + width(value, size) <= room => {
                 row.push(Piece::Gap);
                 row.extend(value.iter().cloned());
             }

@@ -9,10 +9,10 @@ use crate::drawing::{Colour, Face, PagePoint, text};
 use crate::scene::BodyId;
 
 /// Approximate largest number of magnitudes of loads and missing forces in frames with many blocks.
-const MAX_WRITTEN: usize = 16;
+const MAX_AMOUNTS: usize = 16;
 /// Forces whose relative difference is below this count as equal. The value is ten times the tolerance of a proof of
 /// equilibrium.
-pub(crate) const SAME_FORCE: f64 = 1e-6;
+pub(crate) const EQUAL_FORCE_TOL: f64 = 1e-6;
 
 /// A text at a point of a picture.
 pub(crate) struct Callout {
@@ -148,7 +148,7 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
         own.reduce(|most, a| {
             // If several forces are equal except for rounding, take the first of them, so that rounding errors do not
             // move a label.
-            if a.force.norm() > (1.0 + SAME_FORCE) * most.force.norm() {
+            if a.force.norm() > (1.0 + EQUAL_FORCE_TOL) * most.force.norm() {
                 a
             } else {
                 most
@@ -161,7 +161,7 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
 }
 
 /// Returns the magnitude, in newtons, from which loads and missing forces have labels. It is 0 if `few` is true (the
-/// frame has few blocks). Otherwise it is chosen so that about `MAX_WRITTEN` of them have labels.
+/// frame has few blocks). Otherwise it is chosen so that about `MAX_AMOUNTS` of them have labels.
 fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     if few {
         return 0.0;
@@ -170,7 +170,7 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     let given = arrows.filter(|a| a.kind == ArrowKind::Load || a.kind.is_failure());
     let mut amounts: Vec<f64> = given.map(|a| a.force.norm()).collect();
     amounts.sort_by(|a, b| b.total_cmp(a));
-    amounts.get(MAX_WRITTEN).copied().unwrap_or(0.0)
+    amounts.get(MAX_AMOUNTS).copied().unwrap_or(0.0)
 }
 
 /// Returns the preferred centres of a label on the page: on both sides of the arrow's shaft, and beyond its tip. The

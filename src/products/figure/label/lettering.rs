@@ -15,7 +15,7 @@ const MAX_LINES: usize = 3;
 /// Distance of the lines of a name, as a multiple of the font size.
 const LINE_PITCH: f64 = 1.1;
 /// The prefix of a code point, which replaces a character that no font has.
-const SPELLED: &str = "U+";
+const CODE_POINT_PREFIX: &str = "U+";
 /// Height of a line, as a multiple of the font size.
 pub(super) const LINE_HEIGHT: f64 = 0.96;
 
@@ -67,7 +67,7 @@ pub(super) fn broken(label: Label, across: f64) -> Label {
     if label.request.size.0 <= across {
         return label;
     }
-    let (name, most) = match name.contains(SPELLED) {
+    let (name, most) = match name.contains(CODE_POINT_PREFIX) {
         true => (name.replace(text::NO_BREAK, " "), 2 * MAX_LINES),
         false => (name, MAX_LINES),
     };

@@ -18,7 +18,7 @@ const INSET: f64 = 4.0;
 /// Length of a block's edge for the font size of its name, as a share of the square root of its area.
 const EDGE_SHARE: f64 = 0.6;
 /// If the edge of a block is longer than this, in unit edges, its name has a larger font size.
-const LARGE_BLOCK: f64 = 3.0;
+const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 
 /// Returns the font size of a block's name, pixels. `edge` is the length of an edge of the block in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
@@ -38,7 +38,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let own = pen
         .camera
         .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
-    let size = if own > LARGE_BLOCK * pen.unit() {
+    let size = if own > MIN_LARGE_BLOCK_EDGE * pen.unit() {
         name_size(pen, own)
     } else {
         name_size(pen, pen.unit())

@@ -19,7 +19,7 @@ pub(super) fn names(text: &str, name: &str) -> bool {
         (ends_in_digit && goes_on)
             || (begins_with_digit && began)
             || (ends_in_digit && rest.starts_with('°'))
-            || (ends_in_digit && COUNTED.contains(&word.unwrap_or_default()))
+            || (ends_in_digit && COUNTED_NOUNS.contains(&word.unwrap_or_default()))
     };
     !name.is_empty()
         && text.match_indices(name).any(|(at, _)| {
@@ -29,7 +29,7 @@ pub(super) fn names(text: &str, name: &str) -> bool {
 }
 
 /// The words after a number in the text below a frame if the number is not a name.
-const COUNTED: [&str; 28] = [
+const COUNTED_NOUNS: [&str; 28] = [
     "N",
     "nN",
     "µN",

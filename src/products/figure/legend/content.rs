@@ -1,6 +1,6 @@
 //! Creates the entries of the legend for all symbols that occur in a figure.
 
-use super::super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks, TurnKind};
+use super::super::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, Marks, TurnKind};
 use super::super::context::FigureContext;
 use super::super::description;
 use super::super::limit;
@@ -8,7 +8,7 @@ use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
 use super::super::words::{counted, quantity, round_below_in};
 use super::entry::Entry;
-use super::sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
+use super::sign::{SAMPLE_LENGTH, load_dot, load_sign, missing_dot, weight_sign};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
 use crate::scene::format::UnitsEntry;
@@ -16,7 +16,7 @@ use crate::scene::format::UnitsEntry;
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
 /// The arrow of a torque has a least length, so that its direction is visible.
-const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
+const TURN_SCALE_TEXT: &str = "turning loads by their amounts, small ones drawn larger";
 /// Largest number of blocks that the legend names. With more blocks, it shows only the colours.
 const MAX_NAMED_BLOCKS: usize = 6;
 /// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.
@@ -38,7 +38,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         && drawn.any(|kind| kind == ArrowKind::Weight)
     {
         let words = "weight, from the centroid".to_owned();
-        entries.push(Entry::Sign(weight_sign, SAMPLE, words));
+        entries.push(Entry::Sign(weight_sign, SAMPLE_LENGTH, words));
     }
     if !options.printed() && !drawn.too_small {
         entries.extend(limits(context));
@@ -86,7 +86,7 @@ impl<'a> DrawnArrows<'a> {
     }
 
     fn is_seen(&self, arrow: &ForceArrow) -> bool {
-        arrow.reach().norm() * self.scale >= LEAST_SEEN
+        arrow.reach().norm() * self.scale >= MIN_VISIBLE_ARROW
     }
 
     /// True if the figure shows an arrow for which `kind` is true, so that the legend has to explain it. False if the
@@ -182,7 +182,7 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
     let any = frames.any(|found| !limit::reached(scene, found).is_empty());
-    any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::MEANING.to_owned()))
+    any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::LEGEND_TEXT.to_owned()))
 }
 
 /// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.
@@ -197,7 +197,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let unit = scene.units.force();
     let (least, most) = (quantity(least, unit), quantity(most, unit));
     let words = match amounts.len() {
-        0 if turns => return Some(Entry::Note(TURNING.into())),
+        0 if turns => return Some(Entry::Note(TURN_SCALE_TEXT.into())),
         0 => return None,
         1 => format!("load of {most}"),
         n if least == most => format!("{n} loads of {most} each"),
@@ -208,11 +208,11 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         false => words,
     };
     let words = if turns {
-        format!("{words}; {TURNING}")
+        format!("{words}; {TURN_SCALE_TEXT}")
     } else {
         words
     };
-    Some(Entry::Sign(load_sign, SAMPLE, words))
+    Some(Entry::Sign(load_sign, SAMPLE_LENGTH, words))
 }
 
 /// True if, in at least one frame, an arrow of a load is drawn at a larger scale than other forces.

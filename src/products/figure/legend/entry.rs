@@ -3,9 +3,9 @@
 use super::sign::{self, BAR_LENGTH, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
-const COLOURS: &str = "the forces on a block share a colour";
-const PLANNED: &str = "planned block";
-const MISSING: &str = "missing force, without which it falls";
+const COLOURS_TEXT: &str = "the forces on a block share a colour";
+const PLANNED_TEXT: &str = "planned block";
+const MISSING_TEXT: &str = "missing force, without which it falls";
 
 /// An entry of the legend.
 pub(crate) enum Entry {
@@ -107,10 +107,10 @@ impl Entry {
     pub(super) fn words(&self) -> String {
         match self {
             Entry::Blocks(_) => String::new(),
-            Entry::Colours(_) => COLOURS.to_owned(),
+            Entry::Colours(_) => COLOURS_TEXT.to_owned(),
             Entry::Robot(_, id) => robot(id),
-            Entry::Planned(_) => PLANNED.to_owned(),
-            Entry::Missing => MISSING.to_owned(),
+            Entry::Planned(_) => PLANNED_TEXT.to_owned(),
+            Entry::Missing => MISSING_TEXT.to_owned(),
             Entry::Amplitudes(_, words, _)
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)

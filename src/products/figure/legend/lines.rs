@@ -5,9 +5,9 @@ use super::sign::written;
 use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
 
 /// Distance of the lines of an entry that needs several lines, as a multiple of the font size.
-const WRAPPED_LINE: f64 = 1.25;
+const WRAPPED_LINE_HEIGHT: f64 = 1.25;
 /// Smallest width of the text of an entry, pixels.
-const MIN_WORDS_WIDTH: f64 = 60.0;
+const MIN_TEXT_WIDTH: f64 = 60.0;
 /// Gap between the entries of a line, pixels.
 const ENTRY_GAP: f64 = 28.0;
 
@@ -35,7 +35,7 @@ impl<'e> Laid<'e> {
     fn new(entry: &'e Entry, room: f64, theme: &Theme) -> Laid<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
         let sign = entry.sign_width(theme);
-        let left = (room - sign).max(MIN_WORDS_WIDTH);
+        let left = (room - sign).max(MIN_TEXT_WIDTH);
         let lines = text::balanced(&glued(&words), Face::Sans, size, left, usize::MAX);
         let lines: Vec<String> = lines
             .iter()
@@ -53,7 +53,7 @@ impl<'e> Laid<'e> {
 
     /// Returns the additional height of the entry, pixels, compared with an entry of one text line.
     fn extra_height(&self, theme: &Theme) -> f64 {
-        self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE * theme.sizes.key
+        self.lines.len().saturating_sub(1) as f64 * WRAPPED_LINE_HEIGHT * theme.sizes.key
     }
 
     /// Draws the entry with all its text lines. `at` is the middle of its left edge on the page.
@@ -64,7 +64,7 @@ impl<'e> Laid<'e> {
             -0.5 * self.extra_height(theme),
         );
         for (number, line) in self.lines.iter().enumerate() {
-            let down = number as f64 * WRAPPED_LINE * theme.sizes.key;
+            let down = number as f64 * WRAPPED_LINE_HEIGHT * theme.sizes.key;
             items.push(written(line, first.moved(0.0, down), theme));
         }
         items

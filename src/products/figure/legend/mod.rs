@@ -12,9 +12,9 @@ pub(crate) use lines::draw;
 use crate::drawing::{Item, PagePoint, Theme};
 
 /// Height of a line of the legend, as a multiple of its font size.
-pub(crate) const LINE: f64 = 2.08;
+pub(crate) const LINE_HEIGHT: f64 = 2.08;
 /// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
-pub(crate) const NARROW_LINE: f64 = 1.7;
+pub(crate) const NARROW_LINE_HEIGHT: f64 = 1.7;
 
 /// Joins several legends into one without duplicate entries. If the legends assign the colours of arrows to different
 /// blocks, the result shows the colours without names of blocks.

@@ -7,7 +7,7 @@ use crate::drawing::{
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
-pub(super) const SAMPLE: f64 = 26.0;
+pub(super) const SAMPLE_LENGTH: f64 = 26.0;
 /// Distance of the centre of a disc from the left end of its sign, pixels.
 pub(super) const SIGN_GAP: f64 = 9.0;
 /// Length of a line in the legend, pixels.
@@ -129,7 +129,7 @@ pub(super) fn metres(length: f64, at: PagePoint, theme: &Theme) -> Item {
 
 pub(super) fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let (colour, from) = (theme.arrow(1), at.moved(4.0, 0.0));
-    let arrow = straight(from, (SAMPLE - 4.0, 0.0), 2.6);
+    let arrow = straight(from, (SAMPLE_LENGTH - 4.0, 0.0), 2.6);
     let ring = Outline::circle(from, CENTROID_RADIUS * 2.6);
     vec![
         Path::filled(arrow, colour).into(),
@@ -140,7 +140,7 @@ pub(super) fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 pub(super) fn load_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let arrow = straight(at, (SAMPLE, 0.0), 3.4);
+    let arrow = straight(at, (SAMPLE_LENGTH, 0.0), 3.4);
     vec![
         Path::filled(arrow, theme.page)
             .with_stroke(Stroke::new(theme.load, 1.2))

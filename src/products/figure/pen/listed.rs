@@ -6,11 +6,11 @@ use crate::drawing::{Group, Outline, Path, Stroke};
 use crate::geometry::{Point, Vector};
 
 /// Length of a normal in unit edges. The friction cone has the same length.
-const NORMAL: f64 = 0.75;
+const NORMAL_LENGTH: f64 = 0.75;
 /// Length of the head of a normal, as a share of the normal.
-const HEAD: f64 = 0.18;
+const HEAD_SHARE: f64 = 0.18;
 /// Radius of the dot of a contact or a centre, pixels.
-const DOT: f64 = 2.2;
+const DOT_RADIUS: f64 = 2.2;
 
 impl Pen<'_> {
     /// Draws each contact of the frame that the scene lists: a dot with its normal and its friction cone. The group is
@@ -22,7 +22,7 @@ impl Pen<'_> {
             return group;
         }
         let line = |ends: &[Point]| Outline::line(ends.iter().map(|p| self.camera.place(*p)));
-        let long = NORMAL * self.context.unit;
+        let long = NORMAL_LENGTH * self.context.unit;
         for contact in &self.context.analysis.frames[self.number].contacts {
             let interface = &contact.interface;
             let (at, normal) = (interface.middle(), interface.normal);
@@ -31,8 +31,9 @@ impl Pen<'_> {
                 at + edge.normalize() * long
             });
             let tip = at + normal * long;
-            let head = [1.0, -1.0]
-                .map(|side| tip - (normal + interface.tangent() * (0.5 * side)) * (HEAD * long));
+            let head = [1.0, -1.0].map(|side| {
+                tip - (normal + interface.tangent() * (0.5 * side)) * (HEAD_SHARE * long)
+            });
             let mut arrow = line(&[at, tip]);
             arrow.extend(line(&[head[0], tip, head[1]]));
             let title = format!(
@@ -47,7 +48,7 @@ impl Pen<'_> {
                 .with(Path::stroked(line(&[left, at, right]), cone))
                 .with(Path::stroked(arrow, Stroke::new(theme.ink, self.line)))
                 .with(Path::filled(
-                    Outline::circle(self.camera.place(at), DOT),
+                    Outline::circle(self.camera.place(at), DOT_RADIUS),
                     theme.ink,
                 ));
             group.items.push(drawn.into());
@@ -58,14 +59,14 @@ impl Pen<'_> {
     /// Returns the symbol of the point at which the weight of a block acts: a circle with a cross.
     pub(super) fn centre(&self, at: Point) -> Path {
         let (theme, at) = (&self.context.options.theme, self.camera.place(at));
-        let mut mark = Outline::circle(at, 2.0 * DOT);
+        let mut mark = Outline::circle(at, 2.0 * DOT_RADIUS);
         mark.extend(Outline::line([
-            at.moved(-2.0 * DOT, 0.0),
-            at.moved(2.0 * DOT, 0.0),
+            at.moved(-2.0 * DOT_RADIUS, 0.0),
+            at.moved(2.0 * DOT_RADIUS, 0.0),
         ]));
         mark.extend(Outline::line([
-            at.moved(0.0, -2.0 * DOT),
-            at.moved(0.0, 2.0 * DOT),
+            at.moved(0.0, -2.0 * DOT_RADIUS),
+            at.moved(0.0, 2.0 * DOT_RADIUS),
         ]));
         Path::stroked(mark, Stroke::new(theme.ink, 0.8 * self.line))
     }

@@ -5,26 +5,28 @@ use core::f64::consts::FRAC_PI_2;
 use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, MISSING_RADIUS, Pen};
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
-use crate::figure::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind, from_arrow};
+use crate::figure::arrow::{
+    ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, from_arrow,
+};
 use crate::figure::by_colour::ByColour;
 use crate::figure::description;
 use crate::geometry::Vector;
 use crate::scene::BodyId;
 
 /// Radius of the arrow of a torque in unit edges, larger than a robot's disc.
-const TURN: f64 = 0.46;
+const TURN_RADIUS: f64 = 0.46;
 /// Least angle of the arrow of a load's torque, radians.
-const LEAST_SWEEP: f64 = 1.2;
+const MIN_SWEEP: f64 = 1.2;
 
 impl Pen<'_> {
     /// True if an arrow is long enough to be visible.
     pub(crate) fn seen(&self, arrow: &ForceArrow) -> bool {
-        self.camera.length(arrow.reach().norm()) >= LEAST_SEEN
+        self.camera.length(arrow.reach().norm()) >= MIN_VISIBLE_ARROW
     }
 
     /// True if the arrow of a torque is long enough to be visible. Always true for torques of loads.
     pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
-        self.camera.length(turn.arc.abs()) >= LEAST_SEEN || turn.kind == TurnKind::Load
+        self.camera.length(turn.arc.abs()) >= MIN_VISIBLE_ARROW || turn.kind == TurnKind::Load
     }
 
     /// Returns the loads and missing forces whose arrows are too small to be visible. Each of them is drawn as a dot at
@@ -120,7 +122,7 @@ impl Pen<'_> {
     }
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
-        let radius = TURN * self.context.unit;
+        let radius = TURN_RADIUS * self.context.unit;
         let sweep = self.sweep(turn, radius);
         let outline = turning(
             self.camera.place(turn.at),
@@ -140,7 +142,7 @@ impl Pen<'_> {
         if turn.kind != TurnKind::Load || turn.torque == 0.0 {
             return sweep;
         }
-        sweep.abs().max(LEAST_SWEEP).copysign(turn.torque)
+        sweep.abs().max(MIN_SWEEP).copysign(turn.torque)
     }
 
     /// Returns the direction from the centre of a torque arrow to the middle of its arc, radians. The direction is

@@ -10,9 +10,9 @@ use crate::wording::sensitivity::{
 };
 
 /// The longest arrow, as a share of the size of the structure and of the unit edge; the larger one counts.
-const LONGEST: (f64, f64) = (0.09, 0.8);
+const MAX_ARROW_SHARES: (f64, f64) = (0.09, 0.8);
 /// The largest number of numbered changes: in a figure of one frame, and in each panel of a strip.
-const MOST: (usize, usize) = (10, 3);
+const MAX_NUMBERED: (usize, usize) = (10, 3);
 
 /// The arrows and numbers of a frame.
 pub(super) struct Plan {
@@ -61,9 +61,9 @@ impl Plan {
         let (is_high, end) = sensitivity.nearest()?;
         let kind = sensitivity.kind;
         let most = if analysis.frames.len() > 1 {
-            MOST.1
+            MAX_NUMBERED.1
         } else {
-            MOST.0
+            MAX_NUMBERED.0
         };
         let changes = visible(scene, found, (kind, end, is_high), most);
         let outward = if is_high { 1.0 } else { -1.0 };
@@ -154,7 +154,7 @@ pub(super) fn scale(analysis: &Analysis, unit: f64) -> f64 {
         .reduce(Bounds::union);
     let size = structure.map_or(0.0, |b| b.width().max(b.height()));
     match strongest > 0.0 {
-        true => (LONGEST.0 * size).max(LONGEST.1 * unit) / strongest,
+        true => (MAX_ARROW_SHARES.0 * size).max(MAX_ARROW_SHARES.1 * unit) / strongest,
         false => 0.0,
     }
 }

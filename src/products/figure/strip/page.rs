@@ -36,13 +36,13 @@ impl Gaps {
                 below_title: 10.0,
                 above_rule: 11.0,
                 below_rule: 4.0,
-                key_line: legend::NARROW_LINE,
+                key_line: legend::NARROW_LINE_HEIGHT,
             },
             false => Gaps {
                 below_title: 18.0,
                 above_rule: 20.0,
                 below_rule: 8.0,
-                key_line: legend::LINE,
+                key_line: legend::LINE_HEIGHT,
             },
         }
     }

@@ -57,7 +57,7 @@ impl Strip<'_> {
         );
         if context.options.dimensions {
             group = group.with(dimension::lines(context, frame, view, &camera));
-            below.y += dimension::BELOW;
+            below.y += dimension::SPACE_BELOW;
         }
         let (lines, mut below) = self.caption_at(frame, below, place.captions);
         group.items.extend(lines);

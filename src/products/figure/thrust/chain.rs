@@ -12,7 +12,7 @@ const MIN_BLOCKS: usize = 3;
 const MAX_CHAINS: usize = 3;
 /// A chain whose thrust is below this share of its largest force is not drawn. Its rays would nearly lie on the load
 /// line.
-const MIN_THRUST: f64 = 0.15;
+const MIN_THRUST_SHARE: f64 = 0.15;
 
 /// A sequence of blocks from left to right. Forces press on each block in exactly two joints.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
         let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);
         chain.blocks.len() >= MIN_BLOCKS
             && place(ends.0) < place(ends.1)
-            && chain.thrust(across) > MIN_THRUST * chain.largest()
+            && chain.thrust(across) > MIN_THRUST_SHARE * chain.largest()
     });
     chains.sort_by(|a, b| b.thrust(across).total_cmp(&a.thrust(across)));
     chains.truncate(MAX_CHAINS);

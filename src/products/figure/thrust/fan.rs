@@ -16,16 +16,16 @@ use super::super::words::{force, quantity, round_below_in};
 use crate::scene::Unit;
 
 /// Width of the fans, as a share of the structure's width.
-const WIDTH: f64 = 0.42;
+const WIDTH_SHARE: f64 = 0.42;
 /// Height of the fans, as a share of the structure's height; and the gap between two fans.
-const HEIGHT: (f64, f64) = (0.8, 0.2);
+const HEIGHT_AND_GAP_SHARES: (f64, f64) = (0.8, 0.2);
 /// For the size of a fan, the width and the height of the structure count as at least this share of the larger of both.
 /// Otherwise the fan of a high or wide structure would be too narrow.
-const LEAST_SIDE: f64 = 0.7;
+const MIN_SIDE_SHARE: f64 = 0.7;
 /// Space to the left of the pole and to the right of the load line, as a share of the structure's larger side.
-const SPACE: (f64, f64) = (0.1, 0.12);
+const SIDE_SPACE_SHARES: (f64, f64) = (0.1, 0.12);
 /// Least width of the fans with their labels, as a share of the structure's larger side.
-const LEAST_WIDTH: f64 = 0.34;
+const MIN_WIDTH_SHARE: f64 = 0.34;
 /// Size of the numbers and of the amounts, pixels.
 const NUMBER_SIZE: f64 = 9.5;
 const AMOUNT_SIZE: f64 = 11.5;
@@ -33,9 +33,9 @@ const AMOUNT_SIZE: f64 = 11.5;
 /// holds if the rest exceeds this share.
 const ROBOT_TOL: f64 = 1e-6;
 /// Width of the load line, pixels.
-const LOAD_WIDTH: f64 = 1.8;
+const LOAD_LINE_WIDTH: f64 = 1.8;
 /// Least distance of numbers on the load line, pixels.
-const NUMBER_GAP: f64 = 9.0;
+const MIN_NUMBER_GAP: f64 = 9.0;
 
 /// A fan of a chain in the scene.
 struct Fan {
@@ -77,21 +77,21 @@ impl Fans {
         if chains.is_empty() || widest <= 0.0 || high <= 0.0 {
             return None;
         }
-        let side = LEAST_SIDE * structure.width().max(structure.height());
+        let side = MIN_SIDE_SHARE * structure.width().max(structure.height());
         let (width, height) = (structure.width().max(side), structure.height().max(side));
-        let gaps = HEIGHT.1 * height * (boxes.len() - 1) as f64;
-        let metres =
-            (WIDTH * width / widest).min((HEIGHT.0 * height - gaps).max(0.2 * height) / high);
+        let gaps = HEIGHT_AND_GAP_SHARES.1 * height * (boxes.len() - 1) as f64;
+        let metres = (WIDTH_SHARE * width / widest)
+            .min((HEIGHT_AND_GAP_SHARES.0 * height - gaps).max(0.2 * height) / high);
         let right = view::ground_shown(scene, unit)
             .map_or(structure.max.x, |ground| structure.max.x.max(ground.max.x));
         let larger = structure.width().max(structure.height());
-        let left = right + SPACE.0 * larger;
+        let left = right + SIDE_SPACE_SHARES.0 * larger;
         let mut top = structure.max.y;
         let mut fans = Vec::new();
         for (chain, own) in chains.into_iter().zip(boxes) {
             let pole = Point::new(left - metres * own.min.x, top - metres * own.max.y);
             let vertices = chain.forces.iter().map(|f| pole + *f * metres).collect();
-            top -= metres * own.height() + HEIGHT.1 * height;
+            top -= metres * own.height() + HEIGHT_AND_GAP_SHARES.1 * height;
             fans.push(Fan {
                 chain,
                 pole,
@@ -102,7 +102,8 @@ impl Fans {
         let bounds = Bounds {
             min: Point::new(right, top.min(structure.min.y)),
             max: Point::new(
-                (left + metres * widest + SPACE.1 * larger).max(right + LEAST_WIDTH * larger),
+                (left + metres * widest + SIDE_SPACE_SHARES.1 * larger)
+                    .max(right + MIN_WIDTH_SHARE * larger),
                 structure.max.y,
             ),
         };
@@ -207,9 +208,9 @@ impl Fan {
         let mut below = f64::NEG_INFINITY;
         for (k, vertex) in self.vertices.iter().enumerate() {
             let at = camera.place(*vertex).moved(6.0, 0.36 * NUMBER_SIZE);
-            let free = at.y - below >= NUMBER_GAP;
+            let free = at.y - below >= MIN_NUMBER_GAP;
             let reserved = camera.place(self.vertices[last]).y + 0.36 * NUMBER_SIZE - at.y;
-            if free && (k == last || reserved >= NUMBER_GAP) {
+            if free && (k == last || reserved >= MIN_NUMBER_GAP) {
                 let number = (before + k + 1).to_string();
                 group
                     .items
@@ -257,14 +258,14 @@ impl Fan {
                     block.id,
                     force(amount, scene.units)
                 );
-                let path = Path::stroked(line, Stroke::new(colour, LOAD_WIDTH));
+                let path = Path::stroked(line, Stroke::new(colour, LOAD_LINE_WIDTH));
                 let drawn = Group::with_class("load").titled(title).with(path);
                 group.items.push(drawn.into());
                 at = end;
             }
         }
         for vertex in &self.vertices {
-            let dot = Outline::circle(camera.place(*vertex), 0.8 * LOAD_WIDTH);
+            let dot = Outline::circle(camera.place(*vertex), 0.8 * LOAD_LINE_WIDTH);
             group.items.push(Path::filled(dot, theme.ink).into());
         }
     }

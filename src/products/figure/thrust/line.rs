@@ -12,7 +12,7 @@ use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Them
 use crate::scene::{BodyId, Scene};
 
 /// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
-const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
+const LARGEST_FORCE_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
 /// Width of the line of a force of zero, as a share of the largest width.
 const MIN_WIDTH_SHARE: f64 = 0.22;
 /// Number of widths if lines of many blocks are joined into few paths.
@@ -36,7 +36,7 @@ pub(super) fn carried_colour(theme: &Theme) -> Colour {
 
 /// Returns the width of the line where it carries the largest force, in pixels. `unit` is the unit edge in pixels.
 pub(super) fn widest(unit: f64) -> f64 {
-    let (width, least, most) = LARGEST_WIDTH;
+    let (width, least, most) = LARGEST_FORCE_WIDTH;
     (width * unit).clamp(least, most)
 }
 

@@ -13,7 +13,7 @@ use crate::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
 
 /// Width of the lines of least and of greatest thrust, pixels, and their dashes.
-const THIN: f64 = 1.3;
+const LINE_WIDTH: f64 = 1.3;
 const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
 const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 
@@ -105,7 +105,7 @@ pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Gr
         let mut outline = Outline::default();
         for piece in segments(scene, &scene.frames[pen.number], &state.frame) {
             let [from, to] = [piece.from, piece.to].map(|p| pen.camera.place(p));
-            ink.line(from, to, THIN);
+            ink.line(from, to, LINE_WIDTH);
             outline.extend(Outline::line([from, to]));
         }
         let thrust = quantity(state.thrust, scene.units.force());
@@ -117,7 +117,7 @@ pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Gr
 
 fn thin(outline: Outline, dashes: [f64; 2], theme: &Theme) -> Path {
     let colour = colour(theme).mixed(theme.ink, 0.45);
-    Path::stroked(outline, Stroke::new(colour, THIN).dashed(dashes))
+    Path::stroked(outline, Stroke::new(colour, LINE_WIDTH).dashed(dashes))
 }
 
 fn least_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
