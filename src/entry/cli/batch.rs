@@ -34,7 +34,7 @@ use pace::Pace;
 use resume::Settings;
 
 /// The default width of a picture in pixels.
-const WIDTH: u32 = 400;
+const DEFAULT_PICTURE_WIDTH: u32 = 400;
 
 /// Analyse many scenes, one per line, on all cores, and print a line of JSON for each, in their order
 ///
@@ -186,7 +186,11 @@ impl Batch {
 
     fn work(&self, form: Form) -> Result<Work, CliError> {
         let format = self.picture.asked().unwrap_or(Format::Png);
-        let picture = self.picture.clone().or_width(WIDTH, format).of_many();
+        let picture = self
+            .picture
+            .clone()
+            .or_width(DEFAULT_PICTURE_WIDTH, format)
+            .of_many();
         let drawn = match &self.render {
             None => None,
             Some(folder) => {

@@ -16,14 +16,14 @@ use crate::text::line;
 
 /// At most this many problems of one file are shown. If there are more, they usually have one cause, which is among
 /// the first.
-const SHOWN: usize = 30;
+const MAX_SHOWN_PROBLEMS: usize = 30;
 /// Only a part of a line with more characters is shown, around the problem. The same holds for lines wider than the
 /// terminal.
-const LONG_LINE: usize = 160;
+const MAX_LINE_CHARACTERS: usize = 160;
 /// The part has this many columns, a third of them before the problem. It has fewer on a narrower terminal.
-const WINDOW: usize = 120;
+const EXCERPT_COLUMNS: usize = 120;
 /// The part has at least this many columns.
-const NARROWEST: usize = 12;
+const MIN_EXCERPT_COLUMNS: usize = 12;
 
 /// An error that ends the command.
 #[derive(Debug)]
@@ -170,7 +170,7 @@ impl CliError {
 fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize>) -> String {
     let name = line(name);
     let mut out = String::new();
-    for problem in problems.iter().take(SHOWN) {
+    for problem in problems.iter().take(MAX_SHOWN_PROBLEMS) {
         let place = text
             .zip(problem.span.clone())
             .and_then(|(text, span)| Place::new(text, span));
@@ -182,7 +182,7 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
             None => plain(&name, problem),
         };
     }
-    let more = problems.len().saturating_sub(SHOWN);
+    let more = problems.len().saturating_sub(MAX_SHOWN_PROBLEMS);
     if more > 0 {
         let _ = writeln!(out, "... and {more} more in {name}");
     }
@@ -219,11 +219,11 @@ impl<'a> Place<'a> {
 
     /// True if the whole line, with the mark and its label, fits into `width` columns.
     fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
-        if self.line.chars().count() > LONG_LINE {
+        if self.line.chars().count() > MAX_LINE_CHARACTERS {
             return false;
         }
         let before: String = self.line.chars().take(self.range.start).collect();
-        let label = seen(&line(&before)) + ARROW + seen(&label(problem));
+        let label = seen(&line(&before)) + ARROW_COLUMNS + seen(&label(problem));
         // `ariadne` draws the arrow to the label from the middle of the marked text.
         let label = label + self.range.len().div_ceil(2);
         let columns = margin(problem) + label.max(seen(&line(self.line)) + 1);
@@ -232,7 +232,7 @@ impl<'a> Place<'a> {
 }
 
 /// The columns from the middle of a place to its label, `╰──── `, and one more.
-const ARROW: usize = 8;
+const ARROW_COLUMNS: usize = 8;
 
 /// Returns the number of columns before the text of a line, which show the line number.
 fn margin(problem: &Problem) -> usize {
@@ -299,8 +299,10 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
 /// Writes the message with a part of the line, for a line that is too long to be shown completely.
 fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
     // Reserve four columns: two spaces before the text, and one `…` at each of its ends.
-    let room = width.map_or(WINDOW, |width| {
-        width.saturating_sub(4).clamp(NARROWEST, WINDOW)
+    let room = width.map_or(EXCERPT_COLUMNS, |width| {
+        width
+            .saturating_sub(4)
+            .clamp(MIN_EXCERPT_COLUMNS, EXCERPT_COLUMNS)
     });
     let text = line(place.line);
     let letters: Vec<char> = text.chars().collect();

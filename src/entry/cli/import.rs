@@ -22,7 +22,7 @@ use crate::scene::{Note, NoteCode, Scene};
 use value::{DrawnAt, Unit, WrittenIn, gravity, scale, stone};
 
 /// At most this many moved bodies are listed; `--json` lists all.
-const LISTED: usize = 12;
+const MAX_LISTED_BODIES: usize = 12;
 
 /// Turn a drawing (SVG, DXF, GeoJSON, WKT), a contact list or a COMPAS assembly into a scene
 ///
@@ -286,7 +286,7 @@ impl Import {
         for note in imported.notes.iter().chain(&light(imported)) {
             page.line(&format!("  {note}"));
         }
-        for snapped in imported.snapped.iter().take(LISTED) {
+        for snapped in imported.snapped.iter().take(MAX_LISTED_BODIES) {
             page.line(&format!(
                 "  snapped {}: {} by up to {:.2e} m, to {}",
                 snapped.body,
@@ -295,8 +295,8 @@ impl Import {
                 snapped.to.join(", ")
             ));
         }
-        if imported.snapped.len() > LISTED {
-            let more = imported.snapped.len() - LISTED;
+        if imported.snapped.len() > MAX_LISTED_BODIES {
+            let more = imported.snapped.len() - MAX_LISTED_BODIES;
             let most = imported
                 .snapped
                 .iter()

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use crate::analysis::trials;
 
 /// Work that is shorter than this has no bar.
-const PATIENCE: Duration = Duration::from_millis(500);
+const BAR_DELAY: Duration = Duration::from_millis(500);
 
 /// Work that is under way.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ impl Progress {
                 bar: ProgressBar::hidden(),
                 waiter: None,
             },
-            Shown::WhenLong => Progress::on(steps, PATIENCE, ProgressDrawTarget::stderr()),
+            Shown::WhenLong => Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr()),
         }
     }
 

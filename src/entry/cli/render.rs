@@ -35,11 +35,11 @@ use crate::output::fonts::Fonts;
 use crate::scene::Scene;
 
 /// A strip of more frames than this may be too large for a PNG.
-const MANY: usize = 50;
+const MAX_PNG_FRAMES: usize = 50;
 /// Width of an animation, pixels, where none is given.
 const ANIMATION_WIDTH: u32 = 800;
 /// A strip higher than this many page heights does not fit on a page.
-const TALL: f64 = 1.02;
+const MAX_PAGE_HEIGHTS: f64 = 1.02;
 
 impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
@@ -249,7 +249,7 @@ impl Render {
         };
         if let (Some(kind), Format::Png) = (kind, format)
             && !self.writes_parts()
-            && analysis.frames.len() > MANY
+            && analysis.frames.len() > MAX_PNG_FRAMES
         {
             // Check the size before the layout, which takes long for a figure with many frames.
             let size = figure::least_size(&analysis, kind, options);
@@ -270,7 +270,10 @@ impl Render {
             (None, kind) => {
                 let drawing = self.drawing(source, &analysis, options)?;
                 let high = self.picture.page_ratio() * drawing.width;
-                if kind.is_some() && analysis.frames.len() > 1 && drawing.height > TALL * high {
+                if kind.is_some()
+                    && analysis.frames.len() > 1
+                    && drawing.height > MAX_PAGE_HEIGHTS * high
+                {
                     summary.push_str("; taller than an A4 page, --pages splits it");
                 }
                 let bytes = self.picture.bytes(drawing, format, fonts);

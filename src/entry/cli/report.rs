@@ -78,7 +78,7 @@ pub(crate) struct Report {
 }
 
 /// The margins of a sheet, unless all are requested.
-const HEADLINES: [MarginKind; 3] = [
+const DEFAULT_MARGINS: [MarginKind; 3] = [
     MarginKind::LoadFactor,
     MarginKind::Friction,
     MarginKind::Tilt,
@@ -199,7 +199,7 @@ impl Report {
             margins: self.margins || form != Form::Json,
             margin_kinds: match self.margins {
                 true => MarginKinds::ALL,
-                false => MarginKinds::new(&HEADLINES),
+                false => MarginKinds::new(&DEFAULT_MARGINS),
             },
             ..self.level.options()
         };

@@ -76,11 +76,11 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
 ];
 /// The indentation of the meanings, and the width of their lines on wide terminals, in columns.
-const MEANING: [usize; 2] = [10, 68];
+const MEANING_INDENT_AND_WIDTH: [usize; 2] = [10, 68];
 
 /// Returns the words of the tables with their meanings, in lines of at most `width` columns.
 pub(crate) fn explained(width: Option<usize>) -> Page {
-    let [indent, most] = MEANING;
+    let [indent, most] = MEANING_INDENT_AND_WIDTH;
     let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
     let mut page = Page::default();
     for [word, meaning] in MEANINGS {
@@ -94,22 +94,22 @@ pub(crate) fn explained(width: Option<usize>) -> Page {
 }
 
 /// At most this many failures of a frame are described in words; figures and JSON have all.
-const MOST_LISTED: usize = 12;
+const MAX_LISTED_FAILURES: usize = 12;
 /// Titles of frames with more columns are shortened.
-const TITLE: usize = 40;
+const MAX_FRAME_TITLE: usize = 40;
 /// Titles of scenes with more columns are shortened: a terminal would break the line, and its rest would look like a
 /// row.
-const HEADING: usize = 60;
+const MAX_SCENE_TITLE: usize = 60;
 
 /// Names of bodies with more columns are shortened.
-const NAME: usize = 30;
+const MAX_BODY_NAME: usize = 30;
 /// On narrow terminals, titles of frames keep at least this many columns.
-const SHORTEST: usize = 8;
+const MIN_TITLE: usize = 8;
 
 /// Titles of frames and names of bodies are first cut to these numbers of columns.
-const READABLE: [usize; 2] = [20, 12];
+const READABLE_WIDTHS: [usize; 2] = [20, 12];
 /// The column with the names of the two bodies.
-const BETWEEN: usize = 4;
+const BODIES_COLUMN: usize = 4;
 
 /// The amount of detail in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,12 +130,15 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     page.styled(Style::new().bold(), name);
     if !scene.title.is_empty() {
         page.words("  ");
-        page.words(&heading(&scene.title, HEADING));
+        page.words(&heading(&scene.title, MAX_SCENE_TITLE));
     }
     page.end();
     let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());
-    let columns = HEADS.len() - usize::from(!has_robots);
-    let heads: Vec<String> = HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();
+    let columns = COLUMN_HEADS.len() - usize::from(!has_robots);
+    let heads: Vec<String> = COLUMN_HEADS[..columns]
+        .iter()
+        .map(|h| (*h).to_owned())
+        .collect();
     let mut rows: Vec<Vec<String>> = (scene.frames.iter().zip(&analysis.frames).enumerate())
         .map(|(i, (step, f))| {
             let mut cells = row(scene, label(scene, i, &step.title), f);
@@ -168,7 +171,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
 }
 
 /// The columns; the last one only if there are robots.
-const HEADS: [&str; 7] = [
+const COLUMN_HEADS: [&str; 7] = [
     "frame", "verdict", "weight", "largest", "between", "friction", "robots",
 ];
 
@@ -183,11 +186,11 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
 /// Shortens the titles of frames and the names of bodies so that rows have at most `width` columns. Returns false if
 /// that is not possible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
-    let least = [SHORTEST.max(seen(&heads[0])), seen(&heads[BETWEEN])];
+    let least = [MIN_TITLE.max(seen(&heads[0])), seen(&heads[BODIES_COLUMN])];
     for (column, least) in [
-        (0, READABLE[0]),
-        (BETWEEN, READABLE[1]),
-        (BETWEEN, least[1]),
+        (0, READABLE_WIDTHS[0]),
+        (BODIES_COLUMN, READABLE_WIDTHS[1]),
+        (BODIES_COLUMN, least[1]),
         (0, least[0]),
     ] {
         let widths = widths(rows, heads);
@@ -213,11 +216,11 @@ fn style(verdict: Verdict) -> Style {
 }
 
 /// The gaps before the first column, and before every other column.
-const GAPS: [&str; 2] = ["  ", "  "];
+const COLUMN_GAPS: [&str; 2] = ["  ", "  "];
 
 /// Returns the width of a row with cells of these widths, in columns of the terminal.
 fn taken(widths: &[usize]) -> usize {
-    let gaps = GAPS[0].len() + GAPS[1].len() * (widths.len() - 1);
+    let gaps = COLUMN_GAPS[0].len() + COLUMN_GAPS[1].len() * (widths.len() - 1);
     widths.iter().sum::<usize>() + gaps
 }
 
@@ -226,8 +229,8 @@ fn taken(widths: &[usize]) -> usize {
 fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
-        let is_words = matches!(column, 0 | 1 | BETWEEN);
-        page.words(GAPS[usize::from(column > 0)]);
+        let is_words = matches!(column, 0 | 1 | BODIES_COLUMN);
+        page.words(COLUMN_GAPS[usize::from(column > 0)]);
         if !is_words {
             page.words(&gap);
         }
@@ -271,7 +274,7 @@ fn shortened(words: &str, most: usize) -> String {
 /// Returns the name of a frame: its title, with its letter if there are several frames, or `all` for a single frame
 /// without a title.
 fn label(scene: &Scene, number: usize, title: &str) -> String {
-    let title = heading(title, TITLE);
+    let title = heading(title, MAX_FRAME_TITLE);
     match (scene.frames.len(), title.is_empty()) {
         (1, true) => "all".into(),
         (1, false) => title,
@@ -290,7 +293,11 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
         .max_by(|a, b| force(a).total_cmp(&force(b)));
     let between = largest.map_or("-".into(), |contact| {
         let [a, b] = contact.interface.bodies.map(|id| scene.name(id));
-        format!("{}/{}", heading(a, NAME), heading(b, NAME))
+        format!(
+            "{}/{}",
+            heading(a, MAX_BODY_NAME),
+            heading(b, MAX_BODY_NAME)
+        )
     });
     let friction = contacts.map(|c| c.friction_used).fold(0.0, f64::max);
     let limit = frame.robots.iter().map(|r| r.limit_used);
@@ -351,14 +358,17 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     let failures: Vec<String> = frame
         .failures
         .iter()
-        .take(MOST_LISTED)
+        .take(MAX_LISTED_FAILURES)
         .map(|f| failure::sentence(scene, f))
         .collect();
     remarks.extend(failures);
-    if frame.failures.len() > MOST_LISTED {
-        remarks.push(format!("and {} more", frame.failures.len() - MOST_LISTED));
+    if frame.failures.len() > MAX_LISTED_FAILURES {
+        remarks.push(format!(
+            "and {} more",
+            frame.failures.len() - MAX_LISTED_FAILURES
+        ));
     }
-    remarks.extend(failure::unsupported(scene, frame, MOST_LISTED));
+    remarks.extend(failure::unsupported(scene, frame, MAX_LISTED_FAILURES));
     if !frame.doubts.is_empty() {
         remarks.push(frame.doubt());
     }

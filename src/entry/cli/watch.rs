@@ -12,7 +12,7 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 
 /// The time between two comparisons.
-const PAUSE: Duration = Duration::from_millis(200);
+const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
 /// The time of change and the size of a file in bytes; `None` while an editor replaces the file.
 type Mark = Option<(SystemTime, u64)>;
@@ -35,7 +35,7 @@ pub(crate) fn repeat(
         // A change during the run counts too. If a file is still being written, wait until it stays unchanged.
         let mut last = marks(files);
         loop {
-            thread::sleep(PAUSE);
+            thread::sleep(POLL_INTERVAL);
             let now = marks(files);
             let is_settled = now == last && !now.contains(&None);
             if is_settled && now != before {

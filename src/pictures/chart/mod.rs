@@ -12,9 +12,9 @@ mod plot;
 use std::fmt;
 
 /// Width and height of scatter and growth charts, pixels.
-const SIZE: (i32, i32) = (900, 620);
+const LARGE_SIZE: (i32, i32) = (900, 620);
 /// Width and height of histograms and course charts, pixels.
-const SMALL: (i32, i32) = (420, 250);
+const SMALL_SIZE: (i32, i32) = (420, 250);
 
 /// The colour of axes and text. A page that contains the chart can replace this colour by another one.
 pub const INK: &str = "#2D2D32";
@@ -105,7 +105,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// # Ok::<(), drystone::internals::chart::ChartError>(())
 /// ```
 pub fn scatter(chart: &Scatter) -> Result<String, ChartError> {
-    plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
+    plot::document(LARGE_SIZE, &chart.title, |svg| plot::scatter(chart, svg))
 }
 
 /// Lines on two logarithmic axes, each with its name at its end.
@@ -145,7 +145,7 @@ pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
         return Err(ChartError::new("there is nothing to draw"));
     }
-    plot::document(SIZE, &chart.title, |svg| plot::growth(chart, svg))
+    plot::document(LARGE_SIZE, &chart.title, |svg| plot::growth(chart, svg))
 }
 
 /// A histogram: a bar for each interval between two edges.
@@ -209,7 +209,7 @@ pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
         return Err(ChartError::new("there is nothing to count"));
     }
-    plot::document(SMALL, &chart.title, |svg| plot::bars(chart, svg))
+    plot::document(SMALL_SIZE, &chart.title, |svg| plot::bars(chart, svg))
 }
 
 /// The values of one quantity, or of several quantities of one unit, at each step of a scene.
@@ -235,7 +235,7 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
         return Err(ChartError::new("there is nothing to draw"));
     }
-    plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
+    plot::document(SMALL_SIZE, &chart.title, |svg| plot::course(chart, svg))
 }
 
 /// Returns the smallest number of the form 1·10ⁿ, 2·10ⁿ or 5·10ⁿ, with a whole n, that is at least `value`. `value`

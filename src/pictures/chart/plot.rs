@@ -11,7 +11,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, TextStyle, register_font};
 
-use super::{Bars, ChartError, SIZE, SMALL, round_step};
+use super::{Bars, ChartError, LARGE_SIZE, SMALL_SIZE, round_step};
 use crate::drawing::Face;
 use crate::text::xml;
 pub(super) use course::course;
@@ -19,15 +19,15 @@ pub(super) use growth::growth;
 pub(super) use scatter::scatter;
 
 /// Number of units of the drawn picture per pixel of the page.
-const FINE: i32 = 10;
+const UNITS_PER_PIXEL: i32 = 10;
 /// The family name that plotters writes for all text. The built-in font is registered under this name.
-const FONT: &str = "sans-serif";
+const FONT_FAMILY: &str = "sans-serif";
 
 /// The result of drawing: the error of plotters if it fails.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Returns the SVG document that `draw` writes, scaled to this width and height in pixels. `draw` must draw the picture
-/// [`FINE`] times as large. `title` is for screen readers.
+/// [`UNITS_PER_PIXEL`] times as large. `title` is for screen readers.
 pub(super) fn document(
     (width, height): (i32, i32),
     title: &str,
@@ -36,12 +36,12 @@ pub(super) fn document(
     static FONTS: Once = Once::new();
     FONTS.call_once(|| {
         // Ignore an error here: registration fails only if the font cannot be read, and then drawing fails too.
-        let _ = register_font(FONT, FontStyle::Normal, Face::Sans.data());
-        let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
+        let _ = register_font(FONT_FAMILY, FontStyle::Normal, Face::Sans.data());
+        let _ = register_font(FONT_FAMILY, FontStyle::Bold, Face::SansBold.data());
     });
     let mut svg = String::new();
     draw(&mut svg).map_err(ChartError::new)?;
-    let (w, h) = (width * FINE, height * FINE);
+    let (w, h) = (width * UNITS_PER_PIXEL, height * UNITS_PER_PIXEL);
     let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
     if !svg.contains(&head) {
         return Err(ChartError::new("the head of the SVG is not where it was"));
@@ -51,7 +51,7 @@ pub(super) fn document(
         xml(title)
     );
     Ok(svg.replacen(&head, &page, 1).replace(
-        &format!("font-family=\"{FONT}\""),
+        &format!("font-family=\"{FONT_FAMILY}\""),
         "font-family=\"Inter, 'Helvetica Neue', Arial, sans-serif\"",
     ))
 }
@@ -81,7 +81,9 @@ type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64
 
 /// Returns the style of chart text with a font size of `size` pixels.
 fn font<'a>(size: i32) -> TextStyle<'a> {
-    (FONT, size * FINE).into_font().color(&INK)
+    (FONT_FAMILY, size * UNITS_PER_PIXEL)
+        .into_font()
+        .color(&INK)
 }
 
 /// Returns the same style, but its text begins at the given point and is vertically centred on it.
@@ -89,15 +91,21 @@ fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
     style.pos(Pos::new(HPos::Left, VPos::Center))
 }
 
-/// Creates an empty page of the size [`SIZE`]. What is drawn on the page is written to `svg`.
+/// Creates an empty page of the size [`LARGE_SIZE`]. What is drawn on the page is written to `svg`.
 fn large(svg: &mut String) -> Page<'_> {
-    let size = ((SIZE.0 * FINE) as u32, (SIZE.1 * FINE) as u32);
+    let size = (
+        (LARGE_SIZE.0 * UNITS_PER_PIXEL) as u32,
+        (LARGE_SIZE.1 * UNITS_PER_PIXEL) as u32,
+    );
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
-/// Creates an empty page of the size [`SMALL`]. What is drawn on the page is written to `svg`.
+/// Creates an empty page of the size [`SMALL_SIZE`]. What is drawn on the page is written to `svg`.
 fn small(svg: &mut String) -> Page<'_> {
-    let size = ((SMALL.0 * FINE) as u32, (SMALL.1 * FINE) as u32);
+    let size = (
+        (SMALL_SIZE.0 * UNITS_PER_PIXEL) as u32,
+        (SMALL_SIZE.1 * UNITS_PER_PIXEL) as u32,
+    );
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
@@ -121,10 +129,10 @@ pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
     let step = round_step(most / 4.0).max(1.0);
     let top = libm::ceil(most / step) * step;
     let mut axes = ChartBuilder::on(&area)
-        .margin(8 * FINE)
-        .margin_right(20 * FINE)
-        .x_label_area_size(38 * FINE)
-        .y_label_area_size(48 * FINE)
+        .margin(8 * UNITS_PER_PIXEL)
+        .margin_right(20 * UNITS_PER_PIXEL)
+        .x_label_area_size(38 * UNITS_PER_PIXEL)
+        .y_label_area_size(48 * UNITS_PER_PIXEL)
         .build_cartesian_2d(first..last, 0.0..top)?;
     axes.configure_mesh()
         .disable_x_mesh()
@@ -134,11 +142,11 @@ pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
         .y_label_formatter(&|v| tick(*v))
         .x_desc(&chart.x)
         .y_desc(&chart.y)
-        .set_all_tick_mark_size(4 * FINE)
+        .set_all_tick_mark_size(4 * UNITS_PER_PIXEL)
         .label_style(font(12))
         .axis_desc_style(font(12))
-        .axis_style(INK.stroke_width(FINE as u32))
-        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .axis_style(INK.stroke_width(UNITS_PER_PIXEL as u32))
+        .bold_line_style(GRID.stroke_width(UNITS_PER_PIXEL as u32))
         .light_line_style(TRANSPARENT)
         .draw()?;
     let [r, g, b] = chart.colour;

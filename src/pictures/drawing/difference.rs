@@ -50,7 +50,7 @@ pub fn seen(colour: Colour, sight: Sight) -> Colour {
             [-0.078411, 0.930809, 0.147602],
             [0.004733, 0.691367, 0.303900],
         ],
-        Sight::Grey => [LUMINANCE; 3],
+        Sight::Grey => [LUMINANCE_WEIGHTS; 3],
     };
     let light = linear(colour);
     Colour(rows.map(|row| coded(dot(row, light))))
@@ -82,7 +82,7 @@ pub fn difference(a: Colour, b: Colour) -> f64 {
 }
 
 /// Shares of the linear channels in the luminance.
-const LUMINANCE: [f64; 3] = [0.212_672_9, 0.715_152_2, 0.072_175_0];
+const LUMINANCE_WEIGHTS: [f64; 3] = [0.212_672_9, 0.715_152_2, 0.072_175_0];
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -122,7 +122,7 @@ fn lab(colour: Colour) -> [f64; 3] {
         }
     };
     let x = bent(dot([0.412_456_4, 0.357_576_1, 0.180_437_5], light) / 0.95047);
-    let y = bent(dot(LUMINANCE, light));
+    let y = bent(dot(LUMINANCE_WEIGHTS, light));
     let z = bent(dot([0.019_333_9, 0.119_192_0, 0.950_304_1], light) / 1.08883);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }

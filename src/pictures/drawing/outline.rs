@@ -61,7 +61,7 @@ impl Outline {
         }
         // The distance of the control points from the corner. With this distance, the cubic curve meets the quarter
         // circle at both ends and in the middle.
-        let c = r * (1.0 - QUARTER);
+        let c = r * (1.0 - QUARTER_CIRCLE_HANDLE);
         Outline {
             segments: vec![
                 Segment::Move(corner(r, 0.0)),
@@ -110,7 +110,7 @@ impl Outline {
 }
 
 /// Control point distance of a quarter circle of radius 1: (4/3)·tan(π/8).
-pub(crate) const QUARTER: f64 = 0.552_284_749_830_793_4;
+pub(crate) const QUARTER_CIRCLE_HANDLE: f64 = 0.552_284_749_830_793_4;
 
 #[cfg(test)]
 mod tests {

@@ -27,7 +27,7 @@ const MAX_RINGS: usize = 60;
 const POSITIONS_PER_RING: usize = 24;
 /// Clear space around a label, pixels. With less space, letters seem to touch lines. With much more space, crowded
 /// figures would lose labels.
-const CLEARANCE: f64 = 1.5;
+const LABEL_CLEARANCE: f64 = 1.5;
 /// A label gets a leader line if the distance of its nearest point from the first ring is larger than this, pixels.
 const LEADER_DISTANCE: f64 = 6.0;
 /// Cost of a leader that crosses ink, pixels of distance. To avoid such a crossing, a label may be about one line
@@ -40,7 +40,7 @@ const LABEL_CROSSING_COST: f64 = 1000.0;
 const AVOIDED_COST: f64 = 110.0;
 /// Positions whose costs differ by less than this, pixels, are equally good. The first of them is taken, so that
 /// rounding errors do not decide.
-const COST_TIE: f64 = 1e-3;
+const COST_TIE_TOL: f64 = 1e-3;
 /// After this number of labels without a free position, the page is full. All further labels get their preferred
 /// position or no position. A search around an anchor among thousands of arrows takes tens of milliseconds.
 const MAX_MISSES: usize = 100;
@@ -142,7 +142,8 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     let clearances = [request.padding, 0.4 * request.padding, 0.0];
     clearances.into_iter().find_map(|padding| {
         let mut centres = request.preferred.iter();
-        let rect = centres.find_map(|at| fitting(ink, page, request, *at, CLEARANCE + padding))?;
+        let rect =
+            centres.find_map(|at| fitting(ink, page, request, *at, LABEL_CLEARANCE + padding))?;
         Some(Placed {
             avoided: false,
             rect,
@@ -179,12 +180,12 @@ fn ring_position(
                 sin * radius + sin * height / 2.0,
             );
             let centre = request.anchor.moved(x, y);
-            let Some(rect) = fitting(ink, page, request, centre, CLEARANCE) else {
+            let Some(rect) = fitting(ink, page, request, centre, LABEL_CLEARANCE) else {
                 continue;
             };
             let (penalty, placed) = candidate(ink, request, rect, avoid(rect));
             let cost = radius + penalty;
-            if best.is_none_or(|(least, _)| cost < least - COST_TIE) {
+            if best.is_none_or(|(least, _)| cost < least - COST_TIE_TOL) {
                 best = Some((cost, placed));
             }
         }

@@ -9,12 +9,12 @@ use super::colour::Colour;
 use super::difference::{contrast, lightness};
 
 /// Arrows on a fill brighter than this may get a dark border.
-const BRIGHT_FILL: f64 = 0.6;
+const MIN_BRIGHT_FILL: f64 = 0.6;
 /// Least contrast of letters with their background. WCAG 2 level AA requires 4.5.
 const MIN_CONTRAST: f64 = 4.55;
 /// On a bright block, an arrow is visible with the usual border if its lightness L* is lower than that of the block by
 /// at least this value.
-const STANDS_OFF: f64 = 53.0;
+const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
 ///
@@ -174,8 +174,8 @@ impl Theme {
     /// the arrow is not much darker, the border is a dark shade of the arrow's colour. Otherwise its colour is
     /// [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
-        let lost =
-            block.brightness() > BRIGHT_FILL && lightness(block) - lightness(arrow) < STANDS_OFF;
+        let lost = block.brightness() > MIN_BRIGHT_FILL
+            && lightness(block) - lightness(arrow) < MIN_LIGHTNESS_DIFFERENCE;
         if lost {
             arrow.mixed(self.darker(), 0.8)
         } else {

@@ -5,15 +5,15 @@ use super::arrow::HEAD_WIDTH;
 use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 
 /// Font size of subscripts and superscripts, as a multiple of the symbol's font size.
-const SMALL: f64 = 0.68;
+const SCRIPT_SCALE: f64 = 0.68;
 /// Distance of a subscript's baseline below the letter's, as a multiple of the font size.
-const BELOW: f64 = 0.24;
+const SUBSCRIPT_DROP: f64 = 0.24;
 /// Distance of a superscript's baseline above the letter's, as a multiple of the font size.
-const ABOVE: f64 = 0.42;
+const SUPERSCRIPT_RISE: f64 = 0.42;
 /// Horizontal distance of a superscript from its letter, as a multiple of the font size. It leaves space for an arrow.
-const RAISED: f64 = 0.2;
+const SUPERSCRIPT_GAP: f64 = 0.2;
 /// Height of a symbol above and below its baseline, as multiples of the font size.
-const REACH: (f64, f64) = (0.98, 0.42);
+const ASCENT_AND_DESCENT: (f64, f64) = (0.98, 0.42);
 
 /// The sign above a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,13 +89,13 @@ impl Symbol {
     /// Returns the width and height of the symbol in pixels. `size` is the font size in pixels.
     pub fn size(&self, size: f64) -> (f64, f64) {
         let width = self.letters.iter().map(|l| wide(l, size)).sum();
-        (width, (REACH.0 + REACH.1) * size)
+        (width, (ASCENT_AND_DESCENT.0 + ASCENT_AND_DESCENT.1) * size)
     }
 
     /// Draws the symbol in the upper left corner of `rect`. `size` is the font size in pixels.
     pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
         let mut group = Group::with_class("symbol");
-        let mut at = rect.at.moved(0.0, REACH.0 * size);
+        let mut at = rect.at.moved(0.0, ASCENT_AND_DESCENT.0 * size);
         for letter in &self.letters {
             group = group.with(Text::new(
                 at,
@@ -109,13 +109,13 @@ impl Symbol {
                 .extend(accent(letter, at, size, ink).map(Into::into));
             let beside = at.moved(text::width(&letter.letter, Face::SerifItalic, size), 0.0);
             for (words, lean, down) in [
-                (&letter.below, 0.04, BELOW),
-                (&letter.above, RAISED, -ABOVE),
+                (&letter.below, 0.04, SUBSCRIPT_DROP),
+                (&letter.above, SUPERSCRIPT_GAP, -SUPERSCRIPT_RISE),
             ] {
                 let mut at = beside.moved(lean * size, down * size);
                 for (run, face) in runs(words) {
-                    group = group.with(Text::new(at, run.as_str(), face, SMALL * size, ink));
-                    at = at.moved(text::width(&run, face, SMALL * size), 0.0);
+                    group = group.with(Text::new(at, run.as_str(), face, SCRIPT_SCALE * size, ink));
+                    at = at.moved(text::width(&run, face, SCRIPT_SCALE * size), 0.0);
                 }
             }
             at = at.moved(wide(letter, size), 0.0);
@@ -126,7 +126,7 @@ impl Symbol {
 
 fn wide(letter: &Letter, size: f64) -> f64 {
     let small = |words: &str| -> f64 {
-        let width = |(run, face): &(String, Face)| text::width(run, *face, SMALL * size);
+        let width = |(run, face): &(String, Face)| text::width(run, *face, SCRIPT_SCALE * size);
         runs(words).iter().map(width).sum()
     };
     let below = match small(&letter.below) {
@@ -134,7 +134,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
         _ => 0.0,
     };
     let above = match small(&letter.above) {
-        wide if wide > 0.0 => wide + (RAISED + 0.02) * size,
+        wide if wide > 0.0 => wide + (SUPERSCRIPT_GAP + 0.02) * size,
         _ => 0.0,
     };
     text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)

@@ -8,7 +8,7 @@ mod patch;
 #[cfg(test)]
 mod tests;
 
-use palette::{Palette, UNCHANGED};
+use palette::{Palette, UNCHANGED_INDEX};
 use patch::{Patch, patches};
 
 use super::fonts::Fonts;
@@ -43,7 +43,7 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
             encoder.set_color(::png::ColorType::Indexed);
             encoder.set_palette(palette.bytes());
             let mut opaque = vec![u8::MAX; palette.len()];
-            opaque[usize::from(UNCHANGED)] = 0;
+            opaque[usize::from(UNCHANGED_INDEX)] = 0;
             encoder.set_trns(opaque);
         }
         None => encoder.set_color(::png::ColorType::Rgba),
@@ -109,7 +109,7 @@ pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErro
     for patch in &patches {
         let frame = ::gif::Frame {
             delay: patch.hundredths,
-            transparent: Some(UNCHANGED),
+            transparent: Some(UNCHANGED_INDEX),
             top: side(patch.y)?,
             left: side(patch.x)?,
             width: side(patch.width)?,

@@ -31,11 +31,11 @@ pub const MM_PER_INCH: f64 = 25.4;
 pub const PIXELS_PER_INCH: f64 = 96.0;
 /// The scale of a figure that is laid out for print. Text of 12.5 pixels (9.4 points) becomes 7.5 points high.
 #[cfg(any(feature = "cli", feature = "wasm"))]
-const IN_PRINT: f64 = 0.8;
+const PRINT_SCALE: f64 = 0.8;
 
 /// Converts the width of a printed figure, in millimetres, to the width of its layout in pixels. In a figure of this
 /// width, text has the size of printed footnotes, and names in blocks are slightly smaller.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn page_width(millimetres: f64) -> f64 {
-    millimetres / MM_PER_INCH * PIXELS_PER_INCH / IN_PRINT
+    millimetres / MM_PER_INCH * PIXELS_PER_INCH / PRINT_SCALE
 }

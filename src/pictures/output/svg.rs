@@ -161,7 +161,7 @@ enum Form<'f> {
 }
 
 /// The face of most text. Only text in another face names its face.
-const USUAL: Face = Face::Sans;
+const DEFAULT_FACE: Face = Face::Sans;
 
 fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {
     let mut svg = Writer {
@@ -184,7 +184,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
          role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
          stroke-linejoin=\"round\" stroke-linecap=\"round\" paint-order=\"stroke\" font-family=\"{}\">\n",
-        svg.families(USUAL)
+        svg.families(DEFAULT_FACE)
     ));
     if !svg.is_bare() {
         svg.put(&format!(

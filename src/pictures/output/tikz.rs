@@ -11,7 +11,7 @@ use crate::drawing::{
 };
 
 /// PostScript points per inch; TeX calls them big points (`bp`).
-const BIG_POINTS: f64 = 72.0;
+const BIG_POINTS_PER_INCH: f64 = 72.0;
 
 /// Writes a drawing as a `tikzpicture`. `width_mm` is its width in millimetres. If it is `None`, one pixel is 1/96
 /// inch.
@@ -30,8 +30,8 @@ const BIG_POINTS: f64 = 72.0;
 /// ```
 pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> String {
     let unit = match width_mm {
-        Some(mm) => mm / drawing.width * BIG_POINTS / MM_PER_INCH,
-        None => BIG_POINTS / PIXELS_PER_INCH,
+        Some(mm) => mm / drawing.width * BIG_POINTS_PER_INCH / MM_PER_INCH,
+        None => BIG_POINTS_PER_INCH / PIXELS_PER_INCH,
     };
     let mut pen = TikzWriter {
         text: String::new(),

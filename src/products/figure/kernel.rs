@@ -10,7 +10,7 @@ use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
-use super::words::{FULL, percent, quantity};
+use super::words::{FULL_UTILISATION, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
@@ -107,7 +107,7 @@ impl PanelContent for Kernel {
         let at_end = bearings
             .iter()
             .filter_map(share)
-            .filter(|s| *s >= FULL)
+            .filter(|s| *s >= FULL_UTILISATION)
             .count();
         if at_end > 1 {
             return format!(
@@ -132,7 +132,9 @@ impl PanelContent for Kernel {
 
 /// True if a resultant acts at an end of the safe part of its interface, or outside this part.
 fn at_end(bearing: &Bearing) -> bool {
-    bearing.eccentricity.is_some_and(|share| share >= FULL)
+    bearing
+        .eccentricity
+        .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
 fn bold(unit: f64) -> f64 {

@@ -4,7 +4,7 @@
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
 use super::description;
-use super::words::{FULL, percent};
+use super::words::{FULL_UTILISATION, percent};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
@@ -25,7 +25,7 @@ struct Nearness<'a> {
 
 impl Nearness<'_> {
     fn reached(&self) -> bool {
-        self.friction >= FULL || self.edge >= 1.0 - 2.0 * EDGE_TOL
+        self.friction >= FULL_UTILISATION || self.edge >= 1.0 - 2.0 * EDGE_TOL
     }
 
     fn share(&self) -> f64 {

@@ -14,7 +14,7 @@ use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
-use super::words::{FULL, counted, percent, quantity};
+use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -46,7 +46,7 @@ impl PanelContent for Utilisation {
         for contact in &found.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 2.0);
-            if contact.friction_used >= FULL {
+            if contact.friction_used >= FULL_UTILISATION {
                 let [from, to] = across(pen, contact);
                 ink.line(from, to, 3.0);
             }
@@ -78,7 +78,7 @@ impl PanelContent for Utilisation {
         let spent = frames
             .iter()
             .flat_map(|f| &f.robots)
-            .any(|r| r.limit_used >= FULL);
+            .any(|r| r.limit_used >= FULL_UTILISATION);
         if spent || all.iter().flatten().any(full) {
             let all = if spent {
                 "all of it".to_owned()
@@ -114,7 +114,9 @@ impl PanelContent for Utilisation {
 }
 
 fn full(bearing: &Bearing) -> bool {
-    bearing.friction.is_some_and(|share| share >= FULL)
+    bearing
+        .friction
+        .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
 fn limited(scene: &Scene, robot: usize) -> bool {
@@ -348,7 +350,7 @@ fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
         let mut drawn = Group::with_class("limit")
             .titled(title)
             .with(disc.with_stroke(rim));
-        if robot.limit_used >= FULL {
+        if robot.limit_used >= FULL_UTILISATION {
             let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
             drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, 1.4)));
         }

@@ -27,7 +27,7 @@ use crate::scene::{BlockId, Scene};
 use crate::text;
 
 /// The first word after the fence of a code block that drystone draws.
-const WORD: &str = "drystone";
+const FENCE_WORD: &str = "drystone";
 
 /// All problems of a book.
 #[derive(Debug, thiserror::Error)]
@@ -100,7 +100,7 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
             continue;
         };
         let Some(options) = info
-            .strip_prefix(WORD)
+            .strip_prefix(FENCE_WORD)
             .filter(|rest| rest.is_empty() || rest.starts_with([' ', ',', '\t']))
         else {
             continue;

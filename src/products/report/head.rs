@@ -31,7 +31,7 @@ pub(super) struct Head<'r> {
 }
 
 /// An explanation of “stands” for the first page of a report.
-pub(super) const MEANING: &str = "“Stands” means that a balance of forces exists for rigid blocks at rest, laid dry (no mortar, no cohesion). A balance \
+pub(super) const STANDS_MEANING: &str = "“Stands” means that a balance of forces exists for rigid blocks at rest, laid dry (no mortar, no cohesion). A balance \
      that exists only by wedging counts. Motion in time is not considered: no impact, no earthquake.";
 
 /// A file that is not a valid scene, with its problems.

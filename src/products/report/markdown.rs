@@ -11,7 +11,7 @@ use crate::text::{self, markdown, markdown_cell};
 use crate::wording::verdict::plain;
 
 /// The number of characters of a bar.
-const BAR: usize = 24;
+const BAR_CHARACTERS: usize = 24;
 
 /// Returns the name of the folder with the figures of a report. The folder is next to the report.
 fn folder(stem: &str) -> String {
@@ -189,9 +189,9 @@ fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
         // The cast cannot overflow: a share lies between 0 and 1.
-        ((share * BAR as f64) as usize).min(BAR - 1)
+        ((share * BAR_CHARACTERS as f64) as usize).min(BAR_CHARACTERS - 1)
     };
-    let mut cells = ['─'; BAR];
+    let mut cells = ['─'; BAR_CHARACTERS];
     if let Some((from, to)) = bar.safe {
         cells[place(from)..=place(to)].fill('█');
     }

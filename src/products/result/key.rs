@@ -39,10 +39,10 @@ const fn key(
     }
 }
 
-const ASKED: &str = "with `--margins`";
+const IF_MARGINS_REQUESTED: &str = "with `--margins`";
 /// The condition for keys that are only present if this margin was requested. A request without names requests all
 /// margins.
-const NAMED: &str = "where requested";
+const IF_MARGIN_REQUESTED: &str = "where requested";
 
 /// Every key of a result, in the order in which a result has them.
 #[rustfmt::skip]
@@ -111,25 +111,25 @@ pub const KEYS: &[Key] = &[
     key("frames[].failures[].amount", Type::Number, "N or N·m", "", "the size of the missing force; \\|Fx\\| + \\|Fy\\| for a robot; in N·m for a torque"),
     key("frames[].unsupported", Type::NameList, "", "if there are unsupported blocks", "blocks that would fall even if all contacts and grips could stick"),
     key("frames[].mechanism", Type::Motions, "", "", "the velocities of the blocks as the collapse begins; empty where stable"),
-    key("frames[].margins", Type::Object, "", ASKED, "how far the frame is from collapse; a margin is null if the frame stands at no value, or if no value was confirmed; a notice then says so"),
-    key("frames[].margins.friction", Type::Margin, "", NAMED, "the least friction coefficient, the same at all interfaces, at which the frame stands"),
-    key("frames[].margins.tilt", Type::Object, "", NAMED, "the largest angle by which gravity can turn while the frame stands; null if it falls without a turn"),
+    key("frames[].margins", Type::Object, "", IF_MARGINS_REQUESTED, "how far the frame is from collapse; a margin is null if the frame stands at no value, or if no value was confirmed; a notice then says so"),
+    key("frames[].margins.friction", Type::Margin, "", IF_MARGIN_REQUESTED, "the least friction coefficient, the same at all interfaces, at which the frame stands"),
+    key("frames[].margins.tilt", Type::Object, "", IF_MARGIN_REQUESTED, "the largest angle by which gravity can turn while the frame stands; null if it falls without a turn"),
     key("frames[].margins.tilt.left", Type::Margin, "°", "", "the largest turn of gravity to the left (clockwise)"),
     key("frames[].margins.tilt.right", Type::Margin, "°", "", "the largest turn of gravity to the right (anticlockwise)"),
-    key("frames[].margins.horizontal_load", Type::Object, "", NAMED, "the largest horizontal force on every block at which the frame stands, as a share of the weight of the block"),
+    key("frames[].margins.horizontal_load", Type::Object, "", IF_MARGIN_REQUESTED, "the largest horizontal force on every block at which the frame stands, as a share of the weight of the block"),
     key("frames[].margins.horizontal_load.left", Type::Margin, "", "", "to the left"),
     key("frames[].margins.horizontal_load.right", Type::Margin, "", "", "to the right"),
-    key("frames[].margins.kernel", Type::Margin, "", NAMED, "the largest kernel"),
-    key("frames[].margins.load_factor", Type::Margin, "", NAMED, "the largest factor on the loads; null also for a frame without loads"),
+    key("frames[].margins.kernel", Type::Margin, "", IF_MARGIN_REQUESTED, "the largest kernel"),
+    key("frames[].margins.load_factor", Type::Margin, "", IF_MARGIN_REQUESTED, "the largest factor on the loads; null also for a frame without loads"),
     key("frames[].margins.robots", Type::ByRobot, "", "", "the least limits of each robot that holds a block, by its name; empty if they were not requested"),
     key("frames[].margins.robots.*.fx", Type::Margin, "N", "", "the least limit of the robot's horizontal force at which the frame stands"),
     key("frames[].margins.robots.*.fy", Type::Margin, "N", "", "the least limit of the robot's vertical force at which the frame stands"),
     key("frames[].margins.robots.*.torque", Type::Margin, "N·m", "", "the least limit of the robot's torque at which the frame stands"),
     key("frames[].margins.intervals", Type::Object, "", "", "for each parameter, the interval of values at which the frame stands if all else is unchanged; an end is `null` if there is no limit; an interval is `null` if the frame stands at no value; `\"withheld\"` replaces what no verdict confirms, and a notice says why"),
-    key("frames[].margins.intervals.friction", Type::Interval, "", NAMED, "the friction coefficient, the same at all interfaces, from 0 to 1000"),
-    key("frames[].margins.intervals.tilt", Type::Interval, "°", NAMED, "the turn of gravity, negative to the left; loads do not turn"),
-    key("frames[].margins.intervals.horizontal_load", Type::Interval, "", NAMED, "the horizontal force on every block as a share of its weight, negative to the left"),
-    key("frames[].margins.intervals.kernel", Type::Interval, "", NAMED, "the kernel, from 0 to 1; no upper end if the frame stands at 1"),
+    key("frames[].margins.intervals.friction", Type::Interval, "", IF_MARGIN_REQUESTED, "the friction coefficient, the same at all interfaces, from 0 to 1000"),
+    key("frames[].margins.intervals.tilt", Type::Interval, "°", IF_MARGIN_REQUESTED, "the turn of gravity, negative to the left; loads do not turn"),
+    key("frames[].margins.intervals.horizontal_load", Type::Interval, "", IF_MARGIN_REQUESTED, "the horizontal force on every block as a share of its weight, negative to the left"),
+    key("frames[].margins.intervals.kernel", Type::Interval, "", IF_MARGIN_REQUESTED, "the kernel, from 0 to 1; no upper end if the frame stands at 1"),
     key("frames[].margins.intervals.load_factor", Type::Interval, "", "where requested, if there are loads", "the factor on the loads, at least 0; 1 stands for the loads of the scene"),
     key("frames[].margins.intervals.robots", Type::ByRobot, "", "where requested, if robots hold blocks", "the limits of each robot by its name; each limit is varied alone"),
     key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "the limit of the robot's horizontal force"),

@@ -82,7 +82,7 @@ enum RangeEnd {
 }
 
 /// This word replaces a value that no verdict confirms.
-const WITHHELD: &str = "withheld";
+const WITHHELD_VALUE: &str = "withheld";
 
 /// How the blocks begin to move just beyond each margin.
 #[derive(Serialize)]
@@ -219,12 +219,12 @@ fn range(interval: &Interval) -> Range {
     let end = |end: &Limit| match end {
         Limit::At { value, .. } => RangeEnd::At(Number(*value)),
         Limit::Unbounded => RangeEnd::Unbounded,
-        _ => RangeEnd::Withheld(WITHHELD),
+        _ => RangeEnd::Withheld(WITHHELD_VALUE),
     };
     match interval {
         Interval::Between { low, high } => Range::Between([end(low), end(high)]),
         Interval::Empty(_) => Range::Empty,
-        _ => Range::Withheld(WITHHELD),
+        _ => Range::Withheld(WITHHELD_VALUE),
     }
 }
 

@@ -24,7 +24,7 @@ use super::store::{self, Access};
 use crate::drawing::Drawing;
 
 /// The folder for the references of figures, relative to the crate.
-const FIGURES: &str = "tests/snapshots";
+const FIGURE_FOLDER: &str = "tests/snapshots";
 
 /// Fails if a scene differs from the references next to it: `arch.txt`, `arch.svg` and `arch.png` for `arch.json`.
 ///
@@ -111,11 +111,11 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let inside = name.components().all(|c| matches!(c, Component::Normal(_)));
     if !inside || name.as_os_str().is_empty() {
         fail(&[format!(
-            "{:?} is not a valid name for a figure: it leads out of {FIGURES}; use a plain file name",
+            "{:?} is not a valid name for a figure: it leads out of {FIGURE_FOLDER}; use a plain file name",
             name.display().to_string()
         )]);
     }
-    let base = place(crate_folder, &Path::new(FIGURES).join(name));
+    let base = place(crate_folder, &Path::new(FIGURE_FOLDER).join(name));
     let folder = base.parent().unwrap_or(crate_folder).to_owned();
     let settings = match settings(&folder) {
         Ok(settings) => settings,

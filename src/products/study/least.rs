@@ -8,12 +8,12 @@
 //!    forces.
 //! 2. On these, the least-squares solution is one linear system, which is refined in [`Double`] precision.
 //! 3. The result is accepted if the forces are admissible, if their sum is the certified optimum, and if no column of the
-//!    optimal face reduces the sum of squares (the Karush-Kuhn-Tucker conditions), each to [`EXACT`].
+//!    optimal face reduces the sum of squares (the Karush-Kuhn-Tucker conditions), each to [`OPTIMALITY_TOL`].
 
 use std::collections::BTreeMap;
 
 use super::double::Double;
-use super::optimum::{EXACT, Optimum, add, entries, product};
+use super::optimum::{OPTIMALITY_TOL, Optimum, add, entries, product};
 use super::skyline::Skyline;
 use crate::program::{Column, Force, Program, least_squares};
 use crate::solve::{Conditioning, Status, solve};
@@ -165,20 +165,20 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
         }
     }
     let size = total.near().max(1e-300);
-    let small = EXACT * size;
+    let small = OPTIMALITY_TOL * size;
     let balanced = rest.iter().all(|r| r.abs().near() <= small);
     let (contacts, grips) = forces.split_at(program.contacts.len());
     let admissible = contacts.iter().zip(&program.contacts).all(|(f, contact)| {
         let pressed = f[0] + f[1];
         let most = Double::from(contact.friction) * pressed;
         let slip = (f[2].abs() - most).near();
-        f[0].near().min(f[1].near()) >= -small && slip <= EXACT * size
+        f[0].near().min(f[1].near()) >= -small && slip <= OPTIMALITY_TOL * size
     });
     let sum = forces
         .iter()
         .flatten()
         .fold(Double::ZERO, |s, v| s + v.abs());
-    let optimal = (sum - total).abs().near() <= 10.0 * EXACT * size;
+    let optimal = (sum - total).abs().near() <= 10.0 * OPTIMALITY_TOL * size;
     let shortest = face.iter().all(|column| {
         let (place, direction) = place(program, column);
         let gain = dot(&direction, &forces[place]) - product(&entries(column), &w);

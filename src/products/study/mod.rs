@@ -34,7 +34,7 @@ pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
 
 /// If a falling frame needs less adhesion than this, relative to the heaviest load, a method may call it stable. This
 /// is within the documented tolerance of the proofs.
-const BAND: f64 = 10.0 * Proof::IMBALANCE_TOL;
+const MAX_NEGLIGIBLE_ADHESION: f64 = 10.0 * Proof::IMBALANCE_TOL;
 
 /// The results of a study.
 #[derive(Clone, Debug)]
@@ -178,7 +178,10 @@ fn truth(programs: &[Program]) -> Truth {
         .map(|(p, r)| newtons(p, r.largest))
         .try_fold(0.0, |most: f64, v| v.map(|v| most.max(v)));
     let falls = verdict == Verdict::Unstable;
-    let barely = |r: &Reference| r.total.is_some_and(|t| t <= BAND * Scale::HEAVIEST);
+    let barely = |r: &Reference| {
+        r.total
+            .is_some_and(|t| t <= MAX_NEGLIGIBLE_ADHESION * Scale::HEAVIEST)
+    };
     Truth {
         verdict: if decided || falls {
             verdict

@@ -35,17 +35,17 @@ pub(super) struct Optimum {
 /// of the columns (about 1e-16) make one of them the only optimum. The guessed face is the face of the exact geometry.
 /// Therefore the tolerance must be above these rounding errors. The gap is computed separately and counts such
 /// violations, so the tolerance hides no error.
-pub(super) const EXACT: f64 = 1e-13;
+pub(super) const OPTIMALITY_TOL: f64 = 1e-13;
 
 /// Solver tolerances for the first guess at the face.
-const TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
+const GUESS_TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
 /// A column belongs to the face if its amount times one of these factors exceeds its reduced cost.
-const MARGINS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
+const FACE_FACTORS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
 /// Number of steps of iterative refinement. The factorisation has 32 digits, so one step is enough for most faces.
 /// Further steps help ill-conditioned faces.
-const REFINEMENTS: usize = 4;
+const REFINEMENT_STEPS: usize = 4;
 /// An amount is at its limit if its relative distance from the limit is at most this.
-const AT_LIMIT: f64 = 1e-6;
+const LIMIT_TOL: f64 = 1e-6;
 /// The smallest weight of a column in the refinement, relative to the largest amount.
 const MIN_WEIGHT: f64 = 1e-12;
 
@@ -56,7 +56,7 @@ pub(super) fn optimum(
     cost: impl Fn(&Column) -> f64 + Copy,
 ) -> Option<Optimum> {
     let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
-    for tolerance in TOLERANCES {
+    for tolerance in GUESS_TOLERANCES {
         let settings = SolverSettings {
             tolerance,
             choice: Choice::Any,
@@ -66,7 +66,7 @@ pub(super) fn optimum(
         if solved.status != Status::Solved {
             continue;
         }
-        for margin in MARGINS {
+        for margin in FACE_FACTORS {
             let guess = Guess {
                 loads,
                 columns,
@@ -122,7 +122,7 @@ impl Guess<'_> {
     fn refined(&self) -> Refined {
         let at_limit = |j: usize| {
             self.columns[j].limit.is_finite()
-                && self.amounts[j] > self.columns[j].limit * (1.0 - AT_LIMIT)
+                && self.amounts[j] > self.columns[j].limit * (1.0 - LIMIT_TOL)
         };
         let all = 0..self.columns.len();
         let limited: Vec<usize> = all.clone().filter(|j| at_limit(*j)).collect();
@@ -145,7 +145,7 @@ impl Guess<'_> {
             .collect();
         let mut y: Vec<Double> = self.y.iter().map(|v| Double::from(*v)).collect();
         let mut rest = loads.clone();
-        for _ in 0..REFINEMENTS {
+        for _ in 0..REFINEMENT_STEPS {
             rest = loads.clone();
             for (j, x) in face.iter().zip(&x) {
                 add(&mut rest, &self.sparse[*j], -*x);
@@ -212,24 +212,26 @@ impl Guess<'_> {
             forces = forces + limit * Double::from(self.costs[*j]);
             bound = bound + limit * self.reduced_cost(*j, &y);
             // A column at its limit must not have a positive reduced cost.
-            if self.reduced_cost(*j, &y).near() > EXACT * speed {
+            if self.reduced_cost(*j, &y).near() > OPTIMALITY_TOL * speed {
                 return None;
             }
         }
         // Check primal feasibility: the loads balance, and amounts lie between 0 and their limits.
-        let balanced = rest.iter().all(|r| r.abs().near() <= EXACT * largest);
+        let balanced = rest
+            .iter()
+            .all(|r| r.abs().near() <= OPTIMALITY_TOL * largest);
         let presses = face.iter().zip(&x).all(|(j, x)| {
-            (x.near() >= -EXACT * largest || self.may_be_negative(*j, &face))
+            (x.near() >= -OPTIMALITY_TOL * largest || self.may_be_negative(*j, &face))
                 && x.near() <= self.columns[*j].limit
         });
         // Check dual feasibility: no column below its limit has a negative reduced cost.
         let free = || (0..self.columns.len()).filter(|j| !limited.contains(j));
-        let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -EXACT * speed);
+        let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -OPTIMALITY_TOL * speed);
         let scale = forces
             .near()
             .abs()
             .max(bound.near().abs())
-            .max(EXACT * largest * speed);
+            .max(OPTIMALITY_TOL * largest * speed);
         // Bound the error by weak duality: it is at most the difference of both objective values, plus the largest dual
         // violation times the sum of all amounts, plus the unbalanced forces times the velocities.
         let violation = free()
@@ -242,7 +244,7 @@ impl Guess<'_> {
             .map(|(r, y)| (*r * *y).abs().near())
             .sum();
         let gap = ((forces - bound).abs().near() + violation * total + unbalanced) / scale;
-        let agree = gap * scale <= 10.0 * EXACT * scale.max(largest);
+        let agree = gap * scale <= 10.0 * OPTIMALITY_TOL * scale.max(largest);
         (balanced && presses && bounded && agree).then_some(Optimum {
             value: forces,
             gap,

@@ -11,7 +11,7 @@
 
 use super::double::Double;
 use super::least::largest_of_unique;
-use super::optimum::{EXACT, entries, optimum, power, product};
+use super::optimum::{OPTIMALITY_TOL, entries, optimum, power, product};
 use crate::analysis::Verdict;
 use crate::program::{Column, Program, adhesion_columns, columns};
 use crate::solve::{Conditioning, Effort, Status, dual};
@@ -62,7 +62,7 @@ impl Reference {
         if let Some(optimum) = optimum(&program.loads, &all, adheres) {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
-            return match least > EXACT * largest {
+            return match least > OPTIMALITY_TOL * largest {
                 // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of 2.
                 // A small total among large forces may be known to fewer than twelve digits. Then only the verdict is
                 // reported.

@@ -9,7 +9,7 @@ use super::double::Double;
 /// A pivot below this share of the diagonal counts as zero. The pivot of a dependent row is the rounding error of its
 /// entries, about 1e-31 of the diagonal. The value 1e-22 is far above this error and far below the pivots of
 /// independent rows.
-const ZERO_PIVOT: f64 = 1e-22;
+const PIVOT_TOL: f64 = 1e-22;
 
 /// A factorised matrix.
 pub(super) struct Skyline {
@@ -83,7 +83,7 @@ impl Skyline {
                     row[j - start] = scaled;
                 }
             }
-            let stands = pivot.near() > ZERO_PIVOT * whole && whole > 0.0;
+            let stands = pivot.near() > PIVOT_TOL * whole && whole > 0.0;
             self.pivots.push(stands.then_some(pivot));
         }
     }

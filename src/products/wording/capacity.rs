@@ -50,7 +50,7 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
 }
 
 /// The directions and their words.
-const SIDES: [([f64; 2], &str); 4] = [
+const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
     ([-1.0, 0.0], "to the left"),
     ([1.0, 0.0], "to the right"),
     ([0.0, 1.0], "up"),
@@ -60,7 +60,7 @@ const SIDES: [([f64; 2], &str); 4] = [
 /// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if the
 /// frame falls without a force.
 pub fn sides(capacity: &LoadCapacity) -> Option<String> {
-    let each = SIDES.map(|(direction, word)| {
+    let each = NAMED_DIRECTIONS.map(|(direction, word)| {
         let most = capacity.reach(direction)?;
         Some(match most.is_finite() {
             true => format!("{} {word}", quantity(rounded(most, capacity), "N")),

@@ -106,21 +106,21 @@ pub fn degrees(angle: f64) -> String {
     format!("{angle:.decimals$}°")
 }
 
-/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL`] gives `100 %`, and only a ratio of at
-/// most 1 − `FULL` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
+/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] gives `100 %`, and only a ratio of at
+/// most 1 − `FULL_UTILISATION` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;
     match rounded {
-        _ if share >= FULL => format!("100{space}%"),
+        _ if share >= FULL_UTILISATION => format!("100{space}%"),
         r if r >= 100.0 => format!("over 99{space}%"),
-        r if r <= 0.0 && share > 1.0 - FULL => format!("under 1{space}%"),
+        r if r <= 0.0 && share > 1.0 - FULL_UTILISATION => format!("under 1{space}%"),
         r => format!("{:.0}{space}%", r.max(0.0)),
     }
 }
 
 /// Ratios of at least this value count as 100 %, because the difference is a rounding error of the solver.
-pub const FULL: f64 = 1.0 - 1e-6;
+pub const FULL_UTILISATION: f64 = 1.0 - 1e-6;
 
 /// Writes a count and its noun in the singular or plural: `1 hinge`, `2 hinges`.
 pub fn counted(count: usize, what: &str) -> String {
@@ -225,10 +225,10 @@ pub fn three_up(x: f64) -> String {
 /// in the other direction is also accepted if its relative distance is at most the error of margins.
 fn three_beyond(x: f64, sign: f64) -> String {
     // The relative error of margins.
-    const ACCURATE: f64 = 1e-6;
+    const MARGIN_TOL: f64 = 1e-6;
     let nearest = three(x);
     let written: f64 = nearest.parse().unwrap_or(x);
-    if x <= 0.0 || (x - written) * sign <= ACCURATE * x {
+    if x <= 0.0 || (x - written) * sign <= MARGIN_TOL * x {
         return nearest;
     }
     let digit = libm::exp10(libm::floor(libm::log10(x)) - 2.0);

@@ -9,13 +9,13 @@ use crate::geometry::Vector;
 use crate::scene::{BlockId, Scene};
 
 /// A length that changes, as a fraction of the median interface.
-const SHARE_OF_LENGTH: f64 = 1.0 / 50.0;
+const LENGTH_STEP_SHARE: f64 = 1.0 / 50.0;
 /// The share of a weight by which the weight changes.
-const SHARE_OF_WEIGHT: f64 = 0.1;
+const WEIGHT_STEP_SHARE: f64 = 0.1;
 /// The amount by which a friction coefficient changes.
 pub const FRICTION_STEP: f64 = 0.05;
 /// Changes with a smaller effect, relative to the value, are not listed.
-const NO_EFFECT: f64 = 1e-6;
+const EFFECT_TOL: f64 = 1e-6;
 
 /// The quantity that is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,7 @@ pub fn most_effective(
     let mut list = corners(scene, found, end, outward);
     list.extend(others(scene, found, end, outward));
     let effect = |change: &EffectiveChange| (change.after - end.value) * outward;
-    list.retain(|change| effect(change) > NO_EFFECT * end.value.abs());
+    list.retain(|change| effect(change) > EFFECT_TOL * end.value.abs());
     list.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
     list.truncate(most);
     list
@@ -67,7 +67,7 @@ pub fn most_effective(
 /// Returns the length in metres by which the described changes move corners and loads. It is 1, 2 or 5 times a power of
 /// ten.
 pub fn step_length(found: &FrameAnalysis) -> f64 {
-    round_below(SHARE_OF_LENGTH * found.length * (1.0 + 1e-9))
+    round_below(LENGTH_STEP_SHARE * found.length * (1.0 + 1e-9))
 }
 
 /// Writes a length below 1 m in millimetres, and any other length in metres.
@@ -173,7 +173,7 @@ fn others(
         });
     };
     for (block, slope) in &end.weights {
-        let amount = SHARE_OF_WEIGHT * scene.blocks[block.0].weight;
+        let amount = WEIGHT_STEP_SHARE * scene.blocks[block.0].weight;
         if let Some((side, rate)) = best_side(*slope, outward) {
             let name = named(scene, crate::scene::BodyId::Block(*block));
             let how = if side > 0.0 { "heavier" } else { "lighter" };
@@ -242,13 +242,13 @@ pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)>
 /// Describes a direction by the nearest of eight directions: `up and to the left`.
 pub fn toward(direction: Vector) -> String {
     // The tangent of 22.5°, half the angle between two of the eight directions.
-    const NARROW: f64 = 0.414_213_562_373_095_1;
+    const TAN_22_5: f64 = 0.414_213_562_373_095_1;
     let (x, y) = (direction.x.abs(), direction.y.abs());
     let upright = if direction.y > 0.0 { "up" } else { "down" };
     let side = if direction.x > 0.0 { "right" } else { "left" };
-    if x < NARROW * y {
+    if x < TAN_22_5 * y {
         upright.into()
-    } else if y < NARROW * x {
+    } else if y < TAN_22_5 * x {
         format!("to the {side}")
     } else {
         format!("{upright} and to the {side}")

@@ -13,9 +13,9 @@ use super::draft::Remark;
 use crate::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 
 /// Coordinates across the plane that differ by less than this share of the largest coordinate are equal.
-const SAME: f64 = 1e-6;
+const EQUAL_COORDINATE_TOL: f64 = 1e-6;
 /// Corners of both ends of a prism are compared with this many steps per unit.
-const STEPS: f64 = 1e6;
+const STEPS_PER_UNIT: f64 = 1e6;
 
 /// A plane: its name, and the axes to the right, up and across.
 type Plane = (&'static str, [usize; 3]);
@@ -93,7 +93,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         .iter()
         .fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(*d), b.max(*d)));
     if scene.thickness.is_none() {
-        if thick - thin > SAME * thick {
+        if thick - thin > EQUAL_COORDINATE_TOL * thick {
             let message = format!(
                 "its blocks are {thin} to {thick} m thick, and a plane scene has one thickness"
             );
@@ -193,7 +193,7 @@ fn prism(solid: &Solid, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f
         let (low, high) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
             (a.min(d), b.max(d))
         });
-        let is_end = face.len() >= 3 && high - low < 1e-9 + SAME * size;
+        let is_end = face.len() >= 3 && high - low < 1e-9 + EQUAL_COORDINATE_TOL * size;
         is_end.then(|| {
             (
                 0.5 * (low + high),
@@ -209,7 +209,7 @@ fn prism(solid: &Solid, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f
     let corners = |outline: &[Pair]| {
         let mut rounded: Vec<[i64; 2]> = outline
             .iter()
-            .map(|c| c.map(|x| (x * STEPS).round() as i64))
+            .map(|c| c.map(|x| (x * STEPS_PER_UNIT).round() as i64))
             .collect();
         rounded.sort_unstable();
         rounded

@@ -12,7 +12,7 @@ use crate::scene::format::{BlockEntry, ContactEntry, SceneFile};
 /// Directions larger than this, in radians, are most likely degrees.
 const MAX_DIRECTION: f64 = 7.0;
 /// A direction within this many degrees of a multiple of 15° was meant to be that multiple: π is often written as 3.1416.
-const SNAP: f64 = 0.01;
+const SNAP_DEGREES: f64 = 0.01;
 
 /// One body or contact, with a description of its place in the file.
 struct Row {
@@ -79,13 +79,13 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
             }
             _ => {
                 let message = format!("it has {} numbers", row.numbers.len());
-                problems.push(problem(&row.place, message, FORM));
+                problems.push(problem(&row.place, message, ROW_FORM_HELP));
             }
         }
     }
     if problems.is_empty() && (scene.blocks.is_empty() || scene.contacts.is_empty()) {
         let message = "it has no body, or no contact";
-        problems.push(problem("", message.into(), FORM));
+        problems.push(problem("", message.into(), ROW_FORM_HELP));
     }
     if !problems.is_empty() {
         return Err(problems);
@@ -97,7 +97,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-const FORM: &str = "a body has three numbers: x, y, mass; a contact has six: first body, second body, x, y, direction of the \
+const ROW_FORM_HELP: &str = "a body has three numbers: x, y, mass; a contact has six: first body, second body, x, y, direction of the \
     normal in radians, friction";
 
 fn problem(element: &str, message: String, help: &str) -> Remark {
@@ -121,7 +121,7 @@ fn name(number: f64, bodies: usize) -> Option<String> {
 fn degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let near = 15.0 * (degrees / 15.0).round();
-    match (degrees - near).abs() <= SNAP {
+    match (degrees - near).abs() <= SNAP_DEGREES {
         true => near,
         false => degrees,
     }
@@ -147,7 +147,11 @@ fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
         let place = format!("line {}", number + 1);
         match numbers.into_iter().collect() {
             Some(numbers) => rows.push(Row { place, numbers }),
-            None => problems.push(problem(&place, "it has words between numbers".into(), FORM)),
+            None => problems.push(problem(
+                &place,
+                "it has words between numbers".into(),
+                ROW_FORM_HELP,
+            )),
         }
     }
     (rows, problems)
@@ -206,7 +210,11 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
             };
             match numbers.filter(|numbers| numbers.len() == names.len()) {
                 Some(numbers) => rows.push(Row { place, numbers }),
-                None => problems.push(problem(&place, "its numbers cannot be read".into(), FORM)),
+                None => problems.push(problem(
+                    &place,
+                    "its numbers cannot be read".into(),
+                    ROW_FORM_HELP,
+                )),
             }
         }
     }

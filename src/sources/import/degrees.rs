@@ -6,9 +6,9 @@ use crate::geometry::{Bounds, Point};
 
 /// Drawings usually lie near their origin. Coordinates count as places on the globe if their distance from the
 /// origin, relative to their extent, exceeds this, and if they are in the range of degrees.
-const FAR_FROM_ORIGIN: f64 = 20.0;
+const MIN_ORIGIN_DISTANCE_RATIO: f64 = 20.0;
 /// A structure on the globe extends at most this many degrees, about 100 km.
-const MAX_EXTENT: f64 = 1.0;
+const MAX_EXTENT_DEGREES: f64 = 1.0;
 /// Collections are not nested deeper.
 const MAX_DEPTH: usize = 50;
 
@@ -34,7 +34,9 @@ pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let extent = (b.max.x - b.min.x).max(b.max.y - b.min.y);
     let on_globe = b.min.x >= -180.0 && b.max.x <= 180.0 && b.min.y >= -90.0 && b.max.y <= 90.0;
     let distance = b.min.coords.norm().min(b.max.coords.norm());
-    let is_far = extent > 0.0 && extent <= MAX_EXTENT && distance > FAR_FROM_ORIGIN * extent;
+    let is_far = extent > 0.0
+        && extent <= MAX_EXTENT_DEGREES
+        && distance > MIN_ORIGIN_DISTANCE_RATIO * extent;
     (on_globe && is_far && system.is_none()).then(|| {
         format!(
             "its coordinates look like longitude and latitude in degrees: {} to {} and {} to {}; {remedy}",

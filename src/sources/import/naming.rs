@@ -30,7 +30,7 @@ const GROUND_WORDS: [&str; 21] = [
     "widerlager",
 ];
 /// The largest number of names that are kept for messages.
-const MAX_KEPT: usize = 1000;
+const MAX_KEPT_NAMES: usize = 1000;
 
 /// The rules that give roles to elements by their names.
 #[derive(Debug, Default)]
@@ -84,7 +84,7 @@ impl<'o> Naming<'o> {
 
 fn keep(names: &RefCell<BTreeSet<String>>, name: &str) {
     let mut names = names.borrow_mut();
-    if !name.is_empty() && names.len() < MAX_KEPT && !names.contains(name) {
+    if !name.is_empty() && names.len() < MAX_KEPT_NAMES && !names.contains(name) {
         names.insert(name.to_owned());
     }
 }

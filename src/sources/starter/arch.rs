@@ -1,6 +1,6 @@
 //! [`Arch`]: a round arch.
 
-use super::{STONE, block, floor, rounded};
+use super::{STONE_DENSITY, block, floor, rounded};
 use crate::scene::format::{Pair, SceneFile};
 
 /// A semicircular arch of equal voussoirs on level ground.
@@ -71,7 +71,7 @@ impl Arch {
                 self.voussoirs, self.span, self.thickness
             )),
             friction: Some(self.friction),
-            density: Some(STONE),
+            density: Some(STONE_DENSITY),
             ground: vec![floor(-aside, aside, self.thickness)],
             blocks: (0..self.voussoirs).map(voussoir).collect(),
             ..SceneFile::default()

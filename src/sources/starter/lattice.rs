@@ -1,6 +1,6 @@
 //! [`LatticePile`]: a pile of triangles on the triangular lattice.
 
-use super::STONE;
+use super::STONE_DENSITY;
 use crate::scene::format::{
     BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile,
 };
@@ -63,7 +63,7 @@ impl LatticePile {
         SceneFile {
             title: Some(format!("A pile of triangles in {} rows", self.rows)),
             friction: Some(self.friction),
-            density: Some(STONE),
+            density: Some(STONE_DENSITY),
             grid: Some(GridEntry {
                 kind: GridKind::Triangular,
                 side: Some(self.side),

@@ -1,6 +1,6 @@
 //! [`Wall`], [`Tower`] and [`Doorway`]: blocks with level joints.
 
-use super::{STONE, block, floor, rectangle, rounded};
+use super::{STONE_DENSITY, block, floor, rectangle, rounded};
 use crate::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
 
 /// A wall in running bond, with half bricks at its ends.
@@ -68,7 +68,7 @@ impl Wall {
                 self.courses, self.bricks
             )),
             friction: Some(self.friction),
-            density: Some(STONE),
+            density: Some(STONE_DENSITY),
             ground: vec![floor(-x(2), x(2 * self.bricks + 2), y(2))],
             blocks,
             ..SceneFile::default()
@@ -133,7 +133,7 @@ impl Tower {
                 self.blocks, self.lean
             )),
             friction: Some(self.friction),
-            density: Some(STONE),
+            density: Some(STONE_DENSITY),
             ground: vec![floor(
                 round(-self.width),
                 round(2.0 * self.width),
@@ -223,7 +223,7 @@ impl Doorway {
                 self.width, self.height
             )),
             friction: Some(self.friction),
-            density: Some(STONE),
+            density: Some(STONE_DENSITY),
             ground: vec![floor(
                 round(-self.jamb),
                 round(end + self.jamb),

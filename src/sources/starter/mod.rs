@@ -15,12 +15,12 @@ use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 
 /// Coordinates have this many significant digits of the smallest length: enough for a person to read, and far below any
 /// joint.
-const DIGITS: f64 = 4.0;
+const SIGNIFICANT_DIGITS: f64 = 4.0;
 
 /// Rounds a coordinate, in metres, to four significant digits of `least`, the smallest length of the structure in
 /// metres.
 fn rounded(x: f64, least: f64) -> f64 {
-    let decimals = DIGITS - 1.0 - libm::floor(libm::log10(least));
+    let decimals = SIGNIFICANT_DIGITS - 1.0 - libm::floor(libm::log10(least));
     let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
     let whole = (x * power).round() / power;
     // Adding 0 turns −0 into 0.
@@ -49,4 +49,4 @@ fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
 }
 
 /// Density of stone, kg/m³.
-const STONE: f64 = 2500.0;
+const STONE_DENSITY: f64 = 2500.0;

@@ -11,7 +11,7 @@ use crate::clock::Instant;
 use crate::wording::verdict::counted;
 
 /// The default interval between two reports on a terminal.
-const OFTEN: Duration = Duration::from_secs(2);
+const REPORT_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The pace of a batch.
 pub(super) struct Pace<'t> {
@@ -41,7 +41,7 @@ impl<'t> Pace<'t> {
         read: Arc<AtomicU64>,
     ) -> Pace<'t> {
         let now = Instant::now();
-        let watched = terminal.shows_progress().then_some(OFTEN);
+        let watched = terminal.shows_progress().then_some(REPORT_INTERVAL);
         Pace {
             terminal,
             start: now,

@@ -18,7 +18,7 @@ use crate::result::Origin;
 use crate::text;
 
 /// The ending that is added to the path of an output.
-const ENDING: &str = ".resume";
+const FILE_SUFFIX: &str = ".resume";
 /// Bytes of an entry: two hashes of 16 digits, a space and a line feed.
 const ENTRY_BYTES: usize = 34;
 /// Bytes that are read at once.
@@ -92,7 +92,7 @@ impl ResumeFile {
     /// Returns the path of the resume file of an output file: `answers.ndjson.resume` for `answers.ndjson`.
     pub fn path_for(output: &Path) -> PathBuf {
         let mut path = output.as_os_str().to_owned();
-        path.push(ENDING);
+        path.push(FILE_SUFFIX);
         path.into()
     }
 

@@ -25,7 +25,7 @@ enum Pictures {
 }
 
 /// The size of a part of a picture in one message to kitty, in bytes.
-const PIECE: usize = 4096;
+const MAX_CHUNK_BYTES: usize = 4096;
 
 /// Asks for each snapshot that differs whether to accept it: `y` accepts it, `n` and `s` keep the reference, and `q`
 /// ends the review. Returns an error if an accepted snapshot could not be written.
@@ -117,7 +117,7 @@ fn drawn(png: &[u8], pictures: Pictures) -> Vec<u8> {
         Pictures::None => Vec::new(),
         Pictures::Inline => format!("\x1b]1337;File=inline=1;width=80%:{data}\x07\n").into_bytes(),
         Pictures::Kitty => {
-            let pieces: Vec<&[u8]> = data.as_bytes().chunks(PIECE).collect();
+            let pieces: Vec<&[u8]> = data.as_bytes().chunks(MAX_CHUNK_BYTES).collect();
             let mut out = Vec::new();
             for (number, piece) in pieces.iter().enumerate() {
                 let begin = if number == 0 { "f=100,a=T," } else { "" };

@@ -4,8 +4,8 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::{Drawn, FINE, GRID, INK, Page, font, small, tick, words_from};
-use crate::chart::{Course, SMALL, round_step};
+use super::{Drawn, GRID, INK, Page, UNITS_PER_PIXEL, font, small, tick, words_from};
+use crate::chart::{Course, SMALL_SIZE, round_step};
 
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
@@ -19,10 +19,10 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
     let last = (chart.steps.len() - 1).max(1) as f64;
     let named = chart.lines.len() > 1;
     let mut axes = ChartBuilder::on(&area)
-        .margin(8 * FINE)
-        .margin_right(if named { 104 } else { 18 } * FINE)
-        .x_label_area_size(38 * FINE)
-        .y_label_area_size(54 * FINE)
+        .margin(8 * UNITS_PER_PIXEL)
+        .margin_right(if named { 104 } else { 18 } * UNITS_PER_PIXEL)
+        .x_label_area_size(38 * UNITS_PER_PIXEL)
+        .y_label_area_size(54 * UNITS_PER_PIXEL)
         .build_cartesian_2d(0.0..last, 0.0..top)?;
     let name = |v: &f64| {
         let whole = libm::round(*v);
@@ -38,11 +38,11 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
         .y_label_formatter(&|v| tick(*v))
         .x_desc("step")
         .y_desc(&chart.y)
-        .set_all_tick_mark_size(4 * FINE)
+        .set_all_tick_mark_size(4 * UNITS_PER_PIXEL)
         .label_style(font(12))
         .axis_desc_style(font(12))
-        .axis_style(INK.stroke_width(FINE as u32))
-        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .axis_style(INK.stroke_width(UNITS_PER_PIXEL as u32))
+        .bold_line_style(GRID.stroke_width(UNITS_PER_PIXEL as u32))
         .light_line_style(TRANSPARENT)
         .draw()?;
     let ends = draw_lines(&mut axes, chart)?;
@@ -66,12 +66,15 @@ fn draw_lines<'c>(
         // Connect only neighbouring steps, so that a step without a value interrupts the line.
         let pairs = (1..values.len()).filter_map(|i| Some([at(i - 1)?, at(i)?]));
         for pair in pairs {
-            axes.draw_series(LineSeries::new(pair, colour.stroke_width(2 * FINE as u32)))?;
+            axes.draw_series(LineSeries::new(
+                pair,
+                colour.stroke_width(2 * UNITS_PER_PIXEL as u32),
+            ))?;
         }
         axes.draw_series(
             points
                 .iter()
-                .map(|at| Circle::new(*at, 3 * FINE, colour.filled())),
+                .map(|at| Circle::new(*at, 3 * UNITS_PER_PIXEL, colour.filled())),
         )?;
         if let Some(end) = points.last() {
             ends.push((axes.backend_coord(end).1, name));
@@ -86,8 +89,8 @@ fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> Drawn {
     let mut free = i32::MIN;
     for (y, name) in ends {
         let y = y.max(free);
-        free = y + 13 * FINE;
-        let at = ((SMALL.0 - 92) * FINE, y);
+        free = y + 13 * UNITS_PER_PIXEL;
+        let at = ((SMALL_SIZE.0 - 92) * UNITS_PER_PIXEL, y);
         area.draw(&Text::new(name.to_owned(), at, words_from(font(12))))?;
     }
     Ok(())

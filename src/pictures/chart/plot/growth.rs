@@ -3,18 +3,21 @@
 use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
 
-use super::{Drawn, FINE, FONT, GRID, INK, LogAxes, Page, decades, font, large, tick, words_from};
-use crate::chart::{Growing, Growth, Point, SIZE};
+use super::{
+    Drawn, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, tick,
+    words_from,
+};
+use crate::chart::{Growing, Growth, LARGE_SIZE, Point};
 
 /// The colour of our own lines.
-const DARK: RGBColor = RGBColor(20, 70, 130);
+const OWN_COLOUR: RGBColor = RGBColor(20, 70, 130);
 /// The colour of all other lines.
-const PALE: RGBColor = RGBColor(140, 140, 146);
+const OTHER_COLOUR: RGBColor = RGBColor(140, 140, 146);
 
 /// The left edge of the names.
-const NAMES_LEFT: i32 = (SIZE.0 - 232) * FINE;
+const NAMES_LEFT: i32 = (LARGE_SIZE.0 - 232) * UNITS_PER_PIXEL;
 /// The least distance between two names.
-const NAMES_APART: i32 = 17 * FINE;
+const MIN_NAME_DISTANCE: i32 = 17 * UNITS_PER_PIXEL;
 
 /// The end of a line on the page, and the line.
 struct LineEnd<'c> {
@@ -33,11 +36,11 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(a, b), x| (x.min(a), x.max(b)));
     let ten = |e: i32| libm::exp10(f64::from(e));
     let mut axes = ChartBuilder::on(&area)
-        .margin(14 * FINE)
-        .margin_right(250 * FINE)
+        .margin(14 * UNITS_PER_PIXEL)
+        .margin_right(250 * UNITS_PER_PIXEL)
         .caption(&chart.title, font(17))
-        .x_label_area_size(46 * FINE)
-        .y_label_area_size(66 * FINE)
+        .x_label_area_size(46 * UNITS_PER_PIXEL)
+        .y_label_area_size(66 * UNITS_PER_PIXEL)
         .build_cartesian_2d(
             (0.8 * least..1.25 * most).log_scale(),
             (ten(low)..ten(high)).log_scale(),
@@ -51,18 +54,22 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
         .y_desc(&chart.y)
         .label_style(font(12))
         .axis_desc_style(font(13))
-        .axis_style(INK.stroke_width(FINE as u32))
-        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .axis_style(INK.stroke_width(UNITS_PER_PIXEL as u32))
+        .bold_line_style(GRID.stroke_width(UNITS_PER_PIXEL as u32))
         .light_line_style(TRANSPARENT)
         .draw()?;
     let mut ends = draw_lines(&mut axes, &chart.lines)?;
     ends.sort_by_key(|end| (end.y, end.x));
     draw_names(&area, &ends)?;
     if all().any(|p| p.wrong) {
-        let y = (SIZE.1 - 24) * FINE;
-        let cross = Cross::new((NAMES_LEFT + 5 * FINE, y), 5 * FINE, crossing_pen());
+        let y = (LARGE_SIZE.1 - 24) * UNITS_PER_PIXEL;
+        let cross = Cross::new(
+            (NAMES_LEFT + 5 * UNITS_PER_PIXEL, y),
+            5 * UNITS_PER_PIXEL,
+            crossing_pen(),
+        );
         area.draw(&cross)?;
-        let at = (NAMES_LEFT + 18 * FINE, y);
+        let at = (NAMES_LEFT + 18 * UNITS_PER_PIXEL, y);
         area.draw(&Text::new(chart.wrong.clone(), at, words_from(font(12))))?;
     }
     area.present()?;
@@ -71,12 +78,16 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
 
 /// Returns the colour and the width in pixels of a line. Our own lines (`ours`) are dark and thick.
 fn style(ours: bool) -> (RGBColor, i32) {
-    if ours { (DARK, 3) } else { (PALE, 1) }
+    if ours {
+        (OWN_COLOUR, 3)
+    } else {
+        (OTHER_COLOUR, 1)
+    }
 }
 
 /// Returns the stroke of the crosses that mark wrong results.
 fn crossing_pen() -> ShapeStyle {
-    INK.stroke_width(2 * FINE as u32)
+    INK.stroke_width(2 * UNITS_PER_PIXEL as u32)
 }
 
 /// Draws our own lines above all other lines. Returns the right end of each line.
@@ -89,13 +100,14 @@ fn draw_lines<'c>(
         let (colour, width) = style(ours);
         for line in lines.iter().filter(|line| line.ours == ours) {
             let points = || line.points.iter().map(|p| (p.x, p.y));
-            let stroke = colour.stroke_width((width * FINE) as u32);
+            let stroke = colour.stroke_width((width * UNITS_PER_PIXEL) as u32);
             axes.draw_series(LineSeries::new(points(), stroke))?;
             let right = line.points.iter().filter(|p| !p.wrong);
-            let dot = |p: &Point| Circle::new((p.x, p.y), (3 + width) * FINE, colour.filled());
+            let dot =
+                |p: &Point| Circle::new((p.x, p.y), (3 + width) * UNITS_PER_PIXEL, colour.filled());
             axes.draw_series(right.map(dot))?;
             let wrong = line.points.iter().filter(|p| p.wrong);
-            let cross = |p: &Point| Cross::new((p.x, p.y), 5 * FINE, crossing_pen());
+            let cross = |p: &Point| Cross::new((p.x, p.y), 5 * UNITS_PER_PIXEL, crossing_pen());
             axes.draw_series(wrong.map(cross))?;
             if let Some(end) = points().next_back() {
                 let (x, y) = axes.backend_coord(&end);
@@ -111,16 +123,18 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
     for (y, end) in name_heights(ends).into_iter().zip(ends) {
         let (colour, _) = style(end.line.ours);
         let joint = vec![
-            (end.x + 8 * FINE, end.y),
-            (NAMES_LEFT - 14 * FINE, y),
-            (NAMES_LEFT - 4 * FINE, y),
+            (end.x + 8 * UNITS_PER_PIXEL, end.y),
+            (NAMES_LEFT - 14 * UNITS_PER_PIXEL, y),
+            (NAMES_LEFT - 4 * UNITS_PER_PIXEL, y),
         ];
-        let thin = colour.mix(0.8).stroke_width(FINE as u32 / 2);
+        let thin = colour.mix(0.8).stroke_width(UNITS_PER_PIXEL as u32 / 2);
         area.draw(&PathElement::new(joint, thin))?;
         let face = match end.line.ours {
             true => {
-                let bold = (FONT, 12 * FINE).into_font().style(FontStyle::Bold);
-                bold.color(&DARK)
+                let bold = (FONT_FAMILY, 12 * UNITS_PER_PIXEL)
+                    .into_font()
+                    .style(FontStyle::Bold);
+                bold.color(&OWN_COLOUR)
             }
             false => font(12),
         };
@@ -135,18 +149,18 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
 fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     // From top to bottom: move each name below the name above it.
     let mut heights: Vec<i32> = ends.iter().map(|end| end.y).collect();
-    let mut free = 40 * FINE;
+    let mut free = 40 * UNITS_PER_PIXEL;
     for height in &mut heights {
         *height = (*height).max(free);
-        free = *height + NAMES_APART;
+        free = *height + MIN_NAME_DISTANCE;
     }
     // From bottom to top: move names up again, so that no name is far below the end of its line.
-    let mut below = (SIZE.1 - 66) * FINE;
+    let mut below = (LARGE_SIZE.1 - 66) * UNITS_PER_PIXEL;
     for (height, end) in heights.iter_mut().zip(ends).rev() {
         *height = (*height)
             .min(below)
-            .min((*height + end.y) / 2 + NAMES_APART);
-        below = *height - NAMES_APART;
+            .min((*height + end.y) / 2 + MIN_NAME_DISTANCE);
+        below = *height - MIN_NAME_DISTANCE;
     }
     heights
 }

@@ -3,11 +3,11 @@
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::{Drawn, FINE, GRID, INK, LogAxes, Page, decades, font, large, words_from};
-use crate::chart::{SIZE, Scatter, power_of_ten};
+use super::{Drawn, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from};
+use crate::chart::{LARGE_SIZE, Scatter, power_of_ten};
 
 /// The colour of the front.
-const GOLD: RGBColor = RGBColor(240, 190, 60);
+const FRONT_COLOUR: RGBColor = RGBColor(240, 190, 60);
 
 /// Draws points on two logarithmic axes into `svg`, with a legend.
 pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> Drawn {
@@ -18,11 +18,11 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
     let (low, high) = decades(all.map(|p| p.y));
     let ten = |e: i32| libm::exp10(f64::from(e));
     let mut axes = ChartBuilder::on(&area)
-        .margin(14 * FINE)
-        .margin_right(230 * FINE)
+        .margin(14 * UNITS_PER_PIXEL)
+        .margin_right(230 * UNITS_PER_PIXEL)
         .caption(&chart.title, font(17))
-        .x_label_area_size(46 * FINE)
-        .y_label_area_size(66 * FINE)
+        .x_label_area_size(46 * UNITS_PER_PIXEL)
+        .y_label_area_size(66 * UNITS_PER_PIXEL)
         .build_cartesian_2d(
             (ten(left)..ten(right)).log_scale(),
             (ten(low)..ten(high)).log_scale(),
@@ -39,8 +39,8 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
         .y_desc(&chart.y)
         .label_style(font(12))
         .axis_desc_style(font(13))
-        .axis_style(INK.stroke_width(FINE as u32))
-        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .axis_style(INK.stroke_width(UNITS_PER_PIXEL as u32))
+        .bold_line_style(GRID.stroke_width(UNITS_PER_PIXEL as u32))
         .light_line_style(TRANSPARENT)
         .draw()?;
     draw_points(&mut axes, chart)?;
@@ -51,26 +51,29 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
 
 /// Returns the stroke of the crosses that mark wrong results.
 fn red() -> ShapeStyle {
-    RGBColor(215, 20, 30).stroke_width(4 * FINE as u32)
+    RGBColor(215, 20, 30).stroke_width(4 * UNITS_PER_PIXEL as u32)
 }
 
 /// Draws the Pareto front, above it the series of points, and on top the crosses that mark wrong results.
 fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
     let front = stair(&chart.front.1);
-    axes.draw_series(LineSeries::new(front, GOLD.stroke_width(6 * FINE as u32)))?;
+    axes.draw_series(LineSeries::new(
+        front,
+        FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32),
+    ))?;
     for series in &chart.series {
         let [r, g, b] = series.colour;
         let colour = RGBColor(r, g, b);
         axes.draw_series(LineSeries::new(
             series.points.iter().map(|p| (p.x, p.y)),
-            colour.stroke_width(3 * FINE as u32 / 2),
+            colour.stroke_width(3 * UNITS_PER_PIXEL as u32 / 2),
         ))?;
         let dots = series.points.iter().map(|p| (p.x, p.y));
-        axes.draw_series(dots.map(|at| Circle::new(at, 4 * FINE, colour.filled())))?;
+        axes.draw_series(dots.map(|at| Circle::new(at, 4 * UNITS_PER_PIXEL, colour.filled())))?;
     }
     let all = chart.series.iter().flat_map(|s| &s.points);
     let wrong = all.filter(|p| p.wrong);
-    axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 8 * FINE, red())))?;
+    axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 8 * UNITS_PER_PIXEL, red())))?;
     Ok(())
 }
 
@@ -90,29 +93,40 @@ fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// Draws the legend to the right of the axes.
 fn draw_legend(area: &Page<'_>, chart: &Scatter) -> Drawn {
     let (name, front) = &chart.front;
-    let mut y = 60 * FINE;
-    let x = (SIZE.0 - 225) * FINE;
+    let mut y = 60 * UNITS_PER_PIXEL;
+    let x = (LARGE_SIZE.0 - 225) * UNITS_PER_PIXEL;
     let words = |text: &str, y: i32| {
-        let at = (x + 30 * FINE, y);
+        let at = (x + 30 * UNITS_PER_PIXEL, y);
         area.draw(&Text::new(text.to_owned(), at, words_from(font(12))))
     };
     for series in &chart.series {
         let [r, g, b] = series.colour;
-        let dot = Circle::new((x + 12 * FINE, y), 4 * FINE, RGBColor(r, g, b).filled());
+        let dot = Circle::new(
+            (x + 12 * UNITS_PER_PIXEL, y),
+            4 * UNITS_PER_PIXEL,
+            RGBColor(r, g, b).filled(),
+        );
         area.draw(&dot)?;
         words(&series.name, y)?;
-        y += 20 * FINE;
+        y += 20 * UNITS_PER_PIXEL;
     }
     if !front.is_empty() {
-        y += 8 * FINE;
-        let line = vec![(x, y), (x + 24 * FINE, y)];
-        area.draw(&PathElement::new(line, GOLD.stroke_width(6 * FINE as u32)))?;
+        y += 8 * UNITS_PER_PIXEL;
+        let line = vec![(x, y), (x + 24 * UNITS_PER_PIXEL, y)];
+        area.draw(&PathElement::new(
+            line,
+            FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32),
+        ))?;
         words(name, y)?;
-        y += 20 * FINE;
+        y += 20 * UNITS_PER_PIXEL;
     }
     if chart.series.iter().flat_map(|s| &s.points).any(|p| p.wrong) {
-        y += 4 * FINE;
-        area.draw(&Cross::new((x + 12 * FINE, y), 8 * FINE, red()))?;
+        y += 4 * UNITS_PER_PIXEL;
+        area.draw(&Cross::new(
+            (x + 12 * UNITS_PER_PIXEL, y),
+            8 * UNITS_PER_PIXEL,
+            red(),
+        ))?;
         words(&chart.wrong, y)?;
     }
     Ok(())

@@ -287,7 +287,7 @@ pub(super) fn separated(piece: &[PagePoint], others: &[PagePoint]) -> bool {
 }
 
 /// Side of a cell of the grid, pixels: about the size of a label.
-const CELL: f64 = 48.0;
+const CELL_SIDE: f64 = 48.0;
 
 /// The numbers of the pieces in each cell of a uniform grid.
 #[derive(Clone, Debug)]
@@ -321,7 +321,7 @@ impl Grid {
     fn new(pieces: &[Piece]) -> Grid {
         // Limit the size of the grid: a page is only a few thousand pixels wide. Pieces far outside the page share the
         // outermost cells.
-        let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
+        let cell = |v: f64| (v / CELL_SIDE).floor().clamp(-20.0, 200.0);
         let ends =
             |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
         let (mut x, mut y) = (
@@ -366,7 +366,7 @@ impl Grid {
     /// nearest cells of the grid.
     fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
         let cell = |v: f64, first: f64, count: usize| {
-            (((v / CELL).floor() - first).max(0.0) as usize).min(count - 1)
+            (((v / CELL_SIDE).floor() - first).max(0.0) as usize).min(count - 1)
         };
         Cells {
             left: cell(min.x, self.left, self.columns),

@@ -5,7 +5,7 @@
 //! rounds.
 
 use super::ink::separated;
-use super::{CLEARANCE, Ink, LabelRequest, Placed, centred, corners, within};
+use super::{Ink, LABEL_CLEARANCE, LabelRequest, Placed, centred, corners, within};
 use crate::drawing::{PagePoint, PageRect};
 
 /// Largest number of rounds over all pairs. The second round rarely changes anything; the limit keeps crowded figures
@@ -26,7 +26,10 @@ pub(super) fn untangle(
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
         let rect = centred(centre, request.size);
-        let (width, height) = (rect.width + 2.0 * CLEARANCE, rect.height + 2.0 * CLEARANCE);
+        let (width, height) = (
+            rect.width + 2.0 * LABEL_CLEARANCE,
+            rect.height + 2.0 * LABEL_CLEARANCE,
+        );
         let kept = centred(centre, (width, height));
         let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
         free.then(|| Placed::with_leader(rect, request.anchor))
@@ -110,10 +113,10 @@ fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
 }
 
 fn overlap(a: PageRect, b: PageRect) -> bool {
-    a.at.x < b.at.x + b.width + CLEARANCE
-        && b.at.x < a.at.x + a.width + CLEARANCE
-        && a.at.y < b.at.y + b.height + CLEARANCE
-        && b.at.y < a.at.y + a.height + CLEARANCE
+    a.at.x < b.at.x + b.width + LABEL_CLEARANCE
+        && b.at.x < a.at.x + a.width + LABEL_CLEARANCE
+        && a.at.y < b.at.y + b.height + LABEL_CLEARANCE
+        && b.at.y < a.at.y + a.height + LABEL_CLEARANCE
 }
 
 #[cfg(test)]

@@ -112,10 +112,10 @@ impl Theme {
         {
             lines.push(format!("  \"theme\": \"{name}\""));
         }
-        for (key, field) in COLOURS {
+        for (key, field) in COLOUR_FIELDS {
             lines.push(format!("  \"{key}\": \"{}\"", field(&mut theme).css()));
         }
-        for (key, field) in LISTS {
+        for (key, field) in LIST_FIELDS {
             lines.push(format!("  \"{key}\": {}", list(field(&mut theme))));
         }
         let known = ramp::NAMES
@@ -125,11 +125,12 @@ impl Theme {
             Some(name) => format!("\"{name}\""),
             None => list(&stops(&self.amplitudes)),
         };
-        lines.push(format!("  \"{AMPLITUDES}\": {amplitudes}"));
+        lines.push(format!("  \"{AMPLITUDES_KEY}\": {amplitudes}"));
         let widths =
-            WIDTHS.map(|(key, field, ..)| format!("\"{key}\": {}", field(&mut theme.widths)));
+            WIDTH_FIELDS.map(|(key, field, ..)| format!("\"{key}\": {}", field(&mut theme.widths)));
         lines.push(format!("  \"widths\": {{ {} }}", widths.join(", ")));
-        let sizes = SIZES.map(|(key, field)| format!("\"{key}\": {}", field(&mut theme.sizes)));
+        let sizes =
+            SIZE_FIELDS.map(|(key, field)| format!("\"{key}\": {}", field(&mut theme.sizes)));
         lines.push(format!("  \"sizes\": {{ {} }}", sizes.join(", ")));
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
@@ -138,7 +139,7 @@ impl Theme {
 /// A field of [`Theme`] that is a colour: its key and the field.
 type ColourField = (&'static str, fn(&mut Theme) -> &mut Colour);
 
-const COLOURS: [ColourField; 15] = [
+const COLOUR_FIELDS: [ColourField; 15] = [
     ("page", |t| &mut t.page),
     ("ink", |t| &mut t.ink),
     ("faint", |t| &mut t.faint),
@@ -159,9 +160,9 @@ const COLOURS: [ColourField; 15] = [
 /// A field of [`Theme`] that is a list of colours: its key and the field.
 type ListField = (&'static str, fn(&mut Theme) -> &mut Vec<Colour>);
 
-const LISTS: [ListField; 2] = [("arrows", |t| &mut t.arrows), ("robots", |t| &mut t.robots)];
+const LIST_FIELDS: [ListField; 2] = [("arrows", |t| &mut t.arrows), ("robots", |t| &mut t.robots)];
 
-const AMPLITUDES: &str = "amplitudes";
+const AMPLITUDES_KEY: &str = "amplitudes";
 
 /// A field of [`Widths`]: its key, the field, its least and largest value, and its unit.
 type WidthField = (
@@ -171,22 +172,22 @@ type WidthField = (
     &'static str,
 );
 
-const WIDTHS: [WidthField; 6] = [
-    ("force", |w| &mut w.force, [0.005, 0.5], EDGES),
-    ("robot", |w| &mut w.robot, [0.005, 0.5], EDGES),
-    ("failure", |w| &mut w.failure, [0.005, 0.5], EDGES),
-    ("disc", |w| &mut w.disc, [0.02, 2.0], EDGES),
-    ("outline", |w| &mut w.outline, [0.05, 20.0], PIXELS),
-    ("casing", |w| &mut w.casing, [0.0, 20.0], PIXELS),
+const WIDTH_FIELDS: [WidthField; 6] = [
+    ("force", |w| &mut w.force, [0.005, 0.5], EDGE_UNIT),
+    ("robot", |w| &mut w.robot, [0.005, 0.5], EDGE_UNIT),
+    ("failure", |w| &mut w.failure, [0.005, 0.5], EDGE_UNIT),
+    ("disc", |w| &mut w.disc, [0.02, 2.0], EDGE_UNIT),
+    ("outline", |w| &mut w.outline, [0.05, 20.0], PIXEL_UNIT),
+    ("casing", |w| &mut w.casing, [0.0, 20.0], PIXEL_UNIT),
 ];
 
-const EDGES: &str = "unit edges";
-const PIXELS: &str = "pixels";
+const EDGE_UNIT: &str = "unit edges";
+const PIXEL_UNIT: &str = "pixels";
 
 /// A field of [`Sizes`]: its key and the field.
 type SizeField = (&'static str, fn(&mut Sizes) -> &mut f64);
 
-const SIZES: [SizeField; 7] = [
+const SIZE_FIELDS: [SizeField; 7] = [
     ("title", |s| &mut s.title),
     ("caption", |s| &mut s.caption),
     ("verdict", |s| &mut s.verdict),
@@ -197,7 +198,7 @@ const SIZES: [SizeField; 7] = [
 ];
 
 /// Least and largest font size. Smaller text cannot be read, and larger text leaves no space for the figure.
-const LETTERS: [f64; 2] = [8.0, 100.0];
+const FONT_SIZE_LIMITS: [f64; 2] = [8.0, 100.0];
 
 /// Returns the shortest list of evenly spaced colours from which [`ramp::between`] gives exactly this ramp. Returns all
 /// 256 colours if no shorter list does.

@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use super::patch::Patch;
 
 /// The index of a pixel that does not change.
-pub(super) const UNCHANGED: u8 = 0;
+pub(super) const UNCHANGED_INDEX: u8 = 0;
 /// Largest number of other indices.
 const MAX_COLOURS: usize = 255;
 /// If there are more colours, this number of the most frequent colours is kept exactly. These are usually fills and
 /// lines.
 const EXACT_COLOURS: usize = 96;
 /// All other colours are grouped by the leading bits of each channel. Fewer than this number of bits are compared.
-const BITS: u32 = 7;
+const CHANNEL_BITS: u32 = 7;
 
 /// The colours of an animation.
 pub(super) struct Palette {
@@ -30,7 +30,7 @@ impl Palette {
         let number = |colour: &[u8; 3]| {
             let near = colours.iter().enumerate();
             let nearest = near.min_by_key(|(_, other)| distance(*colour, **other));
-            nearest.map_or(UNCHANGED, |(number, _)| number as u8 + 1)
+            nearest.map_or(UNCHANGED_INDEX, |(number, _)| number as u8 + 1)
         };
         let numbers = counts.keys().map(|colour| (*colour, number(colour)));
         Some(Palette {
@@ -55,13 +55,13 @@ impl Palette {
         let mut known = ([0; 3], None);
         let number = |(colour, changed): &([u8; 4], bool)| {
             if !changed {
-                return UNCHANGED;
+                return UNCHANGED_INDEX;
             }
             let colour = opaque(*colour);
             if known.1.is_none() || known.0 != colour {
                 known = (colour, self.numbers.get(&colour).copied());
             }
-            known.1.unwrap_or(UNCHANGED)
+            known.1.unwrap_or(UNCHANGED_INDEX)
         };
         patch.pixels.iter().map(number).collect()
     }
@@ -104,7 +104,7 @@ fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
 /// Groups colours that have the same leading bits in each channel, and returns the first colour of each group. Compares
 /// as many bits as possible such that there are at most `most` groups.
 fn reduced(colours: &[([u8; 3], usize)], most: usize) -> Vec<([u8; 3], usize)> {
-    for bits in (1..BITS).rev() {
+    for bits in (1..CHANNEL_BITS).rev() {
         let mut groups = BTreeMap::new();
         for (colour, count) in colours {
             let group = colour.map(|channel| channel >> (8 - bits));

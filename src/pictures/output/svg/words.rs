@@ -3,7 +3,7 @@
 #[cfg(feature = "embed")]
 use super::font;
 use super::outline::number;
-use super::{Form, USUAL, Writer};
+use super::{DEFAULT_FACE, Form, Writer};
 use crate::drawing::{Anchor, Face, Stroke, Text};
 use crate::text::xml;
 
@@ -35,7 +35,7 @@ impl Writer<'_> {
             Anchor::Middle => self.attribute("text-anchor", "middle"),
             Anchor::End => self.attribute("text-anchor", "end"),
         }
-        if text.face.families() != USUAL.families() {
+        if text.face.families() != DEFAULT_FACE.families() {
             let families = self.families(text.face);
             self.attribute("font-family", &families);
         }

@@ -11,21 +11,21 @@ use crate::wording::number::counted;
 
 const WIDTH: f64 = 920.0;
 /// Height of a row.
-const ROW: f64 = 32.0;
+const ROW_HEIGHT: f64 = 32.0;
 /// Top of the first row.
-const TOP: f64 = 138.0;
+const FIRST_ROW_TOP: f64 = 138.0;
 /// Left and right end of the axis of times.
-const TIMES: (f64, f64) = (220.0, 350.0);
+const TIME_AXIS: (f64, f64) = (220.0, 350.0);
 /// Left and right end of the axis of errors.
-const ERRORS: (f64, f64) = (395.0, 550.0);
+const ERROR_AXIS: (f64, f64) = (395.0, 550.0);
 /// Positions of the first and the last column of wrong verdicts.
-const WRONG: (f64, f64) = (600.0, 730.0);
+const WRONG_COLUMNS: (f64, f64) = (600.0, 730.0);
 /// Positions of the first and the last column of undecided verdicts.
-const UNDECIDED: (f64, f64) = (764.0, 894.0);
+const UNDECIDED_COLUMNS: (f64, f64) = (764.0, 894.0);
 /// Font size of names and numbers, and of explanations, pixels.
-const SIZES: (f64, f64) = (15.0, 13.0);
+const FONT_SIZES: (f64, f64) = (15.0, 13.0);
 /// Errors below this value are drawn at this value, because they are rounding errors of f64.
-const LEAST: f64 = 1e-16;
+const MIN_DRAWN_ERROR: f64 = 1e-16;
 
 /// Draws the summary of a study as SVG, with text as outlines. `frames` is the number of frames of the study.
 ///
@@ -54,7 +54,7 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
         theme: &theme,
         times: (0.9 * fastest, 1.1 * slowest),
         tolerances: &tolerances,
-        bottom: TOP + ROW * methods.len() as f64,
+        bottom: FIRST_ROW_TOP + ROW_HEIGHT * methods.len() as f64,
     };
     let mut items = page.head(frames);
     for (row, method) in methods.iter().enumerate() {
@@ -104,7 +104,7 @@ struct Page<'p> {
 
 impl Page<'_> {
     fn words(&self, at: PagePoint, words: &str, face: Face) -> Item {
-        Text::new(at, words, face, SIZES.1, self.theme.faint).into()
+        Text::new(at, words, face, FONT_SIZES.1, self.theme.faint).into()
     }
 
     fn head(&self, frames: usize) -> Vec<Item> {
@@ -124,23 +124,39 @@ impl Page<'_> {
             self.words(PagePoint::new(24.0, 58.0), &under, Face::Sans),
         ];
         let heads = [
-            (TIMES.0, ["time, relative", "to standard"]),
-            (ERRORS.0, ["worst error of", "the total force"]),
-            (WRONG.0 - 10.0, ["wrong verdicts,", "tolerance 10ⁿ, n ="]),
-            (UNDECIDED.0 - 10.0, ["undecided,", "tolerance 10ⁿ, n ="]),
+            (TIME_AXIS.0, ["time, relative", "to standard"]),
+            (ERROR_AXIS.0, ["worst error of", "the total force"]),
+            (
+                WRONG_COLUMNS.0 - 10.0,
+                ["wrong verdicts,", "tolerance 10ⁿ, n ="],
+            ),
+            (
+                UNDECIDED_COLUMNS.0 - 10.0,
+                ["undecided,", "tolerance 10ⁿ, n ="],
+            ),
         ];
         for (x, [upper, lower]) in heads {
-            items.push(self.words(PagePoint::new(x, TOP - 50.0), upper, Face::SansBold));
-            items.push(self.words(PagePoint::new(x, TOP - 34.0), lower, Face::SansBold));
+            items.push(self.words(
+                PagePoint::new(x, FIRST_ROW_TOP - 50.0),
+                upper,
+                Face::SansBold,
+            ));
+            items.push(self.words(
+                PagePoint::new(x, FIRST_ROW_TOP - 34.0),
+                lower,
+                Face::SansBold,
+            ));
         }
         let mut tick = |x: f64, words: String, line: bool| {
-            let at = PagePoint::new(x, TOP - 10.0);
-            let text =
-                Text::new(at, words, Face::Sans, SIZES.1, theme.faint).anchored(Anchor::Middle);
+            let at = PagePoint::new(x, FIRST_ROW_TOP - 10.0);
+            let text = Text::new(at, words, Face::Sans, FONT_SIZES.1, theme.faint)
+                .anchored(Anchor::Middle);
             items.push(text.into());
             if line {
-                let line =
-                    Outline::line([PagePoint::new(x, TOP - 4.0), PagePoint::new(x, self.bottom)]);
+                let line = Outline::line([
+                    PagePoint::new(x, FIRST_ROW_TOP - 4.0),
+                    PagePoint::new(x, self.bottom),
+                ]);
                 items.push(Path::stroked(line, Stroke::new(theme.rule, 1.0)).into());
             }
         };
@@ -159,18 +175,22 @@ impl Page<'_> {
         for (column, tolerance) in self.tolerances.iter().enumerate() {
             let power = libm::round(libm::log10(*tolerance)) as i32;
             let power = power.to_string().replace('-', "−");
-            tick(self.column(column, WRONG), power.clone(), false);
-            tick(self.column(column, UNDECIDED), power, false);
+            tick(self.column(column, WRONG_COLUMNS), power.clone(), false);
+            tick(self.column(column, UNDECIDED_COLUMNS), power, false);
         }
         items
     }
 
     fn time(&self, time: f64) -> f64 {
-        place(time, self.times, TIMES)
+        place(time, self.times, TIME_AXIS)
     }
 
     fn error(&self, error: f64) -> f64 {
-        place(error.clamp(LEAST, 1.0), (LEAST, 1.0), ERRORS)
+        place(
+            error.clamp(MIN_DRAWN_ERROR, 1.0),
+            (MIN_DRAWN_ERROR, 1.0),
+            ERROR_AXIS,
+        )
     }
 
     /// Returns the x coordinate, in pixels, of the column for one tolerance. `column` is the index of the tolerance,
@@ -188,14 +208,14 @@ impl Page<'_> {
 
     fn row(&self, row: usize, method: Method, lines: &[&Summary]) -> Vec<Item> {
         let theme = self.theme;
-        let y = TOP + ROW * (row as f64 + 0.5);
+        let y = FIRST_ROW_TOP + ROW_HEIGHT * (row as f64 + 0.5);
         let mut items: Vec<Item> = Vec::new();
         let chosen = method == Method::Level(Accuracy::Standard);
         if row.is_multiple_of(2) {
             let band = PageRect {
-                at: PagePoint::new(16.0, y - ROW / 2.0),
+                at: PagePoint::new(16.0, y - ROW_HEIGHT / 2.0),
                 width: WIDTH - 32.0,
-                height: ROW,
+                height: ROW_HEIGHT,
             };
             let band = Path::filled(Outline::rounded(band, 3.0), theme.block);
             items.push(band.with_opacity(0.55).into());
@@ -205,7 +225,7 @@ impl Page<'_> {
             PagePoint::new(24.0, y + 4.5),
             method.name(),
             face,
-            SIZES.0,
+            FONT_SIZES.0,
             theme.ink,
         );
         items.push(name.into());
@@ -232,7 +252,7 @@ impl Page<'_> {
         for line in lines {
             items.extend(self.counts(line, y));
             if chosen && default(line.tolerance) {
-                let at = PagePoint::new(self.column(self.place(line), WRONG), y);
+                let at = PagePoint::new(self.column(self.place(line), WRONG_COLUMNS), y);
                 let circle = Outline::circle(at, 11.0);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
             }
@@ -243,8 +263,8 @@ impl Page<'_> {
     /// Draws the numbers of wrong and of undecided verdicts of a summary line. `y` is the middle of its row, in pixels.
     fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
         let counts = [
-            (line.wrong, WRONG, self.theme.falls),
-            (line.undecided, UNDECIDED, self.theme.ink),
+            (line.wrong, WRONG_COLUMNS, self.theme.falls),
+            (line.undecided, UNDECIDED_COLUMNS, self.theme.ink),
         ];
         counts.map(|(count, block, full)| {
             let at = PagePoint::new(self.column(self.place(line), block), y + 5.0);
@@ -252,7 +272,7 @@ impl Page<'_> {
                 0 => (Face::Sans, self.theme.faint),
                 _ => (Face::SansBold, full),
             };
-            let words = Text::new(at, count.to_string(), face, SIZES.0, colour);
+            let words = Text::new(at, count.to_string(), face, FONT_SIZES.0, colour);
             words.anchored(Anchor::Middle).into()
         })
     }

@@ -46,13 +46,13 @@ pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
 }
 
 /// The meaning of the shapes of bars.
-pub(super) const SHAPES: &str = "A bar covers the values at which the structure stands. The structure falls \
+pub(super) const SHAPES_LEGEND: &str = "A bar covers the values at which the structure stands. The structure falls \
                                  beyond a stroke (dashed: not confirmed), and still stands beyond an arrow. The \
                                  present value is a disc inside the bar, a cross outside it, or a ring if its \
                                  position is unknown.";
 
 /// The upper end of the scale, as a multiple of the largest absolute value that is drawn.
-const BEYOND: f64 = 1.25;
+const SCALE_END_RATIO: f64 = 1.25;
 
 impl MarginBar {
     fn new(margin: &StatedMargin<'_>) -> MarginBar {
@@ -117,7 +117,7 @@ impl MarginBar {
     }
 }
 
-/// Returns the lower and the upper end of the scale. The upper end is [`BEYOND`] times the largest value that is drawn,
+/// Returns the lower and the upper end of the scale. The upper end is [`SCALE_END_RATIO`] times the largest value that is drawn,
 /// or 1 for a kernel. The lower end is 0, or minus the upper end if the parameter can be negative.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
@@ -131,7 +131,7 @@ fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
         Parameter::Kernel => 1.0,
         Parameter::Tilt if farthest == 0.0 => 90.0,
         _ if farthest == 0.0 => 1.0,
-        _ => BEYOND * farthest,
+        _ => SCALE_END_RATIO * farthest,
     };
     (
         if margin.parameter.is_signed() {

@@ -16,9 +16,9 @@ const MAX_JOINTS: usize = 12;
 /// Forces below this share of the largest force are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 /// Cells with at least this utilisation are emphasised.
-const NEARLY_USED: f64 = 0.8;
+const HIGH_UTILISATION: f64 = 0.8;
 /// Figures of frames with more joints have no hover targets, because the page would become too large.
-const MAX_HOVER_TARGETS: usize = 3000;
+const MAX_JOINTS_WITH_TARGETS: usize = 3000;
 
 /// A joint that carries force, with its utilisation.
 struct Used {
@@ -156,7 +156,8 @@ impl<'a> Ranking<'a> {
                 Some((off, share)) => (offs.write(off), share),
                 None => ("corner".to_owned(), 0.0),
             };
-            let share = |share: f64| TableCell::strong_if(share >= NEARLY_USED, percent(share));
+            let share =
+                |share: f64| TableCell::strong_if(share >= HIGH_UTILISATION, percent(share));
             let cells = [
                 name(self.scene, contact).into(),
                 metres.write(at.x).into(),
@@ -193,9 +194,9 @@ impl<'a> Ranking<'a> {
     }
 
     /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. Empty if the
-    /// frame has more than [`MAX_HOVER_TARGETS`] joints.
+    /// frame has more than [`MAX_JOINTS_WITH_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
-        if self.found.contacts.len() > MAX_HOVER_TARGETS {
+        if self.found.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
         }
         let newtons = self.units.newtons(self.found.contacts.iter().map(normal));

@@ -14,7 +14,7 @@ use crate::wording::number::{percent, quantity};
 use crate::wording::verdict::plain;
 
 /// Width and height of a thumbnail, in pixels.
-const THUMBNAIL: (f64, f64) = (96.0, 60.0);
+const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);
 /// Largest number of blocks in a thumbnail. If there are more, some are chosen evenly, because a reader could not
 /// distinguish all of them.
 const MAX_THUMBNAIL_BLOCKS: usize = 400;
@@ -167,7 +167,7 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     let Some(bounds) = bounds.reduce(Bounds::union) else {
         return Thumbnail::default();
     };
-    let (width, height) = THUMBNAIL;
+    let (width, height) = THUMBNAIL_SIZE;
     let size = f64::max(
         bounds.width() / (width - 6.0),
         bounds.height() / (height - 8.0),
@@ -196,7 +196,7 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
 /// Returns the SVG path data of an outline, rounded to 0.1 pixels. Points outside the thumbnail are moved to its
 /// border.
 fn path_data(outline: &Outline) -> String {
-    let (width, height) = THUMBNAIL;
+    let (width, height) = THUMBNAIL_SIZE;
     let number = |x: f64| {
         let tenths = (x * 10.0).round() / 10.0 + 0.0;
         format!("{tenths}")

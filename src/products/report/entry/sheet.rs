@@ -19,9 +19,9 @@ use crate::wording::verdict::plain;
 use crate::wording::{proof, verdict};
 
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
-const WIDTH: f64 = 440.0;
+const FIGURE_WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
-const HEIGHT: f64 = 300.0;
+const FIGURE_HEIGHT: f64 = 300.0;
 
 /// Returns the options for figures in a report. The figures have no titles and no verdicts, because the page shows
 /// both.
@@ -31,8 +31,8 @@ pub(super) fn options(wanted: &ReportOptions) -> Options {
         titles: false,
         captions: false,
         verdicts: false,
-        width: Some(WIDTH),
-        height: Some(HEIGHT),
+        width: Some(FIGURE_WIDTH),
+        height: Some(FIGURE_HEIGHT),
         ..Options::default()
     }
 }
@@ -289,7 +289,7 @@ fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
         SheetPart::Heading("Margins".to_owned()),
         SheetPart::Table(grid),
     ];
-    parts.push(SheetPart::Note(bullet::SHAPES.to_owned()));
+    parts.push(SheetPart::Note(bullet::SHAPES_LEGEND.to_owned()));
     parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
     parts
 }

@@ -12,7 +12,7 @@ use crate::wording::number::letter;
 use crate::wording::verdict::plain;
 
 /// Largest number of steps that do not stand and are drawn in addition to the governing step.
-const MAX_FALLING: usize = 4;
+const MAX_FALLING_STEPS: usize = 4;
 
 /// Makes the sections of a report on a scene.
 pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Section> {
@@ -27,7 +27,11 @@ pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Secti
     let falling =
         (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
     let falling: Vec<usize> = falling
-        .take(if wanted.full { count } else { MAX_FALLING })
+        .take(if wanted.full {
+            count
+        } else {
+            MAX_FALLING_STEPS
+        })
         .collect();
     if !falling.is_empty() {
         let mut section = empty(&analysis.scene, governing, analysis.verdict());

@@ -5,9 +5,9 @@ use crate::geometry::Point;
 use crate::text::line;
 
 /// Width of a target for an interface, in pixels: wide enough to hit with a mouse.
-const WIDTH: f64 = 10.0;
+const INTERFACE_TARGET_WIDTH: f64 = 10.0;
 /// Radius of a target for a point, in pixels.
-const RADIUS: f64 = 11.0;
+const POINT_TARGET_RADIUS: f64 = 11.0;
 
 /// A part of a scene that a table row describes.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,9 +70,12 @@ fn mark(touch: &HoverTarget, camera: &Camera) -> Group {
     let [a, b] = touch.ends.map(|p| camera.place(p));
     let colour = Colour::hex(0x4479b4);
     let path = if a == b {
-        Path::filled(Outline::circle(a, RADIUS), colour)
+        Path::filled(Outline::circle(a, POINT_TARGET_RADIUS), colour)
     } else {
-        Path::stroked(Outline::line([a, b]), Stroke::new(colour, WIDTH))
+        Path::stroked(
+            Outline::line([a, b]),
+            Stroke::new(colour, INTERFACE_TARGET_WIDTH),
+        )
     };
     Group {
         id: Some(touch.mark.clone()),

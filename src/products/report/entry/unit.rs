@@ -17,7 +17,7 @@ pub(super) struct Column {
 }
 
 /// Significant digits of the largest number of a column.
-const DIGITS: i32 = 4;
+const SIGNIFICANT_DIGITS: i32 = 4;
 
 /// The SI prefix that all forces and torques of a sheet share. Units that the scene chooses have no prefix.
 #[derive(Clone, Copy, Debug)]
@@ -167,7 +167,9 @@ fn decimals(largest: f64) -> usize {
         return 0;
     }
     let first = libm::log10(largest).floor() as i32;
-    usize::try_from(DIGITS - 1 - first).unwrap_or(0).min(9)
+    usize::try_from(SIGNIFICANT_DIGITS - 1 - first)
+        .unwrap_or(0)
+        .min(9)
 }
 
 #[cfg(test)]

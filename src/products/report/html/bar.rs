@@ -6,7 +6,7 @@ use crate::report::entry::{BarEnd, MarginBar};
 use crate::wording::margin::Position;
 
 /// Width and height of a bar.
-const BAR: (f64, f64) = (220.0, 20.0);
+const BAR_SIZE: (f64, f64) = (220.0, 20.0);
 /// Distance of the ends of the scale from the ends of the bar. Marks and arrows at these ends stay inside the bar.
 const INSET: f64 = 7.0;
 
@@ -14,7 +14,7 @@ const INSET: f64 = 7.0;
 /// the end is not confirmed, or an arrow if the values have no end there. The present value is a disc inside the bar, a
 /// cross outside it, or a ring if its position is unknown. The shapes differ, so that they are clear without colours.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
-    let (width, height) = BAR;
+    let (width, height) = BAR_SIZE;
     let at = |value: f64| {
         let room = width - 2.0 * INSET;
         let x = ((INSET + room * bullet.share(value)) * 10.0).round() / 10.0;

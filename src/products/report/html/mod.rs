@@ -14,7 +14,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub(super) use part::section;
 
 use super::entry::{Row, Thumbnail};
-use super::head::{Head, MEANING, OutputFile, sign, slug};
+use super::head::{Head, OutputFile, STANDS_MEANING, sign, slug};
 use crate::analysis::Verdict;
 use crate::text;
 use crate::wording::verdict::plain;
@@ -30,14 +30,14 @@ const INTERACTIVE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline';
      worker-src blob:; img-src data:";
 
 /// If a report has more scenes than this, they are collapsed when the page opens.
-const OPEN: usize = 12;
+const MAX_OPEN_SCENES: usize = 12;
 
 /// Writes one page with all scenes. `bodies` has the HTML of each scene from [`section`].
 pub(super) fn whole(head: &Head<'_>, bodies: &[&str]) -> String {
     let main = html! {
         (refused(head))
         @if head.rows.len() > 1 { (overview(head, &|number| format!("#scene-{number}"))) }
-        section #scenes aria-label="Scenes" data-open=(bodies.len() <= OPEN) {
+        section #scenes aria-label="Scenes" data-open=(bodies.len() <= MAX_OPEN_SCENES) {
             @for body in bodies { (PreEscaped(body)) }
         }
     };
@@ -108,7 +108,7 @@ fn page(head: &Head<'_>, title: &str, summary: &str, main: &Markup) -> String {
                 }
                 footer {
                     p {
-                        (MEANING)
+                        (STANDS_MEANING)
                     }
                     p { "drystone " (env!("CARGO_PKG_VERSION")) }
                 }

@@ -13,7 +13,7 @@ use crate::report::entry::{
 use crate::wording::verdict::plain;
 
 /// Tables with more rows are collapsed.
-const LONG: usize = 24;
+const MAX_OPEN_ROWS: usize = 24;
 
 /// Writes a scene as a collapsible part of a page. `number` is the number of the scene, counted from 1.
 pub(crate) fn section(entry: &Entry, number: usize) -> String {
@@ -135,7 +135,7 @@ impl Writer {
             }
         };
         html! {
-            @if of.lines.len() > LONG {
+            @if of.lines.len() > MAX_OPEN_ROWS {
                 details.long { summary { (label) ": " (of.lines.len()) " lines" } (table) }
             } @else { (table) }
         }

@@ -1,7 +1,7 @@
 //! Draws the verdict of a report sheet with the headline margin.
 
 use super::bar;
-use super::flow::{Flow, GAP, LINE, SMALL};
+use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, SMALL_TEXT_SIZE};
 use crate::analysis::Verdict;
 use crate::drawing::text::wrap;
 use crate::drawing::{Anchor, Colour, Face, Outline, PagePoint, Path};
@@ -17,7 +17,7 @@ const PADDING: f64 = 10.0;
 /// Height of the headline margin's bar with the space below it.
 const BAR_HEIGHT: f64 = 22.0;
 /// Font size of the headline.
-const HEADLINE: f64 = 14.0;
+const HEADLINE_SIZE: f64 = 14.0;
 
 /// The texts of a badge. Code points replace characters that the fonts do not have.
 struct Words {
@@ -31,13 +31,15 @@ impl Words {
     /// Returns the height, in pixels, of the panel for these texts. A line of text is at most `room` pixels wide.
     fn height(&self, room: f64) -> f64 {
         let lines = |words: &str, face: Face, size: f64| {
-            LINE * size * wrap(words, face, size, room).len() as f64
+            LINE_HEIGHT * size * wrap(words, face, size, room).len() as f64
         };
         let headline = self.headline.as_ref();
-        let headline = headline.map_or(0.0, |words| lines(words, Face::SansBold, HEADLINE));
+        let headline = headline.map_or(0.0, |words| lines(words, Face::SansBold, HEADLINE_SIZE));
         let margin = self.margin.as_ref();
-        let margin = margin.map_or(0.0, |words| BAR_HEIGHT + lines(words, Face::Sans, SMALL));
-        2.0 * PADDING + headline + margin + lines(&self.sentence, Face::Sans, SMALL)
+        let margin = margin.map_or(0.0, |words| {
+            BAR_HEIGHT + lines(words, Face::Sans, SMALL_TEXT_SIZE)
+        });
+        2.0 * PADDING + headline + margin + lines(&self.sentence, Face::Sans, SMALL_TEXT_SIZE)
     }
 }
 
@@ -45,7 +47,7 @@ impl Flow {
     /// Draws the verdict with the headline margin, on a tinted panel.
     pub fn badge(&mut self, badge: &Badge) {
         let (left, room) = (self.left, self.room);
-        let inner = room - WORD_WIDTH - GAP;
+        let inner = room - WORD_WIDTH - COLUMN_GAP;
         let headline = (!badge.headline.is_empty()).then(|| format!("{}.", badge.headline));
         let words = Words {
             headline: headline.map(|words| self.legible(&words)),
@@ -59,15 +61,27 @@ impl Flow {
         (self.left, self.room) = (left + WORD_WIDTH, inner);
         let (ink, faint) = (self.theme.ink, self.theme.faint);
         if let Some(headline) = &words.headline {
-            self.words(headline, Face::SansBold, HEADLINE, ink, &Role::Paragraph);
+            self.words(
+                headline,
+                Face::SansBold,
+                HEADLINE_SIZE,
+                ink,
+                &Role::Paragraph,
+            );
         }
         if let (Some(of), Some(margin)) = (&badge.bar, &words.margin) {
             let at = PagePoint::new(self.left, self.y + 2.0);
             bar::draw(self, of, at, 240.0);
             self.y += BAR_HEIGHT;
-            self.words(margin, Face::Sans, SMALL, faint, &Role::Paragraph);
+            self.words(margin, Face::Sans, SMALL_TEXT_SIZE, faint, &Role::Paragraph);
         }
-        self.words(&words.sentence, Face::Sans, SMALL, ink, &Role::Paragraph);
+        self.words(
+            &words.sentence,
+            Face::Sans,
+            SMALL_TEXT_SIZE,
+            ink,
+            &Role::Paragraph,
+        );
         (self.left, self.room) = (left, room);
         self.y = top + high + 8.0;
     }

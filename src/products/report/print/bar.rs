@@ -10,8 +10,8 @@ use crate::wording::margin::Position;
 pub(super) const HEIGHT: f64 = 16.0;
 /// Distance of the ends of the scale from the ends of the bar.
 const INSET: f64 = 6.0;
-const SAFE: u32 = 0x002e_8b62;
-const FALLS: u32 = 0x009c_1515;
+const SAFE_COLOUR: u32 = 0x002e_8b62;
+const FALLS_COLOUR: u32 = 0x009c_1515;
 
 /// Draws a margin as a bar with the width `wide` and the upper left corner `at`, both in pixels.
 pub(super) fn draw(flow: &mut Flow, bar: &MarginBar, at: PagePoint, wide: f64) {
@@ -57,7 +57,7 @@ impl BarPlace<'_> {
             return;
         };
         let ink = flow.theme.ink;
-        let safe = Stroke::new(Colour::hex(SAFE), 6.0).mitred();
+        let safe = Stroke::new(Colour::hex(SAFE_COLOUR), 6.0).mitred();
         flow.add(Path::stroked(self.along(self.x(from), self.x(to)), safe));
         for (end, value, outward) in [(self.bar.ends.0, from, -1.0), (self.bar.ends.1, to, 1.0)] {
             let x = self.x(value);
@@ -75,7 +75,7 @@ impl BarPlace<'_> {
                 BarEnd::Open => {
                     let tip = [(0.0, -6.0), (outward * INSET, 0.0), (0.0, 6.0)];
                     let tip = tip.map(|(dx, dy)| PagePoint::new(x + dx, self.middle() + dy));
-                    flow.add(Path::filled(Outline::ring(tip), Colour::hex(SAFE)));
+                    flow.add(Path::filled(Outline::ring(tip), Colour::hex(SAFE_COLOUR)));
                 }
             }
         }
@@ -102,7 +102,10 @@ impl BarPlace<'_> {
                         let arm = (4.0, sign * 4.0);
                         let cross =
                             Outline::line([here.moved(-arm.0, -arm.1), here.moved(arm.0, arm.1)]);
-                        flow.add(Path::stroked(cross, Stroke::new(Colour::hex(FALLS), 2.0)));
+                        flow.add(Path::stroked(
+                            cross,
+                            Stroke::new(Colour::hex(FALLS_COLOUR), 2.0),
+                        ));
                     }
                 }
                 Position::Unknown => {

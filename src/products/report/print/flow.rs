@@ -11,25 +11,25 @@ use crate::report::entry::{Chart, Figure, SheetPart};
 use crate::text::line;
 
 /// Width and height of A4 in pixels, 96 per inch.
-pub(super) const PAGE: (f64, f64) = (793.7, 1122.5);
+pub(super) const PAGE_SIZE: (f64, f64) = (793.7, 1122.5);
 /// The margin of a page, 15 mm.
 pub(super) const MARGIN: f64 = 56.7;
 /// The lower end of the text.
-pub(super) const BOTTOM: f64 = PAGE.1 - MARGIN - 8.0;
+pub(super) const TEXT_BOTTOM: f64 = PAGE_SIZE.1 - MARGIN - 8.0;
 /// The font size in pixels: 9 pt.
 pub(super) const TEXT_SIZE: f64 = 12.0;
 /// The font size of tables in pixels: 7.9 pt.
-pub(super) const SMALL: f64 = 10.5;
+pub(super) const SMALL_TEXT_SIZE: f64 = 10.5;
 /// The line height relative to the font size.
-pub(super) const LINE: f64 = 1.38;
+pub(super) const LINE_HEIGHT: f64 = 1.38;
 /// The largest height of a figure.
 const MAX_FIGURE_HEIGHT: f64 = 300.0;
 /// The height of a heading with the space around it.
-pub(super) const HEADING: f64 = 32.0;
+pub(super) const HEADING_HEIGHT: f64 = 32.0;
 /// A paragraph of at most this many lines stays on one page.
-const UNBROKEN_LINES: usize = 6;
+const MAX_UNBROKEN_LINES: usize = 6;
 /// Space between two columns.
-pub(super) const GAP: f64 = 14.0;
+pub(super) const COLUMN_GAP: f64 = 14.0;
 
 /// Places text, tables and figures on pages from top to bottom.
 pub(super) struct Flow {
@@ -57,7 +57,7 @@ impl Flow {
             current: 0,
             y: MARGIN,
             left: MARGIN,
-            room: PAGE.0 - 2.0 * MARGIN,
+            room: PAGE_SIZE.0 - 2.0 * MARGIN,
             tables: 0,
             theme: Theme::thesis(),
             fonts: Fonts::default(),
@@ -89,7 +89,7 @@ impl Flow {
 
     /// Starts a new page if less than `height` pixels are left.
     pub fn reserve(&mut self, height: f64) {
-        if self.y + height > BOTTOM {
+        if self.y + height > TEXT_BOTTOM {
             self.new_page();
         }
     }
@@ -140,16 +140,16 @@ impl Flow {
     pub fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour, role: &Role) {
         let words = self.legible(words);
         let rows = wrap(&words, face, size, self.room);
-        if rows.len() <= UNBROKEN_LINES {
-            self.reserve(LINE * size * rows.len() as f64);
+        if rows.len() <= MAX_UNBROKEN_LINES {
+            self.reserve(LINE_HEIGHT * size * rows.len() as f64);
         }
         for row in rows {
-            if self.y + LINE * size > BOTTOM {
+            if self.y + LINE_HEIGHT * size > TEXT_BOTTOM {
                 self.close(role.clone());
                 self.new_page();
             }
             self.put(&row, self.left, face, size, colour, Anchor::Start);
-            self.y += LINE * size;
+            self.y += LINE_HEIGHT * size;
         }
         self.close(role.clone());
     }
@@ -177,17 +177,24 @@ impl Flow {
         let details: Vec<String> = details.iter().map(|d| self.legible(d)).collect();
         let wide = details
             .iter()
-            .map(|d| width(d, Face::Sans, SMALL))
+            .map(|d| width(d, Face::Sans, SMALL_TEXT_SIZE))
             .fold(0.0, f64::max);
         for detail in &details {
             let x = self.left + room;
-            self.put(detail, x, Face::Sans, SMALL, self.theme.faint, Anchor::End);
+            self.put(
+                detail,
+                x,
+                Face::Sans,
+                SMALL_TEXT_SIZE,
+                self.theme.faint,
+                Anchor::End,
+            );
             self.close(Role::Paragraph);
-            self.y += LINE * SMALL;
+            self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
         let end = self.y;
         self.y = top;
-        self.room = (room - wide.min(0.5 * room) - GAP).max(0.4 * room);
+        self.room = (room - wide.min(0.5 * room) - COLUMN_GAP).max(0.4 * room);
         self.heading(words, 20.0, 2);
         self.room = room;
         self.y = self.y.max(end);
@@ -215,25 +222,31 @@ impl Flow {
     }
 
     pub fn note(&mut self, words: &str) {
-        self.words(words, Face::Sans, SMALL, self.theme.faint, &Role::Paragraph);
+        self.words(
+            words,
+            Face::Sans,
+            SMALL_TEXT_SIZE,
+            self.theme.faint,
+            &Role::Paragraph,
+        );
         self.y += 0.4 * TEXT_SIZE;
     }
 
     /// Adds figures next to each other, each with its caption.
     pub fn figures(&mut self, figures: &[Figure]) {
         let across = figures.len().max(1) as f64;
-        let wide = (self.room - GAP * (across - 1.0)) / across;
+        let wide = (self.room - COLUMN_GAP * (across - 1.0)) / across;
         let scales: Vec<f64> = figures.iter().map(|f| fitted(&f.drawing, wide)).collect();
         let heights = figures
             .iter()
             .zip(&scales)
             .map(|(f, scale)| scale * f.drawing.height);
         let high = heights.fold(0.0, f64::max);
-        self.reserve(high + 4.0 * SMALL);
+        self.reserve(high + 4.0 * SMALL_TEXT_SIZE);
         let (top, left) = (self.y, self.left);
         let mut end = top;
         for (number, (figure, scale)) in figures.iter().zip(scales).enumerate() {
-            let x = left + number as f64 * (wide + GAP);
+            let x = left + number as f64 * (wide + COLUMN_GAP);
             let inset = (wide - scale * figure.drawing.width) / 2.0;
             let down = high - scale * figure.drawing.height;
             let at = PagePoint::new(x + inset, top + down);
@@ -249,9 +262,16 @@ impl Flow {
     /// Adds a caption below a picture. Returns the y coordinate of its lower end, pixels.
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
-        for row in wrap(&words, Face::Sans, SMALL, wide) {
-            self.put(&row, x, Face::Sans, SMALL, self.theme.faint, Anchor::Start);
-            self.y += LINE * SMALL;
+        for row in wrap(&words, Face::Sans, SMALL_TEXT_SIZE, wide) {
+            self.put(
+                &row,
+                x,
+                Face::Sans,
+                SMALL_TEXT_SIZE,
+                self.theme.faint,
+                Anchor::Start,
+            );
+            self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
         self.close(Role::Paragraph);
         self.y
@@ -260,7 +280,7 @@ impl Flow {
     /// Adds charts in rows of two. If any chart is wide, each row has one chart.
     pub fn charts(&mut self, charts: &[Chart]) {
         let across = if charts.iter().any(|c| c.wide) { 1 } else { 2 };
-        let wide = (self.room - GAP * (across - 1) as f64) / across as f64;
+        let wide = (self.room - COLUMN_GAP * (across - 1) as f64) / across as f64;
         for row in charts.chunks(across) {
             let sized = row.iter().filter_map(|chart| {
                 let svg = chart.document().into_owned();
@@ -270,11 +290,11 @@ impl Flow {
             });
             let sized: Vec<_> = sized.collect();
             let high = sized.iter().map(|s| s.3).fold(0.0, f64::max);
-            self.reserve(high + 4.0 * SMALL);
+            self.reserve(high + 4.0 * SMALL_TEXT_SIZE);
             let (top, left) = (self.y, self.left);
             let mut end = top;
             for (place, (chart, svg, scale, _)) in sized.into_iter().enumerate() {
-                let x = left + place as f64 * (wide + GAP);
+                let x = left + place as f64 * (wide + COLUMN_GAP);
                 let shows = self.legible(&chart.caption);
                 let picture = (svg, shows, PagePoint::new(x, top), scale);
                 self.page().charts.push(picture);
@@ -289,13 +309,13 @@ impl Flow {
     pub fn columns(&mut self, columns: &[Vec<SheetPart>], parts: &dyn Fn(&mut Flow, &[SheetPart])) {
         let (left, room) = (self.left, self.room);
         let across = columns.len().max(1) as f64;
-        let wide = (room - GAP * (across - 1.0)) / across;
+        let wide = (room - COLUMN_GAP * (across - 1.0)) / across;
         self.reserve(120.0);
         let start = (self.current, self.y);
         let mut end = start;
         for (number, column) in columns.iter().enumerate() {
             (self.current, self.y) = start;
-            (self.left, self.room) = (left + number as f64 * (wide + GAP), wide);
+            (self.left, self.room) = (left + number as f64 * (wide + COLUMN_GAP), wide);
             parts(self, column);
             if (self.current, self.y) > end {
                 end = (self.current, self.y);

@@ -10,12 +10,12 @@ mod flow;
 mod table;
 
 use super::entry::{Entry, SheetPart, overview};
-use super::head::{Head, MEANING, ReportError};
+use super::head::{Head, ReportError, STANDS_MEANING};
 use crate::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Theme};
 use crate::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
 use crate::text::line;
 use crate::wording::verdict::plain;
-use flow::{Flow, HEADING, MARGIN, PAGE, SMALL};
+use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
 
 /// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +39,7 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     let mut flow = Flow::new(String::new());
     flow.heading(head.title, 24.0, 1);
     flow.paragraph(&format!("{}.", head.summary));
-    flow.note(MEANING);
+    flow.note(STANDS_MEANING);
     for note in head.notes {
         flow.note(note);
     }
@@ -101,7 +101,7 @@ fn parts(flow: &mut Flow, parts: &[SheetPart]) {
         // Keep a heading on the same page as the table below it.
         if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
         {
-            flow.reserve(HEADING + flow.least(grid));
+            flow.reserve(HEADING_HEIGHT + flow.least(grid));
         }
         match part {
             SheetPart::Badge(badge) => flow.badge(badge),
@@ -157,15 +157,21 @@ pub(super) fn written(
 /// Returns the drawing of a page with the line at its foot. `number` counts from 0.
 fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Drawing {
     let theme = Theme::thesis();
-    let y = PAGE.1 - MARGIN + 12.0;
+    let y = PAGE_SIZE.1 - MARGIN + 12.0;
     let at = |x: f64| PagePoint::new(x, y);
     let words = format!("{} of {count}", number + 1);
-    let words = Text::new(at(PAGE.0 - MARGIN), words, Face::Sans, SMALL, theme.faint);
+    let words = Text::new(
+        at(PAGE_SIZE.0 - MARGIN),
+        words,
+        Face::Sans,
+        SMALL_TEXT_SIZE,
+        theme.faint,
+    );
     let origin = Text::new(
         at(MARGIN),
         page.foot.clone(),
         Face::Sans,
-        SMALL,
+        SMALL_TEXT_SIZE,
         theme.faint,
     );
     page.roles.push(Role::Artifact);
@@ -179,8 +185,8 @@ fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Dra
         group.id = Some(format!("e{number}"));
     }
     Drawing {
-        width: PAGE.0,
-        height: PAGE.1,
+        width: PAGE_SIZE.0,
+        height: PAGE_SIZE.1,
         title: title.to_owned(),
         description: String::new(),
         background: None,
@@ -212,8 +218,8 @@ fn sheet<'p>(page: &'p Page, words: &'p Drawing, starts: &[usize]) -> Sheet<'p> 
         })
     });
     Sheet {
-        width: PAGE.0,
-        height: PAGE.1,
+        width: PAGE_SIZE.0,
+        height: PAGE_SIZE.1,
         parts,
         links: links.collect(),
     }

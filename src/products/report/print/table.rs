@@ -1,22 +1,22 @@
 //! Adds tables to pages. A table can break between rows; the next page then repeats the heads.
 
 use super::bar;
-use super::flow::{BOTTOM, Flow, GAP, LINE, MARGIN, SMALL, TEXT_SIZE};
+use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, MARGIN, SMALL_TEXT_SIZE, TEXT_BOTTOM, TEXT_SIZE};
 use crate::drawing::text::{width, wrap};
 use crate::drawing::{Anchor, Face, PagePoint, PageRect};
 use crate::output::pdf::Role;
 use crate::report::entry::{Grid, TableCell, Thumbnail};
 
 /// A table that is at most this share of a page high stays on one page.
-const UNBROKEN_SHARE: f64 = 0.3;
+const MAX_UNBROKEN_SHARE: f64 = 0.3;
 /// Width of a bar in a table.
-const BAR: f64 = 160.0;
+const BAR_WIDTH: f64 = 160.0;
 /// Width and height of a small picture in a table.
-const PICTURE: (f64, f64) = (64.0, 40.0);
+const PICTURE_SIZE: (f64, f64) = (64.0, 40.0);
 /// Largest additional width of a column if a table is narrower than its page.
 const MAX_SPREAD: f64 = 45.0;
 /// The width for which a small picture is drawn, pixels.
-const PICTURE_WIDTH: f64 = 96.0;
+const DRAWN_PICTURE_WIDTH: f64 = 96.0;
 
 /// The layout of a table.
 struct Layout {
@@ -42,7 +42,7 @@ impl Flow {
         }
         self.row(&layout, &layout.head, 0);
         for (number, row) in layout.rows.iter().enumerate() {
-            if self.y + layout.height(row) > BOTTOM {
+            if self.y + layout.height(row) > TEXT_BOTTOM {
                 self.new_page();
                 self.row(&layout, &layout.head, 0);
             }
@@ -95,9 +95,9 @@ impl Flow {
                 row: number,
                 head: number == 0,
             });
-            x += wide + GAP;
+            x += wide + COLUMN_GAP;
         }
-        self.y = top + high.min(BOTTOM - MARGIN);
+        self.y = top + high.min(TEXT_BOTTOM - MARGIN);
         let (left, y) = (self.left, self.y - 1.0);
         let (colour, stroke) = if number == 0 {
             (self.theme.faint, 1.0)
@@ -114,7 +114,7 @@ impl Flow {
         }
         if let Some(picture) = &cell.picture {
             let at = PagePoint::new(x, self.y + 1.0);
-            let scale = PICTURE.0 / PICTURE_WIDTH;
+            let scale = PICTURE_SIZE.0 / DRAWN_PICTURE_WIDTH;
             self.page().charts.push((
                 small(picture),
                 "A small picture of the blocks".to_owned(),
@@ -131,10 +131,13 @@ impl Flow {
         let face = face(cell);
         let colour = self.theme.ink;
         // A cell that is longer than a page is cut. The other forms of the report have the whole text.
-        let most = ((BOTTOM - MARGIN) / (LINE * SMALL)) as usize - 4;
-        for part in wrap(&cell.words, face, SMALL, wide).into_iter().take(most) {
-            self.put(&part, at, face, SMALL, colour, anchor);
-            self.y += LINE * SMALL;
+        let most = ((TEXT_BOTTOM - MARGIN) / (LINE_HEIGHT * SMALL_TEXT_SIZE)) as usize - 4;
+        for part in wrap(&cell.words, face, SMALL_TEXT_SIZE, wide)
+            .into_iter()
+            .take(most)
+        {
+            self.put(&part, at, face, SMALL_TEXT_SIZE, colour, anchor);
+            self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
         if let Some(scene) = cell.scene {
             let place = PageRect {
@@ -152,9 +155,9 @@ impl Layout {
     /// is its whole height. For a long table, it is the height of the caption, the head and two rows.
     fn least(&self, grid: &Grid) -> f64 {
         let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
-        let rows = match whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
+        let rows = match whole < MAX_UNBROKEN_SHARE * (TEXT_BOTTOM - MARGIN) {
             true => whole,
-            false => 2.0 * LINE * SMALL,
+            false => 2.0 * LINE_HEIGHT * SMALL_TEXT_SIZE,
         };
         let caption = if grid.caption.is_empty() { 0.2 } else { 1.6 };
         caption * TEXT_SIZE + self.height(&self.head) + rows
@@ -164,10 +167,14 @@ impl Layout {
         let cells = row.iter().zip(&self.widths);
         let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
             (Some(_), _) => bar::HEIGHT,
-            (_, Some(_)) => PICTURE.1,
-            _ => LINE * SMALL * wrap(&cell.words, face(cell), SMALL, *wide).len() as f64,
+            (_, Some(_)) => PICTURE_SIZE.1,
+            _ => {
+                LINE_HEIGHT
+                    * SMALL_TEXT_SIZE
+                    * wrap(&cell.words, face(cell), SMALL_TEXT_SIZE, *wide).len() as f64
+            }
         });
-        heights.fold(LINE * SMALL, f64::max) + 4.0
+        heights.fold(LINE_HEIGHT * SMALL_TEXT_SIZE, f64::max) + 4.0
     }
 }
 
@@ -195,21 +202,21 @@ fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> 
     let longest = |words: &str| {
         let parts = words.split_whitespace();
         parts
-            .map(|w| width(w, Face::SansBold, SMALL))
+            .map(|w| width(w, Face::SansBold, SMALL_TEXT_SIZE))
             .fold(0.0, f64::max)
     };
     let cell_width = |cell: &TableCell| match (&cell.bar, &cell.picture) {
-        (Some(_), _) => BAR,
-        (_, Some(_)) => PICTURE.0,
-        _ => width(&cell.words, face(cell), SMALL),
+        (Some(_), _) => BAR_WIDTH,
+        (_, Some(_)) => PICTURE_SIZE.0,
+        _ => width(&cell.words, face(cell), SMALL_TEXT_SIZE),
     };
     let own = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column));
         cells.map(cell_width).fold(0.0, f64::max)
     };
-    let room = space - GAP * heads.len().saturating_sub(1) as f64;
+    let room = space - COLUMN_GAP * heads.len().saturating_sub(1) as f64;
     let columns = 0..heads.len();
-    let whole = |column: usize| width(&heads[column].words, Face::SansBold, SMALL);
+    let whole = |column: usize| width(&heads[column].words, Face::SansBold, SMALL_TEXT_SIZE);
     let mut widths: Vec<f64> = columns
         .clone()
         .map(|column| own(column).max(whole(column)) + 2.0)

@@ -44,11 +44,11 @@ pub(super) struct Element {
 }
 
 /// Attributes for position and size.
-const SHAPE: [&str; 13] = [
+const SHAPE_ATTRIBUTES: [&str; 13] = [
     "d", "points", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height",
 ];
 /// Attributes that are ignored: drystone derives them from the content of the whole drawing.
-const IGNORED: [&str; 2] = ["id", "aria-labelledby"];
+const IGNORED_ATTRIBUTES: [&str; 2] = ["id", "aria-labelledby"];
 
 impl Element {
     /// Returns the value of an attribute that does not describe position or size; `None` if the element does not have
@@ -141,8 +141,8 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
         match name {
             "class" => found.class = value,
             "aria-label" => found.title = value,
-            _ if IGNORED.contains(&name) => {}
-            _ if SHAPE.contains(&name) => found.shape.push((name.to_owned(), value)),
+            _ if IGNORED_ATTRIBUTES.contains(&name) => {}
+            _ if SHAPE_ATTRIBUTES.contains(&name) => found.shape.push((name.to_owned(), value)),
             // Ignore the id after `#`, because it depends on the content of the whole drawing. The element with this id
             // is compared separately.
             _ if value.starts_with("url(#") => {

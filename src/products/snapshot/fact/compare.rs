@@ -17,7 +17,7 @@ pub struct Change {
 }
 
 /// The kind of a fact that says that a block falls.
-const FALLING: &str = "falling";
+const FALLING_FACT: &str = "falling";
 /// If more blocks than this begin to fall, or no longer fall, they share one line.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
@@ -156,7 +156,11 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
 /// Returns the keys of old and new facts, in the order of the new facts. Keys that only old facts have come last.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
-        let kind = if key.0 == FALLING { "block" } else { &key.0 };
+        let kind = if key.0 == FALLING_FACT {
+            "block"
+        } else {
+            &key.0
+        };
         let same = |f: &Fact| f.kind == kind && f.names == key.1;
         let place = new.facts.iter().position(same);
         (place.unwrap_or(usize::MAX), key.2)
@@ -178,7 +182,7 @@ fn group_falling(
 ) {
     for (before, now, what) in [(was, is, "no longer stand"), (is, was, "no longer fall")] {
         let fresh =
-            |key: &Key| key.0 == FALLING && now.contains_key(key) && !before.contains_key(key);
+            |key: &Key| key.0 == FALLING_FACT && now.contains_key(key) && !before.contains_key(key);
         let who: Vec<String> = names
             .iter()
             .filter(|k| fresh(k))
@@ -206,7 +210,7 @@ fn by_name(facts: &[Fact]) -> ByName<'_> {
     let mut counts: BTreeMap<(&str, &[String]), usize> = BTreeMap::new();
     for fact in facts {
         let falls = fact.values.iter().any(|v| v.unit == "falls");
-        let kind = if falls { FALLING } else { &fact.kind };
+        let kind = if falls { FALLING_FACT } else { &fact.kind };
         let count = counts.entry((kind, &fact.names)).or_default();
         known.insert((kind.to_owned(), fact.names.clone(), *count), fact);
         *count += 1;
@@ -242,8 +246,8 @@ enum Presence {
 fn presence_change(key: &Key, fact: &Fact, place: &str, presence: Presence) -> Change {
     let block = key.1.join("–");
     let (words, weight) = match (key.0.as_str(), presence) {
-        (FALLING, Presence::New) => (format!("block {block} no longer stands"), FALL_WEIGHT),
-        (FALLING, Presence::Gone) => (format!("block {block} no longer falls"), FALL_WEIGHT),
+        (FALLING_FACT, Presence::New) => (format!("block {block} no longer stands"), FALL_WEIGHT),
+        (FALLING_FACT, Presence::Gone) => (format!("block {block} no longer falls"), FALL_WEIGHT),
         (kind, presence) => {
             let weight = if kind.starts_with("failure") {
                 FAILURE_WEIGHT

@@ -1,6 +1,6 @@
 //! Reads facts from the text of a reference file.
 
-use super::write::HEAD;
+use super::write::FIRST_LINE;
 use super::{Fact, Facts, Section, Value};
 
 /// Why a text is not a list of facts.
@@ -16,7 +16,7 @@ pub enum FactsError {
     #[error("line {0} is a mark of a merge conflict; resolve it, or accept the facts again")]
     Conflict(usize),
     /// The first line is missing.
-    #[error("its first line is not \"{HEAD}\"")]
+    #[error("its first line is not \"{FIRST_LINE}\"")]
     Foreign,
     /// A line that cannot be read.
     #[error("line {line} is not a fact: {text}")]
@@ -40,7 +40,7 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
         return Err(FactsError::Conflict(line + 1));
     }
     let mut lines = text.lines().enumerate();
-    if lines.next().map(|(_, line)| line.trim_end()) != Some(HEAD) {
+    if lines.next().map(|(_, line)| line.trim_end()) != Some(FIRST_LINE) {
         return Err(FactsError::Foreign);
     }
     let mut sections: Vec<Section> = Vec::new();

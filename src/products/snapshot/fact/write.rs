@@ -10,7 +10,7 @@ use crate::text;
 /// The significant digits of a force as large as the largest load.
 pub const DIGITS: usize = 6;
 /// The first line of a facts file, with the version of the format.
-pub(super) const HEAD: &str = "drystone facts 1";
+pub(super) const FIRST_LINE: &str = "drystone facts 1";
 /// Blocks slower than this, relative to the fastest block, are not reported as falling. Another optimum of the same
 /// program may hold such a block, so the fact would not be reproducible.
 const MIN_FALLING_SPEED: f64 = 1e-3;
@@ -264,7 +264,7 @@ fn word(word: &str) -> Value {
 }
 
 pub(super) fn text(facts: &Facts) -> String {
-    let mut out = format!("{HEAD}\n");
+    let mut out = format!("{FIRST_LINE}\n");
     for (number, section) in facts.sections.iter().enumerate() {
         if number > 0 {
             out.push('\n');

@@ -263,17 +263,20 @@ fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
 
 /// Draws a rectangle around a box (x, y, width, height), at a distance of 3 pixels.
 fn frame(picture: &mut Picture, [x, y, w, h]: [u32; 4]) {
-    const OFF: u32 = 3;
-    const LINE: [u8; 4] = [0xf0, 0x70, 0x80, 255];
-    let (left, top) = (x.saturating_sub(OFF), y.saturating_sub(OFF));
-    let right = (x + w - 1 + OFF).min(picture.width - 1);
-    let bottom = (y + h - 1 + OFF).min(picture.height - 1);
+    const BOX_DISTANCE: u32 = 3;
+    const BOX_COLOUR: [u8; 4] = [0xf0, 0x70, 0x80, 255];
+    let (left, top) = (
+        x.saturating_sub(BOX_DISTANCE),
+        y.saturating_sub(BOX_DISTANCE),
+    );
+    let right = (x + w - 1 + BOX_DISTANCE).min(picture.width - 1);
+    let bottom = (y + h - 1 + BOX_DISTANCE).min(picture.height - 1);
     let wide = picture.width as usize;
     let changed = [0xd4, 0x00, 0x1a, 255];
     let mut put = |x: u32, y: u32| {
         let pixel = &mut picture.rgba[y as usize * wide + x as usize];
         if *pixel != changed {
-            *pixel = LINE;
+            *pixel = BOX_COLOUR;
         }
     };
     for x in left..=right {

@@ -21,13 +21,13 @@ use palette::Palette;
 use crate::output::png::{MAX_PIXELS, MAX_SIDE};
 
 /// The PNG text keyword for the subject of a reference: a scene or a figure.
-const SUBJECT: &str = "drystone-snapshot";
+const SUBJECT_KEYWORD: &str = "drystone-snapshot";
 /// The PNG text keyword for the roundings of the colours in the palette.
-const ROUNDING: &str = "drystone-rounding";
+const ROUNDING_KEYWORD: &str = "drystone-rounding";
 /// The first bytes of a Git LFS pointer.
-const POINTER: &[u8] = b"version https://git-lfs";
+const LFS_POINTER_START: &[u8] = b"version https://git-lfs";
 /// The first bytes of a PNG.
-const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 /// The subject of a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,7 +157,7 @@ impl Picture {
             let mut texts = info.uncompressed_latin1_text.iter();
             texts.find(|t| t.keyword == keyword).map(|t| t.text.clone())
         };
-        let (subject, rounding) = (stated(SUBJECT), stated(ROUNDING));
+        let (subject, rounding) = (stated(SUBJECT_KEYWORD), stated(ROUNDING_KEYWORD));
         let colours = info.palette.as_deref().unwrap_or_default();
         let rounding = rounding.map(|text| palette::rounding(&text, colours));
         let size = reader.output_buffer_size();
@@ -224,13 +224,13 @@ fn foreign(bytes: &[u8]) -> Option<PictureError> {
     if bytes.is_empty() {
         return Some(PictureError::Empty);
     }
-    if begins(POINTER) {
+    if begins(LFS_POINTER_START) {
         return Some(PictureError::Pointer);
     }
-    if begins(SIGNATURE) {
+    if begins(PNG_SIGNATURE) {
         return None;
     }
-    if SIGNATURE.starts_with(bytes) {
+    if PNG_SIGNATURE.starts_with(bytes) {
         return Some(PictureError::Truncated(bytes.len()));
     }
     Some(PictureError::Foreign(match bytes {

@@ -12,7 +12,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Picture, ROUNDING, SUBJECT, Subject};
+use super::{Picture, ROUNDING_KEYWORD, SUBJECT_KEYWORD, Subject};
 
 /// The size of a PNG palette.
 const MAX_COLOURS: usize = 256;
@@ -187,7 +187,7 @@ pub(super) fn encode(
     encoder.set_compression(png::Compression::High);
     encoder.set_depth(png::BitDepth::Eight);
     if let Some(subject) = subject {
-        let stated = encoder.add_text_chunk(SUBJECT.into(), subject.name().into());
+        let stated = encoder.add_text_chunk(SUBJECT_KEYWORD.into(), subject.name().into());
         stated.map_err(failed)?;
     }
     let mut data: Vec<u8>;
@@ -207,7 +207,7 @@ pub(super) fn encode(
                 encoder.set_trns(palette.colours.iter().map(|c| c[3]).collect::<Vec<u8>>());
             }
             if let Some(note) = palette.note() {
-                let stated = encoder.add_text_chunk(ROUNDING.into(), note);
+                let stated = encoder.add_text_chunk(ROUNDING_KEYWORD.into(), note);
                 stated.map_err(failed)?;
             }
             data = Vec::with_capacity(picture.rgba.len());

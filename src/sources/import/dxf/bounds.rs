@@ -5,7 +5,7 @@ use crate::import::draft::{Form, Part};
 use crate::import::subpath::Subpath;
 
 /// Two outlines coincide if their boxes differ by at most this share of their size.
-const SAME_TOL: f64 = 1e-6;
+const COINCIDENCE_TOL: f64 = 1e-6;
 
 /// Returns the bounding box of a curve; `None` if a coordinate is not finite.
 pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
@@ -31,7 +31,7 @@ pub(super) fn part_box(part: &Part) -> Option<Bounds> {
 /// True if the box `own` coincides with one of `boxes`, within a millionth of its diagonal. `boxes` must be sorted by
 /// `min.x`.
 pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
-    let tolerance = SAME_TOL * own.diagonal();
+    let tolerance = COINCIDENCE_TOL * own.diagonal();
     let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
     boxes[first..]
         .iter()

@@ -11,15 +11,17 @@ use super::xml::{is, words};
 use crate::import::affine::Affine;
 use crate::import::draft::{FillRule, Form, Part, Role, Values};
 
-const SCALE: &str = "data-drystone-scale";
-const ORIGIN: &str = "data-drystone-origin";
+const SCALE_ATTRIBUTE: &str = "data-drystone-scale";
+const ORIGIN_ATTRIBUTE: &str = "data-drystone-origin";
 
 /// Returns the frames of a figure that drystone drew, in order. Returns `None` for other drawings.
 pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
         .filter(|n| {
-            n.node_type() == NodeType::Element && n.has_attribute(SCALE) && n.has_attribute(ORIGIN)
+            n.node_type() == NodeType::Element
+                && n.has_attribute(SCALE_ATTRIBUTE)
+                && n.has_attribute(ORIGIN_ATTRIBUTE)
         })
         .collect();
     (!found.is_empty()).then_some(found)
@@ -35,15 +37,15 @@ fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String
             .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
         all.collect()
     };
-    let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
+    let (pixels, origin) = (numbers(SCALE_ATTRIBUTE), numbers(ORIGIN_ATTRIBUTE));
     let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
         return Err(format!(
-            "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes; export the figure again"
+            "its {SCALE_ATTRIBUTE} and {ORIGIN_ATTRIBUTE} are not the three numbers that drystone writes; export the figure again"
         ));
     };
     let metres = scale.unwrap_or(1.0 / pixels);
     if !(metres.is_finite() && metres > 0.0) {
-        return Err(format!("its {SCALE} is {pixels}"));
+        return Err(format!("its {SCALE_ATTRIBUTE} is {pixels}"));
     }
     Ok(Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]))
 }

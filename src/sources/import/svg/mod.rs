@@ -4,7 +4,7 @@
 //! 2. Walk the tree ([`Walk`]). Each element inherits its transform, its style, and the role from the names around it.
 //! 3. Convert shapes to subpaths in metres, with y up.
 //!
-//! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED`] of one kind.
+//! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED_REMARKS`] of one kind.
 
 mod context;
 mod element;

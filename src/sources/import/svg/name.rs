@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
 /// Returns the name that the user gave to an element: the label of Inkscape, the name of Illustrator, or an id that
 /// no program generated.
@@ -29,11 +29,11 @@ pub(super) fn all_names(node: Node<'_, '_>) -> impl Iterator<Item = String> {
 
 /// True if a group is an Inkscape layer. Blocks without a name do not get the name of their layer.
 pub(super) fn is_layer(node: Node<'_, '_>) -> bool {
-    node.attribute((INKSCAPE, "groupmode")) == Some("layer")
+    node.attribute((INKSCAPE_NAMESPACE, "groupmode")) == Some("layer")
 }
 
 fn label(node: Node<'_, '_>) -> Option<String> {
-    let label = node.attribute((INKSCAPE, "label"));
+    let label = node.attribute((INKSCAPE_NAMESPACE, "label"));
     let name = label.or_else(|| node.attribute("data-name"))?.trim();
     (!name.is_empty()).then(|| name.to_owned())
 }

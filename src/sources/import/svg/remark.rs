@@ -2,7 +2,7 @@
 //! counted.
 
 /// At most this many remarks of one kind are listed; the others are counted.
-pub(super) const MAX_LISTED: usize = 20;
+pub(super) const MAX_LISTED_REMARKS: usize = 20;
 
 /// The kind of a remark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,7 +8,7 @@ use simplecss::StyleSheet;
 use super::MAX_RULE_MATCHES;
 use super::context::{Context, UseElement};
 use super::name::{self, Lines};
-use super::remark::{MAX_LISTED, RemarkKind};
+use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
 use super::style::Style;
 use super::viewport;
 use super::xml::{SVG, is, is_never_drawn};
@@ -17,7 +17,7 @@ use crate::import::draft::{Draft, Role};
 use crate::import::naming::Naming;
 use crate::import::scale::Scale;
 
-const XLINK: &str = "http://www.w3.org/1999/xlink";
+const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
 const MAX_DEPTH: usize = 100;
 /// The largest number of elements, copies included. Copies of copies can grow exponentially.
@@ -187,7 +187,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn copy(&mut self, node: Node<'a, 'd>, mut inner: Context) {
         let reference = node
             .attribute("href")
-            .or_else(|| node.attribute((XLINK, "href")));
+            .or_else(|| node.attribute((XLINK_NAMESPACE, "href")));
         let target = reference
             .and_then(|r| r.trim().strip_prefix('#'))
             .and_then(|id| self.ids.get(id).copied());
@@ -244,7 +244,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     pub(super) fn skip(&mut self, node: Node<'a, 'd>, around: &Context, why: &str) {
         let times = self.remarked.entry(RemarkKind::Skipped).or_default();
         *times += 1;
-        if *times <= MAX_LISTED {
+        if *times <= MAX_LISTED_REMARKS {
             let note = format!("{} is left out: {why}", self.element_label(node, around));
             self.draft.notes.push(note);
         }
@@ -261,7 +261,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     ) {
         let times = self.remarked.entry(kind).or_default();
         *times += 1;
-        if *times <= MAX_LISTED {
+        if *times <= MAX_LISTED_REMARKS {
             let element = self.element_label(node, around);
             self.draft.remark(element, message, help);
         }
@@ -270,7 +270,10 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// For each kind of remarks that are not all listed, adds a remark or note with the number of the unlisted ones.
     pub(super) fn count_unlisted(&mut self) {
         for (kind, times) in &self.remarked {
-            let Some(more) = times.checked_sub(MAX_LISTED).filter(|more| *more > 0) else {
+            let Some(more) = times
+                .checked_sub(MAX_LISTED_REMARKS)
+                .filter(|more| *more > 0)
+            else {
                 continue;
             };
             match kind.plural() {

@@ -1,7 +1,10 @@
 //! [`Reading`]: reads the keys of a style file and collects all problems.
 
 use super::value::Value;
-use super::{AMPLITUDES, COLOURS, LETTERS, LISTS, PIXELS, SIZES, StyleProblem, Theme, WIDTHS};
+use super::{
+    AMPLITUDES_KEY, COLOUR_FIELDS, FONT_SIZE_LIMITS, LIST_FIELDS, PIXEL_UNIT, SIZE_FIELDS,
+    StyleProblem, Theme, WIDTH_FIELDS,
+};
 use crate::drawing::colour::Colour;
 use crate::drawing::ramp;
 use crate::text::nearest;
@@ -36,34 +39,34 @@ impl Reading {
     pub(super) fn theme(&mut self, entries: &[(String, Value)], theme: &mut Theme) {
         for (number, (key, value)) in entries.iter().enumerate() {
             self.once(entries, number, key);
-            if let Some((_, field)) = COLOURS.iter().find(|c| c.0 == key) {
+            if let Some((_, field)) = COLOUR_FIELDS.iter().find(|c| c.0 == key) {
                 if let Some(colour) = self.colour(key, value) {
                     *field(theme) = colour;
                 }
-            } else if let Some((_, field)) = LISTS.iter().find(|l| l.0 == key) {
+            } else if let Some((_, field)) = LIST_FIELDS.iter().find(|l| l.0 == key) {
                 if let Some(colours) = self.colours(key, value, 1) {
                     *field(theme) = colours;
                 }
-            } else if key == AMPLITUDES {
+            } else if key == AMPLITUDES_KEY {
                 if let Some(colours) = self.amplitudes(value) {
                     theme.amplitudes = colours;
                 }
             } else if key == "widths" {
-                let known = WIDTHS.map(|(key, _, range, unit)| (key, range, unit));
+                let known = WIDTH_FIELDS.map(|(key, _, range, unit)| (key, range, unit));
                 for (place, number) in self.numbers(key, value, &known) {
-                    *WIDTHS[place].1(&mut theme.widths) = number;
+                    *WIDTH_FIELDS[place].1(&mut theme.widths) = number;
                 }
             } else if key == "sizes" {
-                let known = SIZES.map(|(key, _)| (key, LETTERS, PIXELS));
+                let known = SIZE_FIELDS.map(|(key, _)| (key, FONT_SIZE_LIMITS, PIXEL_UNIT));
                 for (place, number) in self.numbers(key, value, &known) {
-                    *SIZES[place].1(&mut theme.sizes) = number;
+                    *SIZE_FIELDS[place].1(&mut theme.sizes) = number;
                 }
             } else if key == "theme" {
                 self.name(key, value, &Theme::NAMES, "theme");
             } else {
-                let lists = LISTS.iter().map(|l| l.0);
-                let others = ["theme", AMPLITUDES, "widths", "sizes"];
-                let known = COLOURS.iter().map(|c| c.0).chain(lists).chain(others);
+                let lists = LIST_FIELDS.iter().map(|l| l.0);
+                let others = ["theme", AMPLITUDES_KEY, "widths", "sizes"];
+                let known = COLOUR_FIELDS.iter().map(|c| c.0).chain(lists).chain(others);
                 self.unknown(key, key, &known.collect::<Vec<_>>());
             }
         }
@@ -149,10 +152,10 @@ impl Reading {
 
     fn amplitudes(&mut self, value: &Value) -> Option<Vec<Colour>> {
         if let Value::Text(name) = value {
-            self.name(AMPLITUDES, value, &ramp::NAMES, "row of colours");
+            self.name(AMPLITUDES_KEY, value, &ramp::NAMES, "row of colours");
             return ramp::named(name);
         }
-        let stops = self.colours(AMPLITUDES, value, 2)?;
+        let stops = self.colours(AMPLITUDES_KEY, value, 2)?;
         Some(ramp::between(&stops))
     }
 

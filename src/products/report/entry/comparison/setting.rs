@@ -11,7 +11,7 @@ use crate::wording::failure::shortened;
 use crate::wording::number::{amount, digits, listed, place};
 
 /// Largest number of differences that a sentence names.
-const MOST_NAMED: usize = 4;
+const MAX_NAMED_DIFFERENCES: usize = 4;
 
 /// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts.
 type Given = Vec<(String, String, Option<usize>)>;
@@ -62,7 +62,7 @@ impl Settings {
         let names = self.lines.iter().map(|l| l[0].clone()).collect();
         vec![format!(
             "otherwise: {}",
-            listed(&shortened(names, MOST_NAMED))
+            listed(&shortened(names, MAX_NAMED_DIFFERENCES))
         )]
     }
 

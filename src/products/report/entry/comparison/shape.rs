@@ -12,9 +12,9 @@ use crate::wording::failure::shortened;
 use crate::wording::number::{amount, digits, listed, place};
 
 /// A block counts as moved if its centroid moved by more than this times the largest coordinate of both scenes.
-const MOVED: f64 = 1e-6;
+const MOVE_TOL: f64 = 1e-6;
 /// Largest number of blocks that a sentence names.
-const MOST_NAMED: usize = 6;
+const MAX_NAMED_BLOCKS: usize = 6;
 
 /// The differences between the blocks of two frames.
 #[derive(Default)]
@@ -77,7 +77,12 @@ impl Shapes {
         ];
         let described = kinds.into_iter().filter(|k| !k.1.is_empty());
         described
-            .map(|(how, names)| format!("{how}: {}", listed(&shortened(names.clone(), MOST_NAMED))))
+            .map(|(how, names)| {
+                format!(
+                    "{how}: {}",
+                    listed(&shortened(names.clone(), MAX_NAMED_BLOCKS))
+                )
+            })
             .collect()
     }
 
@@ -117,7 +122,7 @@ fn reach(scene: &Scene) -> f64 {
 fn differs(was: &Block, is: &Block, reach: f64, units: UnitsEntry) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
-    let near = MOVED * reach;
+    let near = MOVE_TOL * reach;
     let rings = |block: &Block| -> Vec<Vec<Point>> { block.body.polygon.rings().to_vec() };
     let (before, after) = (rings(was), rings(is));
     let same_shape = before.len() == after.len()
