@@ -231,7 +231,7 @@ mod tests {
     /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit edge.
     #[test]
     fn the_limit_of_hidden_torques_is_a_torque() {
-        let torque = 0.99 * LEAST_SEEN * 10.0;
+        let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;
         let marks = Marks {
             turns: vec![TurnArrow {
                 on: BodyId::Block(crate::scene::BlockId(0)),
@@ -248,7 +248,7 @@ mod tests {
         for unit in [0.5, 1.0, 4.0] {
             let note = marks.unseen(unit, 1.0, UnitsEntry::default());
             let note = note.expect("a hidden torque");
-            let limit = round_above(LEAST_SEEN * 10.0);
+            let limit = round_above(MIN_VISIBLE_ARROW * 10.0);
             assert_eq!(
                 note,
                 format!("1 torque under {limit} N·m not drawn"),
