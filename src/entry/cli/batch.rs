@@ -185,7 +185,7 @@ impl Batch {
     }
 
     fn work(&self, form: Form) -> Result<Work, CliError> {
-        let format = self.picture.asked().unwrap_or(Format::Png);
+        let format = self.picture.requested_format().unwrap_or(Format::Png);
         let picture = self
             .picture
             .clone()

@@ -265,13 +265,13 @@ fn sensitivities(analysis: &Analysis) -> Page {
     let mut page = Page::default();
     let scene = &analysis.scene;
     for (number, frame) in analysis.frames.iter().enumerate() {
-        let Some(found) = &frame.sensitivity else {
+        let Some(sensitivity) = &frame.sensitivity else {
             continue;
         };
         if analysis.frames.len() > 1 {
             page.line(&format!("  frame {}", letter(number)));
         }
-        for line in sensitivity::lines(scene, frame, found) {
+        for line in sensitivity::lines(scene, frame, sensitivity) {
             page.line(&format!("  {line}"));
         }
     }

@@ -34,9 +34,9 @@ impl Destination {
 
     /// Returns the format of the picture. For a file, its extension decides, and `--format` must agree with it.
     /// Otherwise `--format` decides, and the default is SVG.
-    pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, CliError> {
+    pub(crate) fn format(&self, requested: Option<Format>) -> Result<Format, CliError> {
         let Destination::File(path) = self else {
-            return Ok(asked.unwrap_or(Format::Svg));
+            return Ok(requested.unwrap_or(Format::Svg));
         };
         let ending = path
             .extension()
@@ -50,11 +50,11 @@ impl Destination {
                 one_of(&endings)
             )));
         };
-        match asked {
+        match requested {
             Some(format) if format != by_name => {
-                let (shown, asked) = (path.display(), format.ending());
+                let (shown, requested) = (path.display(), format.ending());
                 Err(CliError::CommandLine(format!(
-                    "the extension of {shown} and --format {asked} contradict each other; leave out --format"
+                    "the extension of {shown} and --format {requested} contradict each other; leave out --format"
                 )))
             }
             _ => Ok(by_name),

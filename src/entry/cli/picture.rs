@@ -79,7 +79,7 @@ enum Background {
 
 impl Picture {
     /// Returns the format that `--format` selects; `None` without this option.
-    pub(crate) fn asked(&self) -> Option<Format> {
+    pub(crate) fn requested_format(&self) -> Option<Format> {
         self.format
     }
 

@@ -59,7 +59,9 @@ impl Render {
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let one = |complaint| vec![complaint];
         let destination = Destination::from_path(&self.output);
-        let format = destination.format(self.picture.asked()).map_err(one)?;
+        let format = destination
+            .format(self.picture.requested_format())
+            .map_err(one)?;
         self.check_kind(format).map_err(one)?;
         let scenes = source::files(&self.scenes).map_err(one)?;
         self.check_count(&scenes, &destination, format, terminal)
@@ -169,16 +171,19 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
-        let mut asked = self.level.options();
-        asked.margins = self.kind.needs_margins();
+        let mut analysis_options = self.level.options();
+        analysis_options.margins = self.kind.needs_margins();
         match sources {
             [before, after] if joins => {
-                let work = || self.compared([before, after], &asked, options, format, fonts);
+                let work =
+                    || self.compared([before, after], &analysis_options, options, format, fonts);
                 vec![source::isolated(&after.path, work).flatten()]
             }
             sources => {
                 let one = |source: &Source| {
-                    let work = || self.render(source, &asked, options, format, fonts, &progress);
+                    let work = || {
+                        self.render(source, &analysis_options, options, format, fonts, &progress)
+                    };
                     source::isolated(&source.path, work).flatten()
                 };
                 sources.par_iter().map(one).collect()
@@ -225,7 +230,7 @@ impl Render {
     fn render(
         &self,
         source: &Source,
-        asked: &analysis::Options,
+        analysis_options: &analysis::Options,
         options: &figure::Options,
         format: Format,
         fonts: &Fonts,
@@ -238,8 +243,8 @@ impl Render {
         } else {
             source.scene.clone()
         };
-        let asked = self.with_requests(asked, &scene)?;
-        let analysis = self.analysed(&scene, &asked);
+        let analysis_options = self.with_requests(analysis_options, &scene)?;
+        let analysis = self.analysed(&scene, &analysis_options);
         progress.step();
         let mut summary = summary(&analysis);
         let kind = self.kind.panels();
@@ -319,14 +324,14 @@ impl Render {
     /// Adds the block of `--capacity`, and the margin of `--margin` if the figure shows the sensitivity of a margin.
     fn with_requests(
         &self,
-        asked: &analysis::Options,
+        analysis_options: &analysis::Options,
         scene: &Scene,
     ) -> Result<analysis::Options, CliError> {
-        let mut asked = self.capacity.add_to(*asked, scene)?;
+        let mut analysis_options = self.capacity.add_to(*analysis_options, scene)?;
         if self.kind.needs_sensitivity() {
-            asked.sensitivity = self.margin.map(|margin| margin.0);
+            analysis_options.sensitivity = self.margin.map(|margin| margin.0);
         }
-        Ok(asked)
+        Ok(analysis_options)
     }
 
     /// Returns the parameter of `--margin`; `None` if there is no such option, or if its margin has no mechanism.
@@ -335,10 +340,10 @@ impl Render {
     }
 
     /// Analyses a scene, and computes the margins that this kind of figure shows.
-    fn analysed(&self, scene: &Scene, asked: &analysis::Options) -> Analysis {
+    fn analysed(&self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
         match self.kind.panels() {
-            Some(kind) => kind.analysed(scene, asked),
-            None => Analysis::with(scene, asked),
+            Some(kind) => kind.analysed(scene, analysis_options),
+            None => Analysis::with(scene, analysis_options),
         }
     }
 

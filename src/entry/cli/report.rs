@@ -108,7 +108,7 @@ impl Report {
         // Without a chosen theme, a web page follows the light or dark mode of the reader's system, so it needs figures
         // for both.
         let follows = matches!(form, Form::Html | Form::Split) && !self.look.is_chosen();
-        let wanted = ReportOptions {
+        let report_options = ReportOptions {
             theme,
             dark: follows.then(|| Theme::named("dark")).flatten(),
             full: self.full,
@@ -124,7 +124,7 @@ impl Report {
             wrong,
             ending,
         } = self
-            .describe_all(&tasks, form, &wanted, terminal)
+            .describe_all(&tasks, form, &report_options, terminal)
             .map_err(|c| vec![c])?;
         let (refused, complaints): (Vec<Refused>, Vec<CliError>) = wrong.into_iter().unzip();
         if pieces.is_empty() && !complaints.is_empty() {
@@ -137,7 +137,7 @@ impl Report {
         for complaint in &complaints {
             terminal.refuse(complaint);
         }
-        let is_dark = || wanted.theme.page.brightness() < 0.5;
+        let is_dark = || report_options.theme.page.brightness() < 0.5;
         let report = Page {
             title: self.heading(&pieces),
             pieces,
@@ -191,7 +191,7 @@ impl Report {
         &self,
         tasks: &[Task],
         form: Form,
-        wanted: &ReportOptions,
+        report_options: &ReportOptions,
         terminal: &Terminal,
     ) -> Result<Collected, CliError> {
         let options = analysis::Options {
@@ -214,7 +214,7 @@ impl Report {
             progress.doing(&task.name());
             let first = task.paths()[0];
             let made = source::isolated(first, || {
-                self.describe(task, number + 1, form, wanted, &options)
+                self.describe(task, number + 1, form, report_options, &options)
             });
             progress.step();
             // The overview lists a scene on which the program failed like a file that is not a valid scene.
@@ -296,7 +296,7 @@ impl Report {
         task: &Task,
         number: usize,
         form: Form,
-        wanted: &ReportOptions,
+        report_options: &ReportOptions,
         options: &analysis::Options,
     ) -> Result<Described, CliError> {
         let mut read = match self.read(task) {
@@ -314,11 +314,11 @@ impl Report {
             .map(|(source, _)| Analysis::with(&source.scene, options))
             .collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
-        let Some(mut entry) = entry(&read, &analyses, wanted) else {
+        let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));
         };
         if form == Form::Markdown {
-            make_figures_legible(&mut entry, &read, analyses, wanted);
+            make_figures_legible(&mut entry, &read, analyses, report_options);
         }
         if self.accuracy_study {
             let mut scene = read[0].0.scene.clone();

@@ -35,7 +35,7 @@ impl Shapes {
 
     fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), CliError> {
         let destination = Destination::from_path(&self.output);
-        let format = destination.format(self.picture.asked())?;
+        let format = destination.format(self.picture.requested_format())?;
         self.picture.check(format)?;
         if let (Destination::Stdout, true, Some(why)) =
             (&destination, terminal.is_watched(), format.unreadable())

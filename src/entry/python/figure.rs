@@ -20,21 +20,21 @@ use crate::scene::Scene;
 /// Draws a figure of all frames, or only of frame number `frame`, counted from 0. Returns the bytes of the picture
 /// file. `words` are options of `render`, and the file extension `ending` selects the format.
 pub(super) fn drawn(
-    found: &Analysis,
+    analysis: &Analysis,
     words: &[String],
     ending: &str,
     frame: Option<usize>,
 ) -> Result<Vec<u8>, String> {
     match frame {
-        None => embedded::figure(words, ending, found),
-        Some(number) => embedded::figure(words, ending, &alone(found, number)),
+        None => embedded::figure(words, ending, analysis),
+        Some(number) => embedded::figure(words, ending, &alone(analysis, number)),
     }
 }
 
 /// Returns a copy of an analysis with only one of its frames. `frame` is counted from 0.
-fn alone(found: &Analysis, frame: usize) -> Analysis {
-    let mut one = found.clone();
-    let mut scene = (*found.scene).clone();
+fn alone(analysis: &Analysis, frame: usize) -> Analysis {
+    let mut one = analysis.clone();
+    let mut scene = (*analysis.scene).clone();
     scene.frames = scene.frames.into_iter().skip(frame).take(1).collect();
     one.frames = one.frames.into_iter().skip(frame).take(1).collect();
     one.scene = Arc::new(scene);
@@ -73,7 +73,7 @@ pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
 /// Writes a report on one scene to the file `path`, whose extension selects the format. `name` and `text` are the name
 /// and the content of the scene file.
 pub(super) fn report(
-    found: &Analysis,
+    analysis: &Analysis,
     path: &str,
     [name, text]: [&str; 2],
     title: Option<String>,
@@ -101,18 +101,18 @@ pub(super) fn report(
         })?,
         None => Theme::default(),
     };
-    let mut found = found.clone();
+    let mut analysis = analysis.clone();
     if form == Form::Pdf {
         // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
-        found.scene = Arc::new(script::legible(&found.scene, &Fonts::default()));
+        analysis.scene = Arc::new(script::legible(&analysis.scene, &Fonts::default()));
     }
-    let wanted = ReportOptions {
+    let report_options = ReportOptions {
         theme: chosen,
         theme_name: theme.map(str::to_owned),
         ..ReportOptions::default()
     };
     let stem = part(path.file_stem());
-    let entry = Entry::new(File { name, text }, &found, &wanted);
+    let entry = Entry::new(File { name, text }, &analysis, &report_options);
     let words = |error: &dyn std::error::Error| error.to_string();
     let piece = Piece::new(&entry, 1, form, &stem).map_err(|e| words(&e))?;
     let report = Report {
@@ -121,7 +121,7 @@ pub(super) fn report(
         refused: Vec::new(),
         notes: Vec::new(),
         compares: false,
-        dark: theme.map(|_| wanted.theme.page.brightness() < 0.5),
+        dark: theme.map(|_| report_options.theme.page.brightness() < 0.5),
         interactive: None,
     };
     let made = report.files(form, &stem).map_err(|e| words(&e))?;

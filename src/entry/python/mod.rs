@@ -28,7 +28,7 @@ use crate::scene::{Scene, SceneError, isolate};
 #[pyclass(frozen, module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 struct Options {
-    asked: analysis::Options,
+    analysis_options: analysis::Options,
     /// The block of which to compute the forces that it can carry, and the ranges of the cases, as on the command line.
     capacity: Option<String>,
     for_all: Option<String>,
@@ -69,7 +69,7 @@ impl Options {
                 return Err(fault(py, &why));
             }
         };
-        let mut asked = analysis::Options::default()
+        let mut analysis_options = analysis::Options::default()
             .accuracy(accuracy)
             .wedging(wedging)
             .verdict_only(verdict_only);
@@ -85,7 +85,7 @@ impl Options {
                 true => MarginKinds::ALL,
                 false => MarginKinds::new(&kinds),
             };
-            asked = asked.margins(true).margin_kinds(kinds);
+            analysis_options = analysis_options.margins(true).margin_kinds(kinds);
         }
         if let Some(name) = sensitivity {
             let kind = MarginKind::from_word(&name).filter(|kind| kind.has_sensitivity());
@@ -93,7 +93,7 @@ impl Options {
                 let why = "sensitivity is load_factor, tilt, horizontal_load, friction or kernel";
                 return Err(fault(py, &format!("{why}, not {name:?}")));
             };
-            asked = asked.sensitivity(kind);
+            analysis_options = analysis_options.sensitivity(kind);
         }
         let time_limit = match time_limit {
             Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
@@ -111,7 +111,7 @@ impl Options {
             ));
         }
         Ok(Options {
-            asked,
+            analysis_options,
             capacity,
             for_all,
             time_limit,
@@ -125,26 +125,26 @@ impl Options {
 impl Options {
     /// Analyses a scene, given as JSON text. An internal fault of the program becomes a problem of the scene.
     fn analysis(&self, text: &str) -> Result<analysis::Analysis, Refusal> {
-        let mut asked = self.asked;
-        asked.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
-        let found = isolate("scene", || {
+        let mut analysis_options = self.analysis_options;
+        analysis_options.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
+        let analysis = isolate("scene", || {
             let scene = Scene::from_json_within(text, self.contact_tolerance)?;
             if let Some(typed) = &self.capacity {
                 match analysis::typed_capacity(&scene, typed, self.for_all.as_deref()) {
-                    Ok(request) => asked = asked.capacity(request),
+                    Ok(request) => analysis_options = analysis_options.capacity(request),
                     Err(why) => return Err(Refusal::Request(why)),
                 }
             }
-            let mut found = analysis::Analysis::with(scene, &asked);
+            let mut analysis = analysis::Analysis::with(scene, &analysis_options);
             if !self.notes {
-                found.notes.clear();
+                analysis.notes.clear();
             }
             if !self.located {
-                found.notes.iter_mut().for_each(|note| note.line = 0);
+                analysis.notes.iter_mut().for_each(|note| note.line = 0);
             }
-            Ok(found)
+            Ok(analysis)
         });
-        found.map_err(Refusal::Scene).flatten()
+        analysis.map_err(Refusal::Scene).flatten()
     }
 }
 
@@ -175,13 +175,13 @@ impl Refusal {
 #[pyclass(frozen, module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 struct Analysis {
-    found: Arc<analysis::Analysis>,
+    analysis: Arc<analysis::Analysis>,
 }
 
 impl Analysis {
-    fn new(found: analysis::Analysis) -> Analysis {
+    fn new(analysis: analysis::Analysis) -> Analysis {
         Analysis {
-            found: Arc::new(found),
+            analysis: Arc::new(analysis),
         }
     }
 }
@@ -190,12 +190,16 @@ impl Analysis {
 impl Analysis {
     /// Returns the verdict of each frame.
     fn verdicts(&self) -> Vec<&'static str> {
-        self.found.frames.iter().map(|f| f.verdict.word()).collect()
+        self.analysis
+            .frames
+            .iter()
+            .map(|f| f.verdict.word())
+            .collect()
     }
 
     /// Returns true if every frame stands.
     fn stands(&self) -> bool {
-        self.found.verdict() == Verdict::Stable
+        self.analysis.verdict() == Verdict::Stable
     }
 
     /// Returns the result in the form that `check --json` prints.
@@ -209,26 +213,26 @@ impl Analysis {
             false => Layout::OneLine,
         };
         py.detach(|| match file {
-            Some(file) => result::to_json_of(file, &self.found, timing, layout),
-            None => result::to_json(&self.found, timing, layout),
+            Some(file) => result::to_json_of(file, &self.analysis, timing, layout),
+            None => result::to_json(&self.analysis, timing, layout),
         })
     }
 
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for one frame or for all frames.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
-        table::Table::new(&self.found, name, frame)
+        table::Table::new(&self.analysis, name, frame)
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
     /// Returns the name and the rings of each body, in metres: first of the parts of the ground, then of the blocks.
     /// The first ring of a body is its outline, and the others are its holes.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
-        figure::outlines(&self.found.scene)
+        figure::outlines(&self.analysis.scene)
     }
 
     /// Returns the numbers, counted from 0, of the blocks that are placed in a frame; empty if there is no such frame.
     fn placed(&self, frame: usize) -> Vec<usize> {
-        let frame = self.found.scene.frames().get(frame);
+        let frame = self.analysis.scene.frames().get(frame);
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 
@@ -241,7 +245,7 @@ impl Analysis {
         ending: &str,
         frame: Option<usize>,
     ) -> PyResult<Vec<u8>> {
-        py.detach(|| figure::drawn(&self.found, &words, ending, frame))
+        py.detach(|| figure::drawn(&self.analysis, &words, ending, frame))
             .map_err(|why| fault(py, &why))
     }
 
@@ -256,7 +260,7 @@ impl Analysis {
         title: Option<String>,
         theme: Option<&str>,
     ) -> PyResult<()> {
-        py.detach(|| figure::report(&self.found, path, [name, text], title, theme))
+        py.detach(|| figure::report(&self.analysis, path, [name, text], title, theme))
             .map_err(|why| fault(py, &why))
     }
 }
@@ -364,7 +368,7 @@ fn check_many(
     }
     let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
     let one = |answer: Result<analysis::Analysis, Refusal>| match answer {
-        Ok(found) => Ok(Py::new(py, Analysis::new(found))?.into_any()),
+        Ok(analysis) => Ok(Py::new(py, Analysis::new(analysis))?.into_any()),
         Err(why) => Ok(why.raised(py, options.located).into_value(py).into_any()),
     };
     answers.into_iter().flatten().map(one).collect()

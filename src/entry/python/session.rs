@@ -25,7 +25,7 @@ impl Session {
         // Check the text first, because only `Scene::from_json` knows the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
         let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
-        let now = py.detach(|| session::Session::with(file, options.asked));
+        let now = py.detach(|| session::Session::with(file, options.analysis_options));
         let now = now.map_err(|error| complaint(py, error))?;
         Ok(Session { now })
     }
@@ -83,7 +83,7 @@ impl Session {
     /// Analyses the placed blocks with these options.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.now.scene();
-        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.asked)))
+        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.analysis_options)))
     }
 
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written

@@ -104,14 +104,14 @@ impl Table {
 
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for one frame or for all frames. Returns `None`
     /// for any other name.
-    pub(super) fn new(found: &Analysis, name: &str, frame: Option<usize>) -> Option<Table> {
-        let numbers = (0..found.frames.len()).filter(|n| frame.is_none_or(|f| f == *n));
+    pub(super) fn new(analysis: &Analysis, name: &str, frame: Option<usize>) -> Option<Table> {
+        let numbers = (0..analysis.frames.len()).filter(|n| frame.is_none_or(|f| f == *n));
         let numbers: Vec<usize> = numbers.collect();
         match name {
-            "contacts" => Some(contacts(found, &numbers)),
-            "robots" => Some(robots(found, &numbers)),
-            "failures" => Some(failures(found, &numbers)),
-            "blocks" => Some(blocks(found, &numbers)),
+            "contacts" => Some(contacts(analysis, &numbers)),
+            "robots" => Some(robots(analysis, &numbers)),
+            "failures" => Some(failures(analysis, &numbers)),
+            "blocks" => Some(blocks(analysis, &numbers)),
             _ => None,
         }
     }
@@ -120,20 +120,22 @@ impl Table {
 /// Returns a table with a row for each frame of several analyses. A scene that is not valid is `None` and has no row.
 #[pyfunction]
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
-    let found = analyses.iter().enumerate();
-    let found = found.filter_map(|(n, a)| Some((n, &*a.as_ref()?.get().found)));
-    let all: Vec<(usize, (usize, &Analysis))> = found
-        .flat_map(|(n, found)| (0..found.frames.len()).map(move |frame| (frame, (n, found))))
+    let valid = analyses.iter().enumerate();
+    let valid = valid.filter_map(|(n, a)| Some((n, &*a.as_ref()?.get().analysis)));
+    let all: Vec<(usize, (usize, &Analysis))> = valid
+        .flat_map(|(n, analysis)| {
+            (0..analysis.frames.len()).map(move |frame| (frame, (n, analysis)))
+        })
         .collect();
     let numbered: Vec<(usize, (usize, &FrameAnalysis))> = all
         .iter()
-        .map(|(frame, (_, found))| (*frame, (*frame, &found.frames[*frame])))
+        .map(|(frame, (_, analysis))| (*frame, (*frame, &analysis.frames[*frame])))
         .collect();
     let mut names = Rows::new(all);
     names.whole("scene", |row| row.0 as i64);
     names.columns.rotate_right(1);
     let scenes = names.rows.iter();
-    let titles = scenes.map(|(frame, (_, found))| found.scene.frames()[*frame].title.clone());
+    let titles = scenes.map(|(frame, (_, analysis))| analysis.scene.frames()[*frame].title.clone());
     let titles = Column::Word(titles.collect());
     names.columns.push(("title", titles));
     let mut rows = Rows::new(numbered);
@@ -144,8 +146,8 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     rows.real("weight", |row| row.1.weight);
     rows.real("total_force", |row| row.1.total_force);
     rows.real("total_sticking", |row| row.1.total_sticking);
-    let asked = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
-    for (name, of) in MARGINS.iter().filter(|_| asked) {
+    let has_margins = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
+    for (name, of) in MARGINS.iter().filter(|_| has_margins) {
         rows.real(name, |row| {
             row.1.margins.as_ref().map_or(f64::NAN, |m| value(of(m)))
         });
@@ -233,9 +235,9 @@ impl<T> Rows<T> {
     }
 }
 
-fn contacts(found: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &found.scene;
-    let of = |n: usize| found.frames[n].contacts.iter().map(move |c| (n, c));
+fn contacts(analysis: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &analysis.scene;
+    let of = |n: usize| analysis.frames[n].contacts.iter().map(move |c| (n, c));
     let all: Vec<(usize, &Contact)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
     rows.bodies(scene, |c| c.interface.bodies.map(Some));
@@ -256,9 +258,9 @@ fn contacts(found: &Analysis, numbers: &[usize]) -> Table {
     rows.table()
 }
 
-fn robots(found: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &found.scene;
-    let of = |n: usize| found.frames[n].robots.iter().map(move |r| (n, r));
+fn robots(analysis: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &analysis.scene;
+    let of = |n: usize| analysis.frames[n].robots.iter().map(move |r| (n, r));
     let all: Vec<(usize, &RobotForce)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
     rows.word("id", |r| scene.robots()[r.robot.0].id.clone());
@@ -271,9 +273,9 @@ fn robots(found: &Analysis, numbers: &[usize]) -> Table {
     rows.table()
 }
 
-fn failures(found: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &found.scene;
-    let of = |n: usize| found.frames[n].failures.iter().map(move |f| (n, f));
+fn failures(analysis: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &analysis.scene;
+    let of = |n: usize| analysis.frames[n].failures.iter().map(move |f| (n, f));
     let all: Vec<(usize, &Failure)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
     rows.word("kind", |f| f.word().into());
@@ -294,8 +296,8 @@ fn failures(found: &Analysis, numbers: &[usize]) -> Table {
     rows.table()
 }
 
-fn blocks(found: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &found.scene;
+fn blocks(analysis: &Analysis, numbers: &[usize]) -> Table {
+    let scene = &analysis.scene;
     let of = |n: usize| {
         let placed = scene.frames()[n].placed.iter();
         placed.map(move |b| (n, (n, b.0)))
@@ -303,7 +305,7 @@ fn blocks(found: &Analysis, numbers: &[usize]) -> Table {
     let all: Vec<(usize, (usize, usize))> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
     let motion = |row: &(usize, usize)| {
-        let motions = found.frames[row.0].mechanism.iter();
+        let motions = analysis.frames[row.0].mechanism.iter();
         motions.into_iter().find(|m| m.block.0 == row.1)
     };
     rows.word("id", |row| scene.blocks()[row.1].id.clone());
@@ -316,7 +318,7 @@ fn blocks(found: &Analysis, numbers: &[usize]) -> Table {
     });
     rows.real("spin", |row| motion(row).map_or(0.0, |m| m.spin));
     rows.whole("unsupported", |row| {
-        i64::from(found.frames[row.0].unsupported.contains(&BlockId(row.1)))
+        i64::from(analysis.frames[row.0].unsupported.contains(&BlockId(row.1)))
     });
     rows.word("robot", |row| {
         let holds = scene.frames()[row.0].holds.iter();

@@ -16,57 +16,57 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
         return options.svg(drawing);
     }
     let scene = scene(text, options.contact_tolerance, options.frame)?;
-    let mut asked = analysis::Options::default()
+    let mut analysis_options = analysis::Options::default()
         .accuracy(options.accuracy.accuracy())
         .wedging(options.wedging);
-    asked.deadline = deadline(options.time_limit)?;
-    let asked = with_requests(asked, &scene, options)?;
-    let found = match options.kind()? {
-        Some(kind) => kind.analysed(&scene, &asked),
-        None => Analysis::with(&scene, &asked),
+    analysis_options.deadline = deadline(options.time_limit)?;
+    let analysis_options = with_requests(analysis_options, &scene, options)?;
+    let analysis = match options.kind()? {
+        Some(kind) => kind.analysed(&scene, &analysis_options),
+        None => Analysis::with(&scene, &analysis_options),
     };
-    page(&found, options)
+    page(&analysis, options)
 }
 
 /// Adds the block of the option `capacity`, and the margin of the option `margin` if the figure shows the sensitivity of
 /// a margin.
 fn with_requests(
-    asked: analysis::Options,
+    analysis_options: analysis::Options,
     scene: &Scene,
     options: &FigureOptions,
 ) -> Result<analysis::Options, Refusal> {
     let (capacity, for_all) = (options.capacity.as_deref(), options.for_all.as_deref());
-    let mut asked = option::with_capacity(asked, scene, capacity, for_all)?;
+    let mut analysis_options = option::with_capacity(analysis_options, scene, capacity, for_all)?;
     if options.kind()?.is_some_and(Kind::needs_sensitivity) {
-        asked.sensitivity = options.margin();
+        analysis_options.sensitivity = options.margin();
     }
-    Ok(asked)
+    Ok(analysis_options)
 }
 
 /// Draws a figure of an existing analysis, and returns the SVG. If the figure needs results that the analysis lacks,
 /// the scene is analysed again.
-pub(super) fn drawn(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
-    let asked = with_requests(analysis::Options::default(), &found.scene, options)?;
+pub(super) fn drawn(analysis: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
+    let analysis_options = with_requests(analysis::Options::default(), &analysis.scene, options)?;
     match options.kind()? {
-        Some(kind) if kind.lacks(found, &asked) => {
-            page(&kind.analysed(&found.scene, &asked), options)
+        Some(kind) if kind.lacks(analysis, &analysis_options) => {
+            page(&kind.analysed(&analysis.scene, &analysis_options), options)
         }
-        _ => page(found, options),
+        _ => page(analysis, options),
     }
 }
 
 /// Draws a figure of an analysis that has all results for it, and returns the SVG.
-fn page(found: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
+fn page(analysis: &Analysis, options: &FigureOptions) -> Result<String, Refusal> {
     let zoom = options.zoom.as_deref();
-    let zoom = zoom.map(|name| figure::named_block(&found.scene, name));
-    let wanted = options.figure(zoom.transpose().map_err(Refusal::of_option)?)?;
+    let zoom = zoom.map(|name| figure::named_block(&analysis.scene, name));
+    let figure_options = options.figure(zoom.transpose().map_err(Refusal::of_option)?)?;
     let drawing = match options.kind()? {
-        Some(kind) => figure::draw(found, kind, &wanted),
+        Some(kind) => figure::draw(analysis, kind, &figure_options),
         None => {
             let block = options.block.as_deref();
             let (frame, block) =
-                figure::free_block(&found.scene, block).map_err(Refusal::of_option)?;
-            figure::freebody(found, frame, block, &wanted)
+                figure::free_block(&analysis.scene, block).map_err(Refusal::of_option)?;
+            figure::freebody(analysis, frame, block, &figure_options)
                 .expect("the block was found in this frame")
         }
     };

@@ -11,9 +11,9 @@ pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Ref
 }
 
 /// Returns an analysis as JSON. The options select whether it contains notes, times, blocks and the name of the file.
-pub(super) fn written(mut found: Analysis, options: &CheckOptions) -> String {
+pub(super) fn written(mut analysis: Analysis, options: &CheckOptions) -> String {
     if options.no_notes {
-        found.notes.clear();
+        analysis.notes.clear();
     }
     let timing = match options.timing {
         true => Timing::Included,
@@ -21,8 +21,8 @@ pub(super) fn written(mut found: Analysis, options: &CheckOptions) -> String {
     };
     let file = options.file.as_deref();
     match (options.blocks, file) {
-        (true, file) => to_json_with_blocks(file, &found, timing, Layout::Lines),
-        (false, Some(file)) => to_json_of(file, &found, timing, Layout::Lines),
-        (false, None) => to_json(&found, timing, Layout::Lines),
+        (true, file) => to_json_with_blocks(file, &analysis, timing, Layout::Lines),
+        (false, Some(file)) => to_json_of(file, &analysis, timing, Layout::Lines),
+        (false, None) => to_json(&analysis, timing, Layout::Lines),
     }
 }

@@ -41,42 +41,42 @@ pub(super) struct CheckOptions {
 impl CheckOptions {
     /// Reads a scene, and analyses it. The time limit starts at this call.
     pub(super) fn analysis(&self, text: &str) -> Result<Analysis, Refusal> {
-        let asked = self.asked()?;
+        let analysis_options = self.analysis_options()?;
         let scene = scene(text, self.contact_tolerance, self.frame)?;
         let (capacity, for_all) = (self.capacity.as_deref(), self.for_all.as_deref());
-        let asked = with_capacity(asked, &scene, capacity, for_all)?;
-        Ok(Analysis::with(scene, &asked))
+        let analysis_options = with_capacity(analysis_options, &scene, capacity, for_all)?;
+        Ok(Analysis::with(scene, &analysis_options))
     }
 
     /// Returns the options of the analysis that do not depend on the scene.
-    fn asked(&self) -> Result<Options, Refusal> {
-        let mut asked = Options::default()
+    fn analysis_options(&self) -> Result<Options, Refusal> {
+        let mut analysis_options = Options::default()
             .accuracy(self.accuracy.accuracy())
             .wedging(self.wedging)
             .verdict_only(self.verdict_only);
-        asked.deadline = deadline(self.time_limit)?;
+        analysis_options.deadline = deadline(self.time_limit)?;
         if let Some(kinds) = self.margins.kinds() {
-            asked = asked.margins(true).margin_kinds(kinds);
+            analysis_options = analysis_options.margins(true).margin_kinds(kinds);
         }
-        asked.sensitivity = self.sensitivity.map(|margin| margin.0);
-        Ok(asked)
+        analysis_options.sensitivity = self.sensitivity.map(|margin| margin.0);
+        Ok(analysis_options)
     }
 }
 
 /// Adds the request to compute the forces that a block can carry, if `capacity` names a block.
 pub(super) fn with_capacity(
-    asked: Options,
+    analysis_options: Options,
     scene: &Scene,
     capacity: Option<&str>,
     for_all: Option<&str>,
 ) -> Result<Options, Refusal> {
     match (capacity, for_all) {
-        (None, None) => Ok(asked),
+        (None, None) => Ok(analysis_options),
         (None, Some(_)) => Err(Refusal::of_option(
             "for_all limits the forces that a block can carry, so it needs capacity too",
         )),
         (Some(typed), cases) => match typed_capacity(scene, typed, cases) {
-            Ok(request) => Ok(asked.capacity(request)),
+            Ok(request) => Ok(analysis_options.capacity(request)),
             // The message names options as on the command line, with hyphens. Use the names of this interface.
             Err(why) => Err(Refusal::of_option(match why.strip_prefix("--for-all") {
                 Some(rest) => format!("for_all{rest}"),

@@ -14,7 +14,7 @@ use crate::result::word;
 #[derive(Clone, Debug)]
 pub struct Session {
     options: CheckOptions,
-    found: Analysis,
+    analysis: Analysis,
 }
 
 #[wasm_bindgen]
@@ -26,8 +26,8 @@ impl Session {
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
         let options: CheckOptions = option::read(options.as_deref())?;
-        let found = options.analysis(scene)?;
-        Ok(Session { options, found })
+        let analysis = options.analysis(scene)?;
+        Ok(Session { options, analysis })
     }
 
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
@@ -36,18 +36,18 @@ impl Session {
     /// Returns the problems of the scene, or a message that the selected frame does not exist. The session then keeps
     /// the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
-        self.found = self.options.analysis(scene)?;
+        self.analysis = self.options.analysis(scene)?;
         Ok(self.verdict())
     }
 
     /// Returns the worst verdict of all frames: stable, unstable or undecided.
     pub fn verdict(&self) -> String {
-        word(self.found.verdict()).to_owned()
+        word(self.analysis.verdict()).to_owned()
     }
 
     /// Returns the result of the analysis as JSON, as the function `check` does.
     pub fn result(&self) -> String {
-        examine::written(self.found.clone(), &self.options)
+        examine::written(self.analysis.clone(), &self.options)
     }
 
     /// Draws a figure of the analysed frames as SVG. `options` are those of `figure`; options of the analysis have no
@@ -56,6 +56,6 @@ impl Session {
     /// # Errors
     /// Returns a message about an option that is not valid.
     pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
-        draw::drawn(&self.found, &option::read(options.as_deref())?)
+        draw::drawn(&self.analysis, &option::read(options.as_deref())?)
     }
 }

@@ -207,10 +207,10 @@ mod tests {
 
     fn spread(text: &str) -> Vec<ForceArrow> {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-        let found = Analysis::new(&scene);
+        let analysis = Analysis::new(&scene);
         let options = Options::default();
-        let largest = crate::figure::mark::largest(&found, 0, &options);
-        let mut marks = marks(&found, 0, &options, largest);
+        let largest = crate::figure::mark::largest(&analysis, 0, &options);
+        let mut marks = marks(&analysis, 0, &options, largest);
         let before = marks.clone();
         apart(&mut marks);
         for (a, b) in marks.arrows.iter().zip(&before.arrows) {

@@ -24,9 +24,13 @@ pub(crate) struct Bearing {
 
 /// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. A
 /// contact without force is `None`.
-pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Bearing>> {
+pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
-    let largest = found.contacts.iter().map(pressed).fold(0.0, f64::max);
+    let largest = frame_analysis
+        .contacts
+        .iter()
+        .map(pressed)
+        .fold(0.0, f64::max);
     let bearing = |contact: &Contact| {
         let pressed = pressed(contact);
         let [one, other] = contact.normal_forces;
@@ -42,7 +46,7 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
             friction: (contact.interface.friction > 0.0).then_some(contact.friction_used),
         })
     };
-    found.contacts.iter().map(bearing).collect()
+    frame_analysis.contacts.iter().map(bearing).collect()
 }
 
 /// Returns the largest force in newtons that counts as numerical noise of the solver on a block of weight `weight` (N).

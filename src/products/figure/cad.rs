@@ -49,7 +49,9 @@ const LETTER_SHARE: f64 = 0.15;
 /// ```
 pub fn dxf(analysis: &Analysis, frame: usize) -> String {
     let scene = &analysis.scene;
-    let (Some(placed), Some(found)) = (scene.frames.get(frame), analysis.frames.get(frame)) else {
+    let (Some(placed), Some(frame_analysis)) =
+        (scene.frames.get(frame), analysis.frames.get(frame))
+    else {
         return String::new();
     };
     let unit = unit::unit(scene, None);
@@ -63,8 +65,8 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
         file.entity("POINT", ROBOT_LAYER);
         file.point(10, hold.at);
     }
-    if found.verdict == Verdict::Stable {
-        for segment in funicular::segments(scene, placed, found) {
+    if frame_analysis.verdict == Verdict::Stable {
+        for segment in funicular::segments(scene, placed, frame_analysis) {
             file.entity("LINE", THRUST_LAYER);
             file.point(10, segment.from);
             file.point(11, segment.to);

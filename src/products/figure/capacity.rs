@@ -119,8 +119,8 @@ impl PanelContent for CarriedForces {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let found = &context.analysis.frames[frame];
-        match &found.capacity {
+        let frame_analysis = &context.analysis.frames[frame];
+        match &frame_analysis.capacity {
             Some(capacity) => wording::capacity::sentences(&context.analysis.scene, capacity),
             None if context.analysis.frames.iter().any(|f| f.capacity.is_some()) => {
                 "the block is not placed yet".into()

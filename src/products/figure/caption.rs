@@ -23,13 +23,13 @@ pub fn caption(analysis: &Analysis) -> String {
         sentences.push(format!("{}.", scene.title.trim_end_matches('.')));
     }
     let several = analysis.frames.len() > 1;
-    for (number, found) in analysis.frames.iter().enumerate() {
-        let verdict = word(found.verdict);
-        let verdict = match found.verdict {
+    for (number, frame_analysis) in analysis.frames.iter().enumerate() {
+        let verdict = word(frame_analysis.verdict);
+        let verdict = match frame_analysis.verdict {
             Verdict::Undecided => format!("is {verdict}"),
             _ => verdict.to_owned(),
         };
-        let reasons = reasons(scene, found);
+        let reasons = reasons(scene, frame_analysis);
         let reasons = if reasons.is_empty() {
             String::new()
         } else {

@@ -18,10 +18,10 @@ const ROTATION_TOL: f64 = 0.02;
 /// Returns the text below the verdict in a figure of a mechanism: how the frame collapses, or why there is no
 /// mechanism.
 pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
-    let found = &analysis.frames[frame];
-    match found.verdict {
+    let frame_analysis = &analysis.frames[frame];
+    match frame_analysis.verdict {
         Verdict::Stable => "there is no mechanism".into(),
-        Verdict::Undecided => format!("no mechanism is proved: {}", found.doubt()),
+        Verdict::Undecided => format!("no mechanism is proved: {}", frame_analysis.doubt()),
         Verdict::Unstable => collapse(analysis, frame),
     }
 }
@@ -138,17 +138,17 @@ impl Sentences<'_> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =
             |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
-        let mut found: Vec<(&Joint, BodyId)> = Vec::new();
+        let mut joints: Vec<(&Joint, BodyId)> = Vec::new();
         for joint in self.joints {
             let [a, b] = contacts[joint.contact].interface.bodies;
             match (within(a), within(b)) {
-                (true, false) => found.push((joint, b)),
-                (false, true) => found.push((joint, a)),
+                (true, false) => joints.push((joint, b)),
+                (false, true) => joints.push((joint, a)),
                 _ => {}
             }
         }
-        found.sort_by_key(|(_, other)| self.moves(*other));
-        found.into_iter()
+        joints.sort_by_key(|(_, other)| self.moves(*other));
+        joints.into_iter()
     }
 
     fn moves(&self, body: BodyId) -> bool {

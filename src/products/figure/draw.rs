@@ -72,8 +72,8 @@ pub fn film(
     let count = (seconds / MOTION_FRAME_SECONDS)
         .round()
         .clamp(MOTION_STEP_LIMITS.0, MOTION_STEP_LIMITS.1) as u32;
-    for (frame, found) in analysis.frames.iter().enumerate() {
-        if found.verdict != Verdict::Unstable {
+    for (frame, frame_analysis) in analysis.frames.iter().enumerate() {
+        if frame_analysis.verdict != Verdict::Unstable {
             steps.push((frame, 1.0));
             times.push(seconds);
             continue;

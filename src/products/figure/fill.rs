@@ -45,7 +45,7 @@ impl Fills {
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
             let frames = scene.frames.iter().zip(&analysis.frames);
             frames
-                .map(|(frame, found)| amount(scene, frame, found))
+                .map(|(frame, frame_analysis)| amount(scene, frame, frame_analysis))
                 .collect()
         };
         let (scale, shares) = match rule {
@@ -173,9 +173,9 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
     let frames = scene.frames.iter().zip(&analysis.frames);
     let shares = frames
         .zip(amplitudes)
-        .map(|((frame, found), amplitudes)| {
+        .map(|((frame, frame_analysis), amplitudes)| {
             let of_block = |(block, amplitude): (&BlockId, f64)| {
-                held(scene, found, *block).unwrap_or_else(|| share(amplitude, limit))
+                held(scene, frame_analysis, *block).unwrap_or_else(|| share(amplitude, limit))
             };
             frame.placed.iter().zip(amplitudes).map(of_block).collect()
         })
@@ -196,8 +196,8 @@ fn share(amount: f64, limit: f64) -> f64 {
 
 /// Returns the used share of the force limits of the robot that holds this block: the larger of |Fx| / limit and |Fy| /
 /// limit. Returns `None` if no robot holds the block, or if its force has no limits.
-fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
-    let robot = found.robots.iter().find(|r| r.block == block)?;
+fn held(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
+    let robot = frame_analysis.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
     if !limits.fx.is_finite() && !limits.fy.is_finite() {
         return None;
@@ -209,11 +209,11 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
 fn largest(
     scene: &Scene,
     frame: &Frame,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     amount: impl Fn(&crate::analysis::Contact) -> f64,
 ) -> Vec<f64> {
     let mut most = vec![0.0_f64; scene.blocks.len()];
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         let amount = amount(contact);
         for body in contact.interface.bodies {
             if let BodyId::Block(block) = body {
@@ -224,8 +224,10 @@ fn largest(
     frame.placed.iter().map(|block| most[block.0]).collect()
 }
 
-fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
-    let normals = largest(scene, frame, found, |c| c.normal_forces.iter().sum());
+fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
+    let normals = largest(scene, frame, frame_analysis, |c| {
+        c.normal_forces.iter().sum()
+    });
     let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
     normals
         .into_iter()
@@ -236,16 +238,16 @@ fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
 
 /// Returns, for each placed block, the largest mean normal stress on its interfaces, N/m². The stress is normal force /
 /// (length × thickness). A corner has no area, so its stress counts as 0.
-fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
-    largest(scene, frame, found, |contact| {
+fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
+    largest(scene, frame, frame_analysis, |contact| {
         let area = contact.interface.length() * scene.thickness;
         let normal: f64 = contact.normal_forces.iter().sum();
         if area > 0.0 { normal / area } else { 0.0 }
     })
 }
 
-fn friction(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
-    largest(scene, frame, found, |contact| {
+fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
+    largest(scene, frame, frame_analysis, |contact| {
         let pressed: f64 = contact.normal_forces.iter().sum();
         if pressed > 0.0 {
             contact.friction_used.clamp(0.0, 1.0)

@@ -87,12 +87,12 @@ impl PanelContent for ForceFlow {
 /// Returns the largest magnitude of a load or missing force in a frame, N. A torque counts as the force torque / unit
 /// edge.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
     let edge = unit(scene, None);
     let loads = scene.loads.iter().filter(|l| placed.contains(&l.block));
     let loads = loads.map(|l| l.force.norm().max(l.torque.abs() / edge));
-    let missing = found.failures.iter();
+    let missing = frame_analysis.failures.iter();
     let missing = missing.map(|f| f.force().norm().max(f.torque().abs() / edge));
     loads.chain(missing).fold(0.0, f64::max)
 }
@@ -140,9 +140,9 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
 
 /// Returns the contact with the largest force in a frame; the first of them if several forces are equal except for
 /// rounding. Returns `None` if no contact has a force.
-pub(super) fn largest_contact(found: &FrameAnalysis) -> Option<&Contact> {
+pub(super) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
-    let contacts = found.contacts.iter();
+    let contacts = frame_analysis.contacts.iter();
     contacts.filter(|c| force(c) > 0.0).reduce(|most, c| {
         if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) {
             c
@@ -191,7 +191,7 @@ fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
 struct Picture<'a> {
     pen: &'a Pen<'a>,
     scene: &'a Scene,
-    found: &'a FrameAnalysis,
+    frame_analysis: &'a FrameAnalysis,
     theme: &'a Theme,
     strands: Vec<Strand>,
     /// Pixels per newton.
@@ -201,14 +201,14 @@ struct Picture<'a> {
 impl<'a> Picture<'a> {
     fn new(pen: &'a Pen<'a>) -> Picture<'a> {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let (scene, found) = (&*context.analysis.scene, &context.analysis.frames[frame]);
+        let (scene, frame_analysis) = (&*context.analysis.scene, &context.analysis.frames[frame]);
         let scale = widest(pen.unit()) / largest(context).max(f64::MIN_POSITIVE);
         let metres = camera.metres(scale);
         Picture {
-            strands: strands(scene, &scene.frames[frame], found, metres),
+            strands: strands(scene, &scene.frames[frame], frame_analysis, metres),
             pen,
             scene,
-            found,
+            frame_analysis,
             theme: &context.options.theme,
             scale,
         }
@@ -242,7 +242,7 @@ impl<'a> Picture<'a> {
         let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];
         for kind in order {
             let strands = self.strands.iter().filter(|s| s.kind == kind);
-            let colour = colour(self.theme, self.found.verdict, kind);
+            let colour = colour(self.theme, self.frame_analysis.verdict, kind);
             let mut joined = Outline::default();
             for strand in strands {
                 let outline = self.band(strand, ink);
@@ -250,7 +250,7 @@ impl<'a> Picture<'a> {
                     joined.extend(outline);
                     continue;
                 }
-                let title = words::strand(self.scene, self.found, strand);
+                let title = words::strand(self.scene, self.frame_analysis, strand);
                 let band = Group::with_class("strand").titled(title);
                 let band = band.with(Path::filled(outline, colour));
                 group.items.push(band.into());
@@ -300,10 +300,10 @@ impl<'a> Picture<'a> {
         let radius = dot(self.pen.unit());
         let marked = limit::marked(self.pen.context, self.pen.number);
         for (contact, bearing) in self
-            .found
+            .frame_analysis
             .contacts
             .iter()
-            .zip(bearings(self.scene, self.found))
+            .zip(bearings(self.scene, self.frame_analysis))
         {
             if bearing.is_none() {
                 continue;
@@ -325,14 +325,14 @@ impl<'a> Picture<'a> {
     /// Returns a label `largest: …` with the magnitude of the largest force of a joint, at the dot of this joint. The
     /// list is empty if no joint has a force.
     fn callout(&self) -> Vec<Callout> {
-        let largest = largest_contact(self.found).into_iter();
+        let largest = largest_contact(self.frame_analysis).into_iter();
         let callout = |contact: &Contact| {
             let force = contact.resultant.force.norm();
             Callout {
                 at: self.pen.camera.place(contact.resultant.at),
                 clear: 0.5 * self.scale * force + 3.0,
                 words: format!("largest: {}", quantity(force, self.scene.units.force())),
-                colour: carried(self.theme, self.found.verdict),
+                colour: carried(self.theme, self.frame_analysis.verdict),
             }
         };
         largest.map(callout).collect()

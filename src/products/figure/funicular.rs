@@ -61,8 +61,12 @@ pub(crate) struct ThrustSegment {
 }
 
 /// Returns the segments of the line of thrust of a frame, block by block in placing order.
-pub(crate) fn segments(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<ThrustSegment> {
-    let (pressing, loads) = (pressing(scene, found), loads(scene));
+pub(crate) fn segments(
+    scene: &Scene,
+    frame: &Frame,
+    frame_analysis: &FrameAnalysis,
+) -> Vec<ThrustSegment> {
+    let (pressing, loads) = (pressing(scene, frame_analysis), loads(scene));
     let mut segments = Vec::new();
     for id in &frame.placed {
         let forces = BlockForces {
@@ -90,10 +94,10 @@ struct Line {
 
 /// Returns the forces that other bodies and robots exert on each block, with their lines of action. The list is indexed
 /// by block.
-fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
+fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<Line>> {
     let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
-    let bearings = bearings(scene, found);
-    for (number, contact) in found.contacts.iter().enumerate() {
+    let bearings = bearings(scene, frame_analysis);
+    for (number, contact) in frame_analysis.contacts.iter().enumerate() {
         if bearings[number].is_none() {
             continue;
         }
@@ -114,7 +118,7 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
             }
         }
     }
-    for robot in &found.robots {
+    for robot in &frame_analysis.robots {
         let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
         if robot.force.norm() > noise {
             lines[robot.block.0].push(Line {

@@ -165,8 +165,8 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         }
         Subject::Forces(text) => {
             let scene = read(text);
-            let found = Analysis::new(&scene);
-            (draw(&found, Kind::Forces, &options), caption(&found))
+            let analysis = Analysis::new(&scene);
+            (draw(&analysis, Kind::Forces, &options), caption(&analysis))
         }
         Subject::Plate {
             title,
@@ -175,9 +175,9 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             panels,
         } => {
             let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
-            let found: Vec<Analysis> = scenes.iter().map(Analysis::new).collect();
-            let captions: Vec<String> = found.iter().map(caption).collect();
-            let drawing = super::plate::plate(&found, panels, title, *columns, &options);
+            let analyses: Vec<Analysis> = scenes.iter().map(Analysis::new).collect();
+            let captions: Vec<String> = analyses.iter().map(caption).collect();
+            let drawing = super::plate::plate(&analyses, panels, title, *columns, &options);
             (drawing, captions.join(" "))
         }
     };

@@ -33,9 +33,9 @@ pub(crate) struct Joint {
 
 /// Returns the joints of a frame: the interfaces whose two bodies move relative to each other in the mechanism.
 pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
-    let found = &analysis.frames[frame];
-    let motions = by_block(analysis, found);
-    let relative: Vec<[Vector; 2]> = found
+    let frame_analysis = &analysis.frames[frame];
+    let motions = by_block(analysis, frame_analysis);
+    let relative: Vec<[Vector; 2]> = frame_analysis
         .contacts
         .iter()
         .map(|contact| {
@@ -59,14 +59,19 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     };
     let one = |(number, contact): (usize, &Contact)| {
         let [a, b] = contact.interface.bodies;
-        let turning = (spin(a) - spin(b)).abs() * found.length;
-        let found = joint(contact, relative[number], turning, SPEED_TOL * largest)?;
+        let turning = (spin(a) - spin(b)).abs() * frame_analysis.length;
+        let joint = joint(contact, relative[number], turning, SPEED_TOL * largest)?;
         Some(Joint {
             contact: number,
-            ..found
+            ..joint
         })
     };
-    found.contacts.iter().enumerate().filter_map(one).collect()
+    frame_analysis
+        .contacts
+        .iter()
+        .enumerate()
+        .filter_map(one)
+        .collect()
 }
 
 /// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the
@@ -122,9 +127,9 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
 }
 
 /// Returns the motion of each block in the mechanism of the frame, indexed by block; `None` for a block at rest.
-fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
+fn by_block(analysis: &Analysis, frame_analysis: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
-    for motion in &found.mechanism {
+    for motion in &frame_analysis.mechanism {
         motions[motion.block.0] = Some(*motion);
     }
     motions

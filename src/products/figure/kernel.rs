@@ -36,15 +36,17 @@ impl PanelContent for Kernel {
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let found = &context.analysis.frames[frame];
+        let frame_analysis = &context.analysis.frames[frame];
         let bold = bold(pen.unit());
         let mut ink = label::ink(pen);
-        for contact in &found.contacts {
+        for contact in &frame_analysis.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 1.0);
         }
-        let stretches = stretches(pen, found);
-        let dots = dots(pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
+        let stretches = stretches(pen, frame_analysis);
+        let dots = dots(pen, frame_analysis, &mut |at| {
+            ink.disc(at, dot(pen.unit()) + 1.0)
+        });
         composed(pen, view, pen.blocks(), vec![stretches, dots], ink)
     }
 
@@ -79,24 +81,24 @@ impl PanelContent for Kernel {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+        let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
 
-        match found.verdict {
+        match frame_analysis.verdict {
             Verdict::Stable => {}
             Verdict::Unstable => {
                 return "no resultants, because no forces balance the structure".into();
             }
             Verdict::Undecided => {
-                return format!("no resultants; {}", verdict::reason(scene, found));
+                return format!("no resultants; {}", verdict::reason(scene, frame_analysis));
             }
         }
-        if found.contacts.is_empty() {
+        if frame_analysis.contacts.is_empty() {
             return "no interfaces".into();
         }
-        let bearings = bearings(scene, found);
+        let bearings = bearings(scene, frame_analysis);
         let share = |b: &Option<Bearing>| b.and_then(|b| b.eccentricity);
         let mut nearest: Option<(f64, &Contact)> = None;
-        for (bearing, contact) in bearings.iter().zip(&found.contacts) {
+        for (bearing, contact) in bearings.iter().zip(&frame_analysis.contacts) {
             if let Some(share) = share(bearing).filter(|s| nearest.is_none_or(|n| *s > n.0)) {
                 nearest = Some((share, contact));
             }
@@ -153,7 +155,7 @@ fn rest(theme: &Theme, bold: f64) -> Stroke {
         .mitred()
 }
 
-fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
     let mut group = Group::with_class("interfaces");
@@ -161,7 +163,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let casing = |outline: Outline| {
         Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8)
     };
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         let place = |points: [Point; 2]| points.map(|p| pen.camera.place(p));
         let ends = place(contact.interface.ends);
         let points = place(contact.application_points);
@@ -211,15 +213,19 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 
 /// Draws a mark at the point of action of each resultant, if the frame stands. Calls `ink` with the position of each
 /// mark on the page.
-fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
+fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
-    if found.verdict != Verdict::Stable {
+    if frame_analysis.verdict != Verdict::Stable {
         return group;
     }
     let radius = dot(pen.unit());
     let mut joined = ByColour::default();
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+    for (contact, bearing) in frame_analysis
+        .contacts
+        .iter()
+        .zip(bearings(scene, frame_analysis))
+    {
         let Some(bearing) = bearing else { continue };
         let at = pen.camera.place(contact.resultant.at);
         ink(at);

@@ -114,38 +114,40 @@ impl Kind {
     }
 
     /// Analyses a scene, and also computes what a figure of this kind shows: margins, the sensitivity of a margin, and
-    /// the forces that a block can carry. If `asked` names no margin or no block, the default of the scene is used.
+    /// the forces that a block can carry. If `analysis_options` names no margin or no block, the default of the scene is used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    pub(crate) fn analysed(self, scene: &Scene, asked: &analysis::Options) -> Analysis {
-        let mut asked = *asked;
-        asked.margins |= self.needs_margins();
-        if self.needs_sensitivity() && asked.sensitivity.is_none() {
-            asked.sensitivity = Some(Sensitivity::default_kind(scene));
+    pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
+        let mut analysis_options = *analysis_options;
+        analysis_options.margins |= self.needs_margins();
+        if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
+            analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }
-        if self.needs_capacity() && asked.capacity.is_none() {
-            asked.capacity = CapacityRequest::default_for(scene);
+        if self.needs_capacity() && analysis_options.capacity.is_none() {
+            analysis_options.capacity = CapacityRequest::default_for(scene);
         }
-        let analysis = Analysis::with(scene, &asked);
+        let analysis = Analysis::with(scene, &analysis_options);
         match self.stated_margins(&analysis) {
-            Some(kinds) if !asked.margins => {
-                Analysis::with(scene, &asked.margins(true).margin_kinds(kinds))
+            Some(kinds) if !analysis_options.margins => {
+                Analysis::with(scene, &analysis_options.margins(true).margin_kinds(kinds))
             }
             _ => analysis,
         }
     }
 
-    /// True if the analysis `found` lacks results that a figure of this kind shows, or has them for another margin or
-    /// block than `asked` names.
+    /// True if the analysis lacks results that a figure of this kind shows, or has them for another margin or
+    /// block than `analysis_options` names.
     #[cfg(any(feature = "python", feature = "wasm"))]
-    pub(crate) fn lacks(self, found: &Analysis, asked: &analysis::Options) -> bool {
-        let frames = &found.frames;
+    pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options) -> bool {
+        let frames = &analysis.frames;
         let margins = || frames.iter().all(|f| f.margins.is_some());
-        let capacity = || asked.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
+        let capacity =
+            || analysis_options.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
         let sensitivity = || {
             let kind = frames
                 .iter()
                 .find_map(|f| Some(f.sensitivity.as_ref()?.kind));
-            kind.is_some() && (asked.sensitivity.is_none() || asked.sensitivity == kind)
+            kind.is_some()
+                && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
         };
         self.needs_margins() && !margins()
             || self.needs_capacity() && !capacity()

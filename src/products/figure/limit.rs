@@ -33,12 +33,12 @@ impl Nearness<'_> {
     }
 }
 
-fn nearness<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
-    if found.verdict != Verdict::Stable {
+fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
+    if frame_analysis.verdict != Verdict::Stable {
         return Vec::new();
     }
-    let bearings = bearings(scene, found);
-    let pressed = found.contacts.iter().zip(bearings);
+    let bearings = bearings(scene, frame_analysis);
+    let pressed = frame_analysis.contacts.iter().zip(bearings);
     let near = |(contact, bearing): (&'a Contact, Option<Bearing>)| {
         let friction = bearing?.friction.unwrap_or(0.0);
         let [from, to] = contact.interface.ends;
@@ -58,8 +58,8 @@ fn nearness<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
 }
 
 /// Returns the joints of a frame that are at their limit. The list is empty if the frame does not stand.
-pub(crate) fn reached<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<&'a Contact> {
-    let all = nearness(scene, found).into_iter();
+pub(crate) fn reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a Contact> {
+    let all = nearness(scene, frame_analysis).into_iter();
     all.filter(Nearness::reached).map(|n| n.contact).collect()
 }
 
@@ -72,8 +72,8 @@ const MIN_NAMED_SHARE: f64 = 0.01;
 /// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
 /// its limit, provided that the text of the figure names it.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
-    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let all = nearness(scene, found);
+    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let all = nearness(scene, frame_analysis);
     if all.iter().any(Nearness::reached) {
         let reached = all.into_iter().filter(Nearness::reached);
         return reached.map(|n| Marked::new(n.contact, true)).collect();
@@ -125,8 +125,8 @@ fn names_nearest(context: &FigureContext<'_>) -> bool {
 /// every joint is far from its limit. It is also empty for printed or zoomed figures, and for several frames, whose
 /// panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
-    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let all = nearness(scene, found);
+    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let all = nearness(scene, frame_analysis);
     let at_limit = all.iter().filter(|n| n.reached()).count();
     let Some(nearest) = nearest(&all).filter(|_| names_nearest(context)) else {
         return String::new();

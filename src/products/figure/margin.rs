@@ -182,9 +182,9 @@ fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec
 fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
-    let found = ghost.frames.get_mut(frame)?;
-    found.mechanism = motions;
-    found.verdict = Verdict::Unstable;
+    let frame_analysis = ghost.frames.get_mut(frame)?;
+    frame_analysis.mechanism = motions;
+    frame_analysis.verdict = Verdict::Unstable;
     Some((ghost, edge))
 }
 

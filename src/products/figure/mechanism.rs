@@ -84,9 +84,9 @@ impl PanelContent for Mechanism {
     }
 
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let found = &context.analysis.frames[frame];
-        wording::margin::falls_headline(&context.analysis.scene, found)
-            .unwrap_or_else(|| verdict::badge(found).to_owned())
+        let frame_analysis = &context.analysis.frames[frame];
+        wording::margin::falls_headline(&context.analysis.scene, frame_analysis)
+            .unwrap_or_else(|| verdict::badge(frame_analysis).to_owned())
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
@@ -137,10 +137,10 @@ impl PanelContent for Mechanism {
 pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> [Group; 2] {
     let mut slips = Group::with_class("slips");
     let mut hinges = Group::with_class("hinges");
-    let found = &analysis.frames[pen.number];
-    if found.verdict == Verdict::Unstable {
+    let frame_analysis = &analysis.frames[pen.number];
+    if frame_analysis.verdict == Verdict::Unstable {
         for joint in joints(analysis, pen.number) {
-            let contact = &found.contacts[joint.contact];
+            let contact = &frame_analysis.contacts[joint.contact];
             if joint.slip != 0.0 {
                 slips.items.push(slip(pen, contact, &joint, ink));
             }

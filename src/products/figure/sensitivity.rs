@@ -119,8 +119,8 @@ impl PanelContent for CornerEffects {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let found = &context.analysis.frames[frame];
-        let Some(sensitivity) = &found.sensitivity else {
+        let frame_analysis = &context.analysis.frames[frame];
+        let Some(sensitivity) = &frame_analysis.sensitivity else {
             return "the sensitivity of its margins was not computed".into();
         };
         if let Some(reason) = sensitivity.reason() {
@@ -216,7 +216,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
         let near = 1e-6 * pen.context.unit;
         let is_its = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
         let its = loads.iter().find(|arrow| change.is_load && is_its(arrow));
-        let wanted = match its {
+        let preferred = match its {
             Some(arrow) => {
                 let (x, y) = pen.camera.turn(arrow.vector);
                 let share = (radius + 1.5) / libm::hypot(x, y).max(f64::MIN_POSITIVE);
@@ -225,9 +225,9 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
             None => pen.camera.place(at),
         };
         // The number of a change of friction is drawn on its joint, so it may cover other shapes.
-        let near = free(ink, wanted, radius, 1.2).filter(|_| !change.is_joint);
-        let at = near.or_else(|| free(&marks, wanted, radius, 3.0));
-        let at = at.unwrap_or(wanted);
+        let near = free(ink, preferred, radius, 1.2).filter(|_| !change.is_joint);
+        let at = near.or_else(|| free(&marks, preferred, radius, 3.0));
+        let at = at.unwrap_or(preferred);
         ink.disc(at, radius + 1.0);
         marks.disc(at, radius + 1.0);
         let title = format!("{}: {}", change.number, change.words);
@@ -238,9 +238,9 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     group
 }
 
-/// Returns the position nearest to `wanted` at which a disc covers nothing in `ink`. Positions up to `most` radii from
-/// `wanted` are tried. Returns `None` if none of them is free.
-fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
+/// Returns the position nearest to `preferred` at which a disc covers nothing in `ink`. Positions up to `most` radii from
+/// `preferred` are tried. Returns `None` if none of them is free.
+fn free(ink: &Ink, preferred: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
     let side = 2.0 * radius;
     let is_free = |centre: &PagePoint| {
         ink.clear(PageRect {
@@ -249,12 +249,12 @@ fn free(ink: &Ink, wanted: PagePoint, radius: f64, most: f64) -> Option<PagePoin
             height: side,
         })
     };
-    // Candidates lie on circles around `wanted`, twelve on each circle. The radii of the circles are multiples of a
+    // Candidates lie on circles around `preferred`, twelve on each circle. The radii of the circles are multiples of a
     // fifth of the disc's radius.
     let place = |k: usize| {
         let far = 0.2 * radius * k.div_ceil(12) as f64;
         let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / 12.0);
-        wanted.moved(far * cos, far * sin)
+        preferred.moved(far * cos, far * sin)
     };
     let last = (12.0 * most / 0.2).round() as usize;
     (0..=last).map(place).find(is_free)

@@ -79,27 +79,32 @@ impl PanelContent for ThrustLine {
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let scene = &context.analysis.scene;
-        let found = &context.analysis.frames[frame];
+        let frame_analysis = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
         // Draw the line of thrust of the most central state if it is known, otherwise that of the analysis.
-        let found = family.central.as_ref().map_or(found, |state| &state.frame);
-        let segments = segments(scene, &scene.frames[frame], found);
+        let frame_analysis = family
+            .central
+            .as_ref()
+            .map_or(frame_analysis, |state| &state.frame);
+        let segments = segments(scene, &scene.frames[frame], frame_analysis);
         let mut ink = label::ink(pen);
         for segment in &segments {
             let [from, to] = [segment.from, segment.to].map(|p| camera.place(p));
             ink.line(from, to, width(pen, segment) + 1.0);
         }
-        let seams = seams(pen, found);
+        let seams = seams(pen, frame_analysis);
         let [least, greatest] = limits(pen, family, &mut ink);
-        let dots = dots(pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
-        let lines = lines(pen, scene, found, &segments);
+        let dots = dots(pen, frame_analysis, &mut |at, radius| {
+            ink.disc(at, radius + 1.0)
+        });
+        let lines = lines(pen, scene, frame_analysis, &segments);
         let loads = pen.arrows(false);
         let fans = match context.options.with_polygon {
             true => fans(context.analysis, frame, family, context.unit),
             false => None,
         };
         let theme = &context.options.theme;
-        let polygon = fans.map(|fans| fans.draw(scene, found, camera, theme, &mut ink));
+        let polygon = fans.map(|fans| fans.draw(scene, frame_analysis, camera, theme, &mut ink));
         let marks = [seams, least, greatest, lines, dots, loads];
         let marks = marks.into_iter().chain(polygon).collect();
         composed(pen, view, pen.blocks(), marks, ink)
@@ -109,9 +114,9 @@ impl PanelContent for ThrustLine {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let frames = scene.frames.iter().zip(&context.analysis.frames);
         let (mut stands, mut schematic, mut falls) = (false, false, false);
-        for (frame, found) in frames {
-            let segments = segments(scene, frame, found);
-            match found.verdict {
+        for (frame, frame_analysis) in frames {
+            let segments = segments(scene, frame, frame_analysis);
+            match frame_analysis.verdict {
                 Verdict::Stable => {
                     stands |= !segments.is_empty();
                     schematic |= segments.iter().any(|s| !s.through);
@@ -152,10 +157,10 @@ impl PanelContent for ThrustLine {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+        let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
 
-        let why = verdict::reason(scene, found);
-        match found.verdict {
+        let why = verdict::reason(scene, frame_analysis);
+        match frame_analysis.verdict {
             Verdict::Stable => {
                 let state = other_figures(context, frame).or_else(|| one_of_many(context, frame));
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
@@ -209,9 +214,9 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
 /// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
-    let frames = given.map(|(number, found)| {
+    let frames = given.map(|(number, frame_analysis)| {
         let central = context.thrust_states(number).central.as_ref();
-        central.map_or(found, |state| &state.frame)
+        central.map_or(frame_analysis, |state| &state.frame)
     });
     let frames: Vec<&FrameAnalysis> = frames.collect();
     let contacts = frames.iter().flat_map(|f| &f.contacts);
@@ -226,9 +231,12 @@ fn largest(context: &FigureContext<'_>) -> f64 {
 /// or if no chain of blocks has a horizontal thrust. `unit` is the unit edge in metres.
 fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
     let scene = &analysis.scene;
-    let found = &analysis.frames[frame];
-    let shown = states.central.as_ref().map_or(found, |state| &state.frame);
-    (found.verdict == Verdict::Stable)
+    let frame_analysis = &analysis.frames[frame];
+    let shown = states
+        .central
+        .as_ref()
+        .map_or(frame_analysis, |state| &state.frame);
+    (frame_analysis.verdict == Verdict::Stable)
         .then(|| Fans::new(scene, &scene.frames[frame], shown, unit))
         .flatten()
 }

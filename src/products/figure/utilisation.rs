@@ -40,10 +40,10 @@ impl PanelContent for Utilisation {
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let found = &context.analysis.frames[frame];
+        let frame_analysis = &context.analysis.frames[frame];
         let bold = bold(pen.unit());
         let mut ink = label::ink(pen);
-        for contact in &found.contacts {
+        for contact in &frame_analysis.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 2.0);
             if contact.friction_used >= FULL_UTILISATION {
@@ -51,8 +51,8 @@ impl PanelContent for Utilisation {
                 ink.line(from, to, 3.0);
             }
         }
-        let (idle, used) = interfaces(pen, found);
-        let robots = robots(pen, found);
+        let (idle, used) = interfaces(pen, frame_analysis);
+        let robots = robots(pen, frame_analysis);
         composed(pen, view, pen.blocks(), vec![idle, used, robots], ink)
     }
 
@@ -99,15 +99,15 @@ impl PanelContent for Utilisation {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+        let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
 
-        let used = most_used(scene, found);
-        match found.verdict {
+        let used = most_used(scene, frame_analysis);
+        match frame_analysis.verdict {
             Verdict::Stable => format!("in the forces shown: {used}"),
             Verdict::Unstable => format!("with the missing forces added, {used}"),
             Verdict::Undecided => format!(
                 "in the forces found: {used}; {}",
-                verdict::reason(scene, found)
+                verdict::reason(scene, frame_analysis)
             ),
         }
     }
@@ -127,11 +127,11 @@ fn limited(scene: &Scene, robot: usize) -> bool {
 
 /// Describes the interface that uses the largest share of its friction, and the robot that uses the largest share of
 /// its limits.
-fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
+fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
-    let bearings = bearings(scene, found);
+    let bearings = bearings(scene, frame_analysis);
     let mut most: Option<(f64, &Contact)> = None;
-    for (bearing, contact) in bearings.iter().zip(&found.contacts) {
+    for (bearing, contact) in bearings.iter().zip(&frame_analysis.contacts) {
         let share = bearing.and_then(|b| b.friction);
         if let Some(share) = share.filter(|s| most.is_none_or(|m| *s > m.0)) {
             most = Some((share, contact));
@@ -154,7 +154,12 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
             ));
         }
     }
-    let robots = || found.robots.iter().filter(|r| limited(scene, r.robot.0));
+    let robots = || {
+        frame_analysis
+            .robots
+            .iter()
+            .filter(|r| limited(scene, r.robot.0))
+    };
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
     // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
     // one of them.
@@ -202,10 +207,13 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 }
 
 /// Draws the interfaces as lines in two groups: interfaces without force, and interfaces with force.
-fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
+fn interfaces(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> (Group, Group) {
     let scene = &pen.context.analysis.scene;
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
-    let bearings = found.contacts.iter().zip(bearings(scene, found));
+    let bearings = frame_analysis
+        .contacts
+        .iter()
+        .zip(bearings(scene, frame_analysis));
     if pen.many() {
         joined_interfaces(pen, bearings, &mut idle, &mut used);
         return (idle, used);
@@ -331,10 +339,14 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
 }
 
 /// Draws a disc at the grip of each robot that has limits. The colour of the disc shows the used share of these limits.
-fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
-    for robot in found.robots.iter().filter(|r| limited(scene, r.robot.0)) {
+    for robot in frame_analysis
+        .robots
+        .iter()
+        .filter(|r| limited(scene, r.robot.0))
+    {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();
         let title = format!(

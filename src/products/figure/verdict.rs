@@ -15,19 +15,19 @@ pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
 }
 
 /// Returns the text next to the symbol of the verdict of a frame, such as `stands` or `stands only by wedging`.
-pub(crate) fn badge(found: &FrameAnalysis) -> &'static str {
-    match found.only_by_wedging {
-        Some(true) if found.verdict == Verdict::Stable => "stands only by wedging",
-        _ => word(found.verdict),
+pub(crate) fn badge(frame_analysis: &FrameAnalysis) -> &'static str {
+    match frame_analysis.only_by_wedging {
+        Some(true) if frame_analysis.verdict == Verdict::Stable => "stands only by wedging",
+        _ => word(frame_analysis.verdict),
     }
 }
 
 /// Returns the colour of the symbol of the verdict of a frame. A frame that stands only by wedging has the colour of an
 /// undecided frame.
-pub(crate) fn badge_colour(found: &FrameAnalysis, theme: &Theme) -> Colour {
-    match found.only_by_wedging {
-        Some(true) if found.verdict == Verdict::Stable => theme.undecided,
-        _ => colour(found.verdict, theme),
+pub(crate) fn badge_colour(frame_analysis: &FrameAnalysis, theme: &Theme) -> Colour {
+    match frame_analysis.only_by_wedging {
+        Some(true) if frame_analysis.verdict == Verdict::Stable => theme.undecided,
+        _ => colour(frame_analysis.verdict, theme),
     }
 }
 

@@ -149,7 +149,7 @@ struct FigureRequest {
 
 impl FigureRequest {
     fn read(words: &str) -> Result<FigureRequest, String> {
-        let mut wanted = FigureRequest {
+        let mut request = FigureRequest {
             file: None,
             kind: "forces".to_owned(),
             block: None,
@@ -159,22 +159,22 @@ impl FigureRequest {
         for word in words.split([' ', ',', '\t']).filter(|w| !w.is_empty()) {
             let (name, value) = word.split_once('=').unwrap_or((word, ""));
             match (name, value) {
-                ("file", value) if !value.is_empty() => wanted.file = Some(value.to_owned()),
-                ("kind", value) if !value.is_empty() => value.clone_into(&mut wanted.kind),
-                ("block", value) if !value.is_empty() => wanted.block = Some(value.to_owned()),
+                ("file", value) if !value.is_empty() => request.file = Some(value.to_owned()),
+                ("kind", value) if !value.is_empty() => value.clone_into(&mut request.kind),
+                ("block", value) if !value.is_empty() => request.block = Some(value.to_owned()),
                 ("theme", value) => {
-                    wanted.options.theme = Theme::named(value).ok_or(format!(
+                    request.options.theme = Theme::named(value).ok_or(format!(
                         "there is no theme {value:?}; known are {}",
                         Theme::NAMES.join(", ")
                     ))?;
                 }
                 ("width", value) => {
                     let width = value.parse().ok().filter(|w| (100.0..=4000.0).contains(w));
-                    wanted.options.width =
+                    request.options.width =
                         Some(width.ok_or("width= must be a number of pixels from 100 to 4000")?);
                 }
-                ("amounts", "") => wanted.options.amounts = true,
-                ("nocaption", "") => wanted.caption = false,
+                ("amounts", "") => request.options.amounts = true,
+                ("nocaption", "") => request.caption = false,
                 _ => {
                     return Err(format!(
                         "unknown option {word:?}; known are file=, kind=, block=, theme=, width=, amounts, nocaption"
@@ -182,13 +182,13 @@ impl FigureRequest {
                 }
             }
         }
-        Ok(wanted)
+        Ok(request)
     }
 }
 
 fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
-    let wanted = FigureRequest::read(words)?;
-    let text = match &wanted.file {
+    let request = FigureRequest::read(words)?;
+    let text = match &request.file {
         Some(file) => {
             let path = chapter.parent().unwrap_or(Path::new("")).join(file);
             fs::read_to_string(&path)
@@ -197,7 +197,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
         None => body.to_owned(),
     };
     let scene = Scene::from_json(&text).map_err(|problems| {
-        let whose = match &wanted.file {
+        let whose = match &request.file {
             Some(file) => text::line(&format!(
                 "the scene {file} is not valid; lines are counted in that file"
             )),
@@ -207,7 +207,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
         format!("{whose}:\n{problems}")
     })?;
     let analysis = Analysis::new(&scene);
-    let drawing = drawing(&analysis, &wanted)?;
+    let drawing = drawing(&analysis, &request)?;
     let words = svg::Options {
         // Text drawn as outlines looks the same on machines without the fonts.
         words: svg::Words::Outlines,
@@ -216,7 +216,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let svg = svg::write_with(&drawing, &words).map_err(|e| e.to_string())?;
     // An empty line would end the HTML block in Markdown.
     let lines: Vec<&str> = svg.lines().filter(|l| !l.trim().is_empty()).collect();
-    let caption = if wanted.caption {
+    let caption = if request.caption {
         maud::html! { figcaption { (text::line(&figure::caption(&analysis))) } }.into_string()
     } else {
         String::new()
@@ -227,18 +227,18 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     ))
 }
 
-fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, String> {
-    let kind = match wanted.kind.as_str() {
+fn drawing(analysis: &Analysis, request: &FigureRequest) -> Result<Drawing, String> {
+    let kind = match request.kind.as_str() {
         "freebody" => {
             let scene = &analysis.scene;
-            let block = match &wanted.block {
+            let block = match &request.block {
                 Some(id) => scene.blocks.iter().position(|b| b.id == *id),
                 None => (scene.blocks.len() == 1).then_some(0),
             };
             let block = BlockId(block.ok_or("block= must be the id of a block in the scene")?);
             let frame = scene.frames.iter().rposition(|f| f.placed.contains(&block));
             return frame
-                .and_then(|f| figure::freebody(analysis, f, block, &wanted.options))
+                .and_then(|f| figure::freebody(analysis, f, block, &request.options))
                 .ok_or("no step of the scene places this block".to_owned());
         }
         name => Kind::from_name(name).ok_or(format!(
@@ -246,5 +246,5 @@ fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, Strin
             Kind::ALL.map(Kind::name).join(", ")
         ))?,
     };
-    Ok(figure::draw(analysis, kind, &wanted.options))
+    Ok(figure::draw(analysis, kind, &request.options))
 }

@@ -57,7 +57,7 @@ struct Pressed {
 }
 
 impl<'a> Capacity<'a> {
-    pub(super) fn new(scene: &'a Scene, found: &Found) -> Capacity<'a> {
+    pub(super) fn new(scene: &'a Scene, capacity: &Found) -> Capacity<'a> {
         let motions =
             |list: &[crate::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
         let edge = |edge: &CapacityEdge| Edge {
@@ -68,20 +68,20 @@ impl<'a> Capacity<'a> {
             mechanism: motions(&edge.mechanism),
             case: edge.case,
         };
-        let proved = found.vertices.iter().filter(|v| v.proof.is_some());
+        let proved = capacity.vertices.iter().filter(|v| v.proof.is_some());
         Capacity {
-            block: &scene.blocks[found.block.0].id,
-            at: found.at.iter().map(|p| place(*p)).collect(),
-            robot: found.robot.map(|r| scene.robots[r.0].id.as_str()),
-            shape: found.shape().word(),
-            stands_without: found.contains([0.0, 0.0]),
-            vertices: found.vertices.iter().map(|v| arrow(v.force)).collect(),
-            rays: found.rays.iter().map(|r| arrow(*r)).collect(),
-            edges: found.edges.iter().map(edge).collect(),
+            block: &scene.blocks[capacity.block.0].id,
+            at: capacity.at.iter().map(|p| place(*p)).collect(),
+            robot: capacity.robot.map(|r| scene.robots[r.0].id.as_str()),
+            shape: capacity.shape().word(),
+            stands_without: capacity.contains([0.0, 0.0]),
+            vertices: capacity.vertices.iter().map(|v| arrow(v.force)).collect(),
+            rays: capacity.rays.iter().map(|r| arrow(*r)).collect(),
+            edges: capacity.edges.iter().map(edge).collect(),
             balances: proved.map(Balance::new).collect(),
-            mechanism: motions(&found.mechanism),
-            gap: Number(found.gap),
-            cases: found.cases,
+            mechanism: motions(&capacity.mechanism),
+            gap: Number(capacity.gap),
+            cases: capacity.cases,
         }
     }
 }

@@ -48,9 +48,9 @@ struct Reason<'a> {
 impl<'a> Excluded<'a> {
     /// Collects, for each parameter with an empty interval, the motions that exclude all its values. Returns `None` if
     /// no interval is empty.
-    pub(super) fn new(scene: &'a Scene, found: &Intervals) -> Option<Excluded<'a>> {
+    pub(super) fn new(scene: &'a Scene, intervals: &Intervals) -> Option<Excluded<'a>> {
         let of = |interval: &Option<Interval>| reasons(scene, interval.as_ref()?);
-        let robots = found.robots.iter().filter_map(|robot| {
+        let robots = intervals.robots.iter().filter_map(|robot| {
             let limits = Limits {
                 fx: reasons(scene, &robot.fx),
                 fy: reasons(scene, &robot.fy),
@@ -60,11 +60,11 @@ impl<'a> Excluded<'a> {
             is_any.then(|| (scene.robots[robot.robot.0].id.as_str(), limits))
         });
         let excluded = Excluded {
-            friction: of(&found.friction),
-            tilt: of(&found.tilt),
-            horizontal_load: of(&found.horizontal_load),
-            kernel: of(&found.kernel),
-            load_factor: of(&found.load_factor),
+            friction: of(&intervals.friction),
+            tilt: of(&intervals.tilt),
+            horizontal_load: of(&intervals.horizontal_load),
+            kernel: of(&intervals.kernel),
+            load_factor: of(&intervals.load_factor),
             robots: Named(robots.collect()),
         };
         let has_parameter = [

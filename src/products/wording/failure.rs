@@ -21,8 +21,8 @@ pub fn amount(failure: &Failure) -> f64 {
 
 /// Returns the failures of a frame, sorted by the magnitude of the missing force, largest first. Equal failures keep
 /// their order.
-pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
-    let mut failures: Vec<&Failure> = found.failures.iter().collect();
+pub fn by_amount(frame_analysis: &FrameAnalysis) -> Vec<&Failure> {
+    let mut failures: Vec<&Failure> = frame_analysis.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     failures
 }
@@ -168,8 +168,8 @@ pub fn missing_sentence(
 
 /// Names the blocks that even adhesion at all contacts could not hold: `nothing carries block a`. Returns `None` if
 /// there are no such blocks.
-pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
-    let blocks = found.unsupported.iter();
+pub fn unsupported_phrase(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+    let blocks = frame_analysis.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
     let what = if names.len() == 1 { "block" } else { "blocks" };
     (!names.is_empty()).then(|| {
@@ -182,9 +182,9 @@ pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String
 
 /// Explains why blocks are unsupported: one sentence for each reason, each with the names of at most `max` blocks.
 /// Returns an empty list if all blocks are supported.
-pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<String> {
-    let reached = reached(found);
-    let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = found
+pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) -> Vec<String> {
+    let reached = reached(frame_analysis);
+    let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = frame_analysis
         .unsupported
         .iter()
         .partition(|id| reached.contains(id));
@@ -216,10 +216,14 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<Stri
 
 /// Returns the blocks that a chain of contacts connects to the ground or to a block that a robot holds, found by a
 /// search in the graph of contacts.
-fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
+fn reached(frame_analysis: &FrameAnalysis) -> BTreeSet<BlockId> {
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
-    let mut next: Vec<BlockId> = found.robots.iter().map(|robot| robot.block).collect();
-    for contact in &found.contacts {
+    let mut next: Vec<BlockId> = frame_analysis
+        .robots
+        .iter()
+        .map(|robot| robot.block)
+        .collect();
+    for contact in &frame_analysis.contacts {
         match contact.interface.bodies {
             [BodyId::Block(a), BodyId::Block(b)] => {
                 neighbours.entry(a).or_default().push(b);

@@ -49,14 +49,14 @@ pub struct EffectiveChange {
 /// first. `is_high` is true if `end` is the upper end.
 pub fn most_effective(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
     is_high: bool,
     most: usize,
 ) -> Vec<EffectiveChange> {
     let outward = if is_high { 1.0 } else { -1.0 };
-    let mut list = corners(scene, found, end, outward);
-    list.extend(others(scene, found, end, outward));
+    let mut list = corners(scene, frame_analysis, end, outward);
+    list.extend(others(scene, frame_analysis, end, outward));
     let effect = |change: &EffectiveChange| (change.after - end.value) * outward;
     list.retain(|change| effect(change) > EFFECT_TOL * end.value.abs());
     list.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
@@ -66,8 +66,8 @@ pub fn most_effective(
 
 /// Returns the length in metres by which the described changes move corners and loads. It is 1, 2 or 5 times a power of
 /// ten.
-pub fn step_length(found: &FrameAnalysis) -> f64 {
-    round_below(LENGTH_STEP_SHARE * found.length * (1.0 + 1e-9))
+pub fn step_length(frame_analysis: &FrameAnalysis) -> f64 {
+    round_below(LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9))
 }
 
 /// Writes a length below 1 m in millimetres, and any other length in metres.
@@ -82,12 +82,12 @@ pub fn length(metres: f64) -> String {
 /// the same.
 pub fn visible(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     (kind, end, is_high): (MarginKind, &EndSensitivity, bool),
     most: usize,
 ) -> Vec<EffectiveChange> {
     let before = value(kind, end.value);
-    let mut changes = most_effective(scene, found, end, is_high, most);
+    let mut changes = most_effective(scene, frame_analysis, end, is_high, most);
     changes.retain(|change| value(kind, change.after) != before);
     changes
 }
@@ -97,14 +97,15 @@ pub fn visible(
 /// interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and −1 for the
 /// lower end.
 pub fn corner_moves(
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
     outward: f64,
 ) -> Vec<(usize, Option<(Vector, f64)>)> {
     let mut list: Vec<(usize, Option<(Vector, f64)>)> = Vec::new();
     for (number, corner) in end.corners.iter().enumerate() {
-        let is_here =
-            |other: usize| (end.corners[other].at - corner.at).norm() < 1e-6 * found.length;
+        let is_here = |other: usize| {
+            (end.corners[other].at - corner.at).norm() < 1e-6 * frame_analysis.length
+        };
         if !corner.with.is_empty() && list.iter().any(|known| is_here(known.0)) {
             continue;
         }
@@ -124,13 +125,13 @@ pub fn corner_moves(
 /// first is listed.
 fn corners(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
     outward: f64,
 ) -> Vec<EffectiveChange> {
-    let step = step_length(found);
+    let step = step_length(frame_analysis);
     let mut list = Vec::new();
-    for (number, best) in corner_moves(found, end, outward) {
+    for (number, best) in corner_moves(frame_analysis, end, outward) {
         let corner = &end.corners[number];
         let Some((direction, rate)) = best else {
             continue;
@@ -159,7 +160,7 @@ fn corners(
 /// Returns the changes of weights, friction coefficients and load positions that enlarge the interval.
 fn others(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
     outward: f64,
 ) -> Vec<EffectiveChange> {
@@ -188,7 +189,7 @@ fn others(
         Some((target, words, FRICTION_STEP, rate))
     };
     let all = end.friction.iter().filter_map(|(interface, slope)| {
-        let bodies = found.contacts.get(*interface)?.interface.bodies;
+        let bodies = frame_analysis.contacts.get(*interface)?.interface.bodies;
         let what = format!("between {}", pair(scene, bodies));
         rubbing(*slope, what, Target::Friction(*interface))
     });
@@ -198,7 +199,7 @@ fn others(
     for (target, words, amount, rate) in all.chain(whole) {
         add(target, words, amount, rate);
     }
-    let step = step_length(found);
+    let step = step_length(frame_analysis);
     for (load, slopes) in &end.loads {
         if let Some((direction, rate)) = best_direction(*slopes, outward) {
             let block = scene.loads[*load].block;
@@ -280,7 +281,11 @@ pub fn value(kind: MarginKind, value: f64) -> String {
 }
 
 /// Returns lines of text that describe, for each end of a margin, the most effective changes.
-pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
+pub fn lines(
+    scene: &Scene,
+    frame_analysis: &FrameAnalysis,
+    sensitivity: &Sensitivity,
+) -> Vec<String> {
     let kind = sensitivity.kind;
     let mut lines = Vec::new();
     if let Some(reason) = sensitivity.reason() {
@@ -288,7 +293,7 @@ pub fn lines(scene: &Scene, found: &FrameAnalysis, sensitivity: &Sensitivity) ->
     }
     for (is_high, end) in sensitivity.ends() {
         let before = value(kind, end.value);
-        let changes = visible(scene, found, (kind, end, is_high), 10);
+        let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         lines.push(match changes.is_empty() {
             true => {

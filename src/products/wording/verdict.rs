@@ -40,23 +40,23 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
 
 /// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this text below the
 /// verdict. The text is empty for all other frames.
-pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
-    if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
+pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+    if frame_analysis.verdict == Verdict::Undecided && !frame_analysis.doubts.is_empty() {
         // The text has to fit in two lines, so it has only the reason. Remedies are in the report and on the terminal.
-        let doubt = found.doubt();
+        let doubt = frame_analysis.doubt();
         return doubt.split("; ").next().unwrap_or_default().to_owned();
     }
     let mut sentences = Vec::new();
-    sentences.extend(unsupported_phrase(scene, found));
-    if !found.failures.is_empty() {
-        let failures = by_amount(found).into_iter();
+    sentences.extend(unsupported_phrase(scene, frame_analysis));
+    if !frame_analysis.failures.is_empty() {
+        let failures = by_amount(frame_analysis).into_iter();
         let parts = failures.map(|f| missing_phrase(scene, f)).collect();
         sentences.push(format!(
             "missing: {}",
             listed(&shortened(parts, MAX_FAILURES_BELOW_FIGURE))
         ));
     }
-    if found.only_by_wedging == Some(true) {
+    if frame_analysis.only_by_wedging == Some(true) {
         sentences.push(
             "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
         );
@@ -66,58 +66,58 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is empty
 /// for all other frames.
-pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
-    reasons_with(scene, found, &|value, unit| quantity(value, unit))
+pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+    reasons_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
 
 fn reasons_with(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     write: &dyn Fn(f64, Unit) -> String,
 ) -> String {
     let mut parts: Vec<String> = Vec::new();
-    parts.extend(unsupported_phrase(scene, found));
-    let failures = by_amount(found).into_iter();
+    parts.extend(unsupported_phrase(scene, frame_analysis));
+    let failures = by_amount(frame_analysis).into_iter();
     let failures: Vec<String> = failures
         .map(|f| missing_sentence(scene, f, write))
         .collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
-    if found.only_by_wedging == Some(true) {
+    if frame_analysis.only_by_wedging == Some(true) {
         parts.push(
             "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
         );
     }
-    if found.verdict == Verdict::Undecided {
-        parts.push(found.doubt());
+    if frame_analysis.verdict == Verdict::Undecided {
+        parts.push(frame_analysis.doubt());
     }
     parts.retain(|p| !p.is_empty());
     parts.join("; ")
 }
 
 /// Writes a sentence with the verdict and its reasons, for readers who do not program.
-pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
-    sentence_with(scene, found, &|value, unit| quantity(value, unit))
+pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+    sentence_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
 
 /// Like [`sentence`]; `write` formats an amount with its unit.
 pub fn sentence_with(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     write: &dyn Fn(f64, Unit) -> String,
 ) -> String {
-    match found.verdict {
-        Verdict::Stable if found.only_by_wedging == Some(true) => {
+    match frame_analysis.verdict {
+        Verdict::Stable if frame_analysis.only_by_wedging == Some(true) => {
             "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
              build them up."
                 .into()
         }
-        Verdict::Stable if found.robots.is_empty() => {
+        Verdict::Stable if frame_analysis.robots.is_empty() => {
             "It stands: pressure and friction at the contacts can hold every block at rest.".into()
         }
         Verdict::Stable => {
             "It stands: pressure and friction at the contacts, and the robots, can hold every block at rest.".into()
         }
-        Verdict::Unstable => match reasons_with(scene, found, write) {
+        Verdict::Unstable => match reasons_with(scene, frame_analysis, write) {
             reasons if reasons.is_empty() => {
                 "It falls: no forces that contacts and robots can give would hold every block at rest."
                     .into()
@@ -126,7 +126,7 @@ pub fn sentence_with(
         },
         Verdict::Undecided => format!(
             "It is undecided: neither balancing forces nor a collapse motion could be proved; {}.",
-            found.doubt()
+            frame_analysis.doubt()
         ),
     }
 }

@@ -17,25 +17,25 @@ pub(super) struct Names {
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved, because results use it for the ground.
     let mut taken = Taken::with("ground");
-    let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
+    let given_names: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
     let mut bodies = Vec::new();
     for (i, body) in outlines.bodies.iter().enumerate() {
         bodies.push(match (body.kind, body.name.as_str()) {
             (Role::Ground, _) => format!("ground[{i}]"),
-            (_, "") => taken.first_free("", i + 1 - ground, &wanted),
+            (_, "") => taken.first_free("", i + 1 - ground, &given_names),
             (_, name) if taken.names.insert(name.to_owned()) => name.to_owned(),
-            (_, name) => taken.first_free(&format!("{name}-"), 2, &wanted),
+            (_, name) => taken.first_free(&format!("{name}-"), 2, &given_names),
         });
     }
     let mut taken = Taken::default();
-    let wanted: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
+    let given_names: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
     let mut robots = Vec::new();
     for (i, robot) in outlines.robots.iter().enumerate() {
         robots.push(match robot.name.as_str() {
-            "" => taken.first_free("r", i, &wanted),
+            "" => taken.first_free("r", i, &given_names),
             name if taken.names.insert(name.to_owned()) => name.to_owned(),
-            name => taken.first_free(&format!("{name}-"), 2, &wanted),
+            name => taken.first_free(&format!("{name}-"), 2, &given_names),
         });
     }
     Names { bodies, robots }
@@ -57,13 +57,13 @@ impl Taken {
     }
 
     /// Returns `stem` with the first number, from `from` on, that makes a free name. A name is free if it is neither
-    /// taken nor in `wanted`.
-    fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
+    /// taken nor in `given_names`.
+    fn first_free(&mut self, stem: &str, from: usize, given_names: &BTreeSet<&str>) -> String {
         let last = self.last.entry(stem.to_owned()).or_default();
         let mut number = from.max(*last);
         loop {
             let name = format!("{stem}{number}");
-            if !wanted.contains(name.as_str()) && self.names.insert(name.clone()) {
+            if !given_names.contains(name.as_str()) && self.names.insert(name.clone()) {
                 *last = number + 1;
                 return name;
             }

@@ -216,10 +216,10 @@ impl Segment {
     }
 }
 
-fn steps(wanted: f64) -> f64 {
-    // The comparison is false if `wanted` is NaN; the result is then one step.
-    if wanted > 1.0 {
-        wanted.ceil().min(MAX_CHORDS)
+fn steps(count: f64) -> f64 {
+    // The comparison is false if `count` is NaN; the result is then one step.
+    if count > 1.0 {
+        count.ceil().min(MAX_CHORDS)
     } else {
         1.0
     }

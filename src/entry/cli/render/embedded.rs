@@ -51,36 +51,40 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
 ///
 /// # Errors
 /// Returns a message if `render` does not accept the words, or if the picture cannot be written.
-pub(crate) fn figure(words: &[String], ending: &str, found: &Analysis) -> Result<Vec<u8>, String> {
+pub(crate) fn figure(
+    words: &[String],
+    ending: &str,
+    analysis: &Analysis,
+) -> Result<Vec<u8>, String> {
     let (render, format, fonts) = parsed(words, ending)?;
     let drawn = || {
         let theme = render.look.theme()?;
         let options = render.options(theme);
-        let mut found = found.clone();
-        let asked = render.with_requests(&Options::default(), &found.scene)?;
+        let mut analysis = analysis.clone();
+        let analysis_options = render.with_requests(&Options::default(), &analysis.scene)?;
         if render
             .kind
             .panels()
-            .is_some_and(|kind| kind.lacks(&found, &asked))
+            .is_some_and(|kind| kind.lacks(&analysis, &analysis_options))
         {
-            found = render.analysed(&found.scene, &asked);
+            analysis = render.analysed(&analysis.scene, &analysis_options);
         }
         let source = Source {
             path: "the scene".into(),
-            scene: (*found.scene).clone(),
+            scene: (*analysis.scene).clone(),
         };
         let options = render.zoomed(&source, &options)?;
-        if render.picture.draws_words(format) && script::lacks(&found.scene, &fonts) {
-            found.scene = script::legible(&found.scene, &fonts).into();
+        if render.picture.draws_words(format) && script::lacks(&analysis.scene, &fonts) {
+            analysis.scene = script::legible(&analysis.scene, &fonts).into();
         }
         match render.animate {
             None => {
-                let drawing = render.drawing(&source, &found, &options)?;
+                let drawing = render.drawing(&source, &analysis, &options)?;
                 render.picture.bytes(drawing, format, &fonts)
             }
             Some(seconds) => {
                 let kind = render.kind.panels().unwrap_or_default();
-                let film = figure::film(&found, kind, &options, seconds);
+                let film = figure::film(&analysis, kind, &options, seconds);
                 let animate = format.animate().unwrap_or(animation::gif);
                 let picture = render.picture.clone().or_width(ANIMATION_WIDTH, format);
                 picture.animated(film, animate, &fonts)

@@ -25,7 +25,7 @@ impl Render {
     pub(super) fn compared(
         &self,
         sources: [&Source; 2],
-        asked: &analysis::Options,
+        analysis_options: &analysis::Options,
         options: &figure::Options,
         format: Format,
         fonts: &Fonts,
@@ -41,7 +41,7 @@ impl Render {
                 source.scene.clone()
             }
         });
-        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, asked));
+        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, analysis_options));
         let title = |number: usize| match scenes[number].title.as_str() {
             title if title.is_empty() || scenes[0].title == scenes[1].title => {
                 sources[number].stem()

@@ -10,7 +10,7 @@ use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
 pub(super) fn entry(
     read: &[(Source, String)],
     analyses: &[Analysis],
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
 ) -> Option<Entry> {
     let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
     let file = |i: usize| File {
@@ -23,9 +23,9 @@ pub(super) fn entry(
                 file: file(i),
                 analysis,
             };
-            Some(compared([side(0, was), side(1, is)], wanted))
+            Some(compared([side(0, was), side(1, is)], report_options))
         }
-        [one, ..] => Some(Entry::new(file(0), one, wanted)),
+        [one, ..] => Some(Entry::new(file(0), one, report_options)),
         [] => None,
     }
 }
@@ -36,7 +36,7 @@ pub(super) fn make_figures_legible(
     entry: &mut Entry,
     read: &[(Source, String)],
     mut analyses: Vec<Analysis>,
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
 ) {
     let fonts = Fonts::default();
     let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
@@ -46,7 +46,7 @@ pub(super) fn make_figures_legible(
     for analysis in &mut analyses {
         analysis.scene = script::legible(&analysis.scene, &fonts).into();
     }
-    if let Some(drawn) = self::entry(read, &analyses, wanted) {
+    if let Some(drawn) = self::entry(read, &analyses, report_options) {
         entry.take_figures(drawn);
     }
 }

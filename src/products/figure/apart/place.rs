@@ -106,13 +106,13 @@ mod tests {
             boxes.push(Bounds { min, max });
         }
         let mut places = Places::sized_for(boxes.iter().copied());
-        for (count, asked) in boxes.iter().enumerate() {
-            for near in [*asked, asked.grown(3.0), asked.grown(100.0)] {
+        for (count, query) in boxes.iter().enumerate() {
+            for near in [*query, query.grown(3.0), query.grown(100.0)] {
                 let all = (0..count).filter(|n| near.intersects(boxes[*n]));
                 assert_eq!(places.meeting(Some(near)), all.collect::<Vec<_>>());
             }
             assert_eq!(places.meeting(None).len(), count);
-            places.put(*asked);
+            places.put(*query);
         }
         let point = Bounds {
             min: Point::origin(),

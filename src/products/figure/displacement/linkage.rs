@@ -73,7 +73,7 @@ struct Pose {
 impl Linkage {
     /// Creates the linkage of a group of moving blocks. It contains those of `joints` that belong to this group.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
         let within = |body: &Vec<Motion>| {
             body.iter()
                 .any(|m| group.iter().any(|g| g.block == m.block))
@@ -88,7 +88,7 @@ impl Linkage {
         }
         let mut links = Vec::new();
         for joint in joints {
-            let interface = &found.contacts[joint.contact].interface;
+            let interface = &frame_analysis.contacts[joint.contact].interface;
             let bodies = interface.bodies.map(|body| match body {
                 BodyId::Block(block) => number_of.get(&block).copied(),
                 BodyId::Ground(_) => None,
@@ -112,7 +112,7 @@ impl Linkage {
         Linkage {
             members,
             links,
-            length: found.length.max(f64::MIN_POSITIVE),
+            length: frame_analysis.length.max(f64::MIN_POSITIVE),
         }
     }
 

@@ -13,9 +13,9 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let scene = &*context.analysis.scene;
     let frames = || scene.frames.iter().zip(&context.analysis.frames);
     let all: Vec<(Verdict, Strand)> = frames()
-        .flat_map(|(frame, found)| {
-            let strands = strands(scene, frame, found, 0.0).into_iter();
-            strands.map(|strand| (found.verdict, strand))
+        .flat_map(|(frame, frame_analysis)| {
+            let strands = strands(scene, frame, frame_analysis, 0.0).into_iter();
+            strands.map(|strand| (frame_analysis.verdict, strand))
         })
         .collect();
     let mut entries = Vec::new();

@@ -78,10 +78,10 @@ pub(crate) struct Strand {
 pub(crate) fn strands(
     scene: &Scene,
     frame: &Frame,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     metres_per_newton: f64,
 ) -> Vec<Strand> {
-    let acting = acting(scene, frame, found);
+    let acting = acting(scene, frame, frame_analysis);
     let mut all = Vec::new();
     for id in &frame.placed {
         let forces = &acting[id.0];
@@ -100,15 +100,15 @@ pub(crate) fn strands(
 
 /// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
 /// forces.
-fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting>> {
+fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Vec<Acting>> {
     let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
         if let BodyId::Block(block) = body {
             acting[block.0].push(Acting { origin, at, force });
         }
     };
-    for (number, bearing) in bearings(scene, found).iter().enumerate() {
-        let contact = &found.contacts[number];
+    for (number, bearing) in bearings(scene, frame_analysis).iter().enumerate() {
+        let contact = &frame_analysis.contacts[number];
         let (at, force) = (contact.resultant.at, contact.resultant.force);
         if bearing.is_some() {
             for body in contact.interface.bodies {
@@ -121,14 +121,14 @@ fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Vec<Acting
             }
         }
     }
-    for robot in &found.robots {
+    for robot in &frame_analysis.robots {
         let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
         if robot.force.norm() > noise {
             let on = BodyId::Block(robot.block);
             act(on, Origin::Robot(robot.robot), robot.at, robot.force);
         }
     }
-    for (number, failure) in found.failures.iter().enumerate() {
+    for (number, failure) in frame_analysis.failures.iter().enumerate() {
         for (body, force) in missing(failure) {
             act(body, Origin::Missing(number), failure.at(), force);
         }

@@ -14,10 +14,10 @@ use crate::scene::{BodyId, Scene};
 const EQUAL_FORCE_TOL: f64 = 1e-3;
 
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
-pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> String {
+pub(super) fn strand(scene: &Scene, frame_analysis: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
     let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), scene.units.force());
-    let name = |origin| name(scene, found, BodyId::Block(strand.on), origin);
+    let name = |origin| name(scene, frame_analysis, BodyId::Block(strand.on), origin);
     format!(
         "In block {on}: {} from {}, {} to {}",
         amount(strand.widths.first()),
@@ -28,10 +28,10 @@ pub(super) fn strand(scene: &Scene, found: &FrameAnalysis, strand: &Strand) -> S
 }
 
 /// Returns a name for the origin of a force on the body `on`, such as `block 3`, `robot crane` or `a load`.
-fn name(scene: &Scene, found: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
+fn name(scene: &Scene, frame_analysis: &FrameAnalysis, on: BodyId, origin: Origin) -> String {
     let other = |[a, b]: [BodyId; 2]| description::named(scene, if a == on { b } else { a });
     match origin {
-        Origin::Contact(number) => other(found.contacts[number].interface.bodies),
+        Origin::Contact(number) => other(frame_analysis.contacts[number].interface.bodies),
         Origin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
         Origin::Load => "a load".to_owned(),
         Origin::Weight => "its weight".to_owned(),
@@ -49,21 +49,25 @@ pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
 /// Returns the text below the verdict: why the frame does not stand, its largest contact force, and its joints at their
 /// limit.
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
-    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let why = verdict::reason(scene, found);
-    let parts = [why, largest(scene, found), limit::sentence(context, frame)];
+    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let why = verdict::reason(scene, frame_analysis);
+    let parts = [
+        why,
+        largest(scene, frame_analysis),
+        limit::sentence(context, frame),
+    ];
     let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
     parts.join("; ")
 }
 
 /// Returns the part of the text that names the largest contact force and its joint; empty if no joint has a force.
-fn largest(scene: &Scene, found: &FrameAnalysis) -> String {
-    let Some(contact) = largest_contact(found) else {
+fn largest(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+    let Some(contact) = largest_contact(frame_analysis) else {
         return String::new();
     };
     let most = contact.resultant.force.norm();
     let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - EQUAL_FORCE_TOL) * most;
-    let joints = found.contacts.iter().filter(alike).count();
+    let joints = frame_analysis.contacts.iter().filter(alike).count();
     let pair = description::pair(scene, contact.interface.bodies);
     let others = match joints - 1 {
         0 => String::new(),

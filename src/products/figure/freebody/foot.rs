@@ -68,8 +68,8 @@ impl Sheet<'_> {
     /// of this line on the page, in pixels.
     fn verdict_and_scale(&self, y: f64) -> Vec<Item> {
         let theme = &self.options.theme;
-        let found = &self.analysis.frames[self.frame];
-        let word = verdict::word(found.verdict);
+        let frame_analysis = &self.analysis.frames[self.frame];
+        let word = verdict::word(frame_analysis.verdict);
         let what = if self.analysis.scene.frames[self.frame].placed.len() > 1 {
             format!("the structure {word}")
         } else {
@@ -82,10 +82,10 @@ impl Sheet<'_> {
         });
         let start = self.width / 2.0 - (wide + 21.0 + scaled) / 2.0 + 7.5;
         let start = PagePoint::new(start, y);
-        let colour = verdict::colour(found.verdict, theme);
+        let colour = verdict::colour(frame_analysis.verdict, theme);
         let at = start.moved(13.5, 0.35 * 13.5);
         let mut items: Vec<Item> = vec![
-            verdict::mark(found.verdict, start, 7.5, theme).into(),
+            verdict::mark(frame_analysis.verdict, start, 7.5, theme).into(),
             Text::new(at, what, Face::SansBold, 13.5, colour).into(),
         ];
         if let Some(scale) = scale {
@@ -137,8 +137,8 @@ impl Sheet<'_> {
             };
             notes.push(format!("{nameless} {names} no room"));
         }
-        let found = &self.analysis.frames[self.frame];
-        if found.unsupported.contains(&self.block) {
+        let frame_analysis = &self.analysis.frames[self.frame];
+        if frame_analysis.unsupported.contains(&self.block) {
             notes.push(
                 "the forces on this block do not balance, because not even adhesion could hold it"
                     .to_owned(),

@@ -89,7 +89,7 @@ pub(super) fn forces(
 ) -> Vec<Force> {
     let source = ForceSource {
         analysis,
-        found: &analysis.frames[frame],
+        frame_analysis: &analysis.frames[frame],
         block,
         contacts,
         options,
@@ -107,7 +107,7 @@ pub(super) fn forces(
 /// Collects the forces on a block, one method for each kind of force.
 struct ForceSource<'a> {
     analysis: &'a Analysis,
-    found: &'a FrameAnalysis,
+    frame_analysis: &'a FrameAnalysis,
     block: BlockId,
     /// The contacts of the block.
     contacts: &'a [&'a Contact],
@@ -251,7 +251,12 @@ impl ForceSource<'_> {
     fn robots(&self) -> Vec<Force> {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut forces = Vec::new();
-        for held in self.found.robots.iter().filter(|r| r.block == self.block) {
+        for held in self
+            .frame_analysis
+            .robots
+            .iter()
+            .filter(|r| r.block == self.block)
+        {
             let robot = &scene.robots[held.robot.0];
             let push = Force {
                 symbol: Symbol::new("F", Accent::Arrow, "").raised(&robot.id),
@@ -277,7 +282,7 @@ impl ForceSource<'_> {
 
     /// Returns the missing forces and torques on the block, with the names X1, X2 and so on.
     fn missing(&self) -> Vec<Force> {
-        let failures = self.found.failures.iter();
+        let failures = self.frame_analysis.failures.iter();
         let missing = failures.filter_map(|failure| self.missing_force(failure));
         let numbered = missing.enumerate().map(|(number, force)| {
             let accent = if force.torque == 0.0 {

@@ -112,9 +112,9 @@ impl<'a> Sheet<'a> {
         block: BlockId,
         options: &'a Options,
     ) -> Sheet<'a> {
-        let found = &analysis.frames[frame];
+        let frame_analysis = &analysis.frames[frame];
         let touches = |c: &&Contact| c.interface.bodies.contains(&BodyId::Block(block));
-        let contacts: Vec<&Contact> = found.contacts.iter().filter(touches).collect();
+        let contacts: Vec<&Contact> = frame_analysis.contacts.iter().filter(touches).collect();
         let view = view(analysis, block, &contacts);
         let width = options.width.unwrap_or(DEFAULT_WIDTH);
         let heading = heading(analysis, frame, block, options, width);

@@ -53,8 +53,8 @@ impl Sheet<'_> {
         group: &mut Group,
     ) -> usize {
         let mut nameless = 0;
-        let wanted: Vec<LabelRequest> = requests.iter().map(|w| w.1.clone()).collect();
-        let places = place(ink, self.page_of_names(), &wanted);
+        let label_requests: Vec<LabelRequest> = requests.iter().map(|w| w.1.clone()).collect();
+        let places = place(ink, self.page_of_names(), &label_requests);
         for ((symbol, _), placed) in requests.iter().zip(places) {
             let Some(placed) = placed else {
                 nameless += 1;

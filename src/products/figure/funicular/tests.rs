@@ -79,9 +79,13 @@ fn the_line_has_no_gap_at_any_joint_that_presses() {
     ] {
         let scene = scene(text);
         let analysis = Analysis::new(&scene);
-        let found = &analysis.frames[0];
-        let segments = segments(&scene, &scene.frames[0], found);
-        for (contact, bearing) in found.contacts.iter().zip(bearings(&scene, found)) {
+        let frame_analysis = &analysis.frames[0];
+        let segments = segments(&scene, &scene.frames[0], frame_analysis);
+        for (contact, bearing) in frame_analysis
+            .contacts
+            .iter()
+            .zip(bearings(&scene, frame_analysis))
+        {
             if bearing.is_none() {
                 continue;
             }

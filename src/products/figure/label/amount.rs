@@ -59,12 +59,12 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let first = principal(pen);
     let is_first = |arrow: &ForceArrow| first.iter().any(|f| core::ptr::eq(*f, arrow));
     let is_input = |kind: ArrowKind| kind == ArrowKind::Load || kind.is_failure();
-    let wanted = |arrow: &&ForceArrow| {
+    let has_amount = |arrow: &&ForceArrow| {
         let seen = pen.seen(arrow) || is_input(arrow.kind);
         let written = is_written(pen, arrow, few, least) && is_first_of_pair(arrow);
         seen && (is_first(arrow) || written)
     };
-    let straight = marks.arrows.iter().filter(wanted).map(|arrow| {
+    let straight = marks.arrows.iter().filter(has_amount).map(|arrow| {
         let amount = quantity(arrow.force.norm(), pen.context.analysis.scene.units.force());
         let words = match is_first(arrow) && !options.amounts {
             true => format!("largest: {amount}"),

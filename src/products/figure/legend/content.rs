@@ -181,7 +181,7 @@ pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entr
 pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
-    let any = frames.any(|found| !limit::reached(scene, found).is_empty());
+    let any = frames.any(|frame_analysis| !limit::reached(scene, frame_analysis).is_empty());
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::LEGEND_TEXT.to_owned()))
 }
 

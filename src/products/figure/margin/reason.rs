@@ -9,8 +9,8 @@ use super::super::words::{degrees, percent};
 /// Describes for which tilts of gravity, horizontal loads or load factors a frame stands. `toward` selects the
 /// parameter.
 pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> String {
-    let found = &analysis.frames[frame];
-    let Some(margins) = &found.margins else {
+    let frame_analysis = &analysis.frames[frame];
+    let Some(margins) = &frame_analysis.margins else {
         return "its margins were not computed".to_owned();
     };
     let intervals = &margins.intervals;
@@ -26,7 +26,7 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
         }
         .to_owned();
     };
-    match (found.verdict, interval) {
+    match (frame_analysis.verdict, interval) {
         (Verdict::Stable, _) => standing(analysis, frame, toward, interval),
         (verdict, Interval::Between { .. }) => {
             let now = match verdict {

@@ -129,9 +129,9 @@ impl ArrowMaker<'_> {
     }
 
     /// Adds the arrows of weights, loads and forces of interfaces to `marks`, block by block in placing order.
-    pub(super) fn blocks(&self, frame: &Frame, found: &FrameAnalysis, marks: &mut Marks) {
+    pub(super) fn blocks(&self, frame: &Frame, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
         let (scene, theme) = (self.scene, &self.options.theme);
-        let touching = self.contacts_of_blocks(found);
+        let touching = self.contacts_of_blocks(frame_analysis);
         for (place, id) in frame.placed.iter().enumerate() {
             let block = &scene.blocks[id.0];
             let on = BodyId::Block(*id);
@@ -159,9 +159,9 @@ impl ArrowMaker<'_> {
     }
 
     /// Returns the contacts of each block, indexed by block.
-    fn contacts_of_blocks<'c>(&self, found: &'c FrameAnalysis) -> Vec<Vec<&'c Contact>> {
+    fn contacts_of_blocks<'c>(&self, frame_analysis: &'c FrameAnalysis) -> Vec<Vec<&'c Contact>> {
         let mut touching: Vec<Vec<&Contact>> = vec![Vec::new(); self.scene.blocks.len()];
-        for contact in &found.contacts {
+        for contact in &frame_analysis.contacts {
             for body in contact.interface.bodies {
                 if let BodyId::Block(block) = body {
                     touching[block.0].push(contact);
@@ -172,9 +172,9 @@ impl ArrowMaker<'_> {
     }
 
     /// Adds the arrows of the forces and torques of robots to `marks`.
-    pub(super) fn robots(&self, found: &FrameAnalysis, marks: &mut Marks) {
+    pub(super) fn robots(&self, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
         let theme = &self.options.theme;
-        for robot in &found.robots {
+        for robot in &frame_analysis.robots {
             let on = BodyId::Block(robot.block);
             let look = (theme.robot(robot.robot.0), theme.widths.robot);
             self.straight(

@@ -26,10 +26,10 @@ enum MissingScale {
 
 impl ArrowMaker<'_> {
     /// Adds the arrows of missing forces and torques to `marks`.
-    pub(super) fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
+    pub(super) fn failures(&self, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
         let look = (self.failure_colour(), self.options.theme.widths.failure);
-        let scale = self.missing_scale(found);
-        for failure in &found.failures {
+        let scale = self.missing_scale(frame_analysis);
+        for failure in &frame_analysis.failures {
             let at = failure.at();
             if let Failure::RobotTorque {
                 robot,
@@ -79,11 +79,14 @@ impl ArrowMaker<'_> {
         }
     }
 
-    fn missing_scale(&self, found: &FrameAnalysis) -> MissingScale {
+    fn missing_scale(&self, frame_analysis: &FrameAnalysis) -> MissingScale {
         match self.options.normalisation {
-            Normalisation::Source => MissingScale::OfBlocks(acting(self.scene, found)),
+            Normalisation::Source => MissingScale::OfBlocks(acting(self.scene, frame_analysis)),
             Normalisation::Drawn => {
-                let amounts = found.failures.iter().map(|failure| failure.force().norm());
+                let amounts = frame_analysis
+                    .failures
+                    .iter()
+                    .map(|failure| failure.force().norm());
                 MissingScale::Largest(amounts.fold(0.0, f64::max))
             }
         }
@@ -176,10 +179,10 @@ fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
 
 /// Returns, for each block, the largest of its weight, the normal and friction forces on it, and the force components
 /// of its robots, in N. The list is indexed by block. The thesis scales missing forces by these values.
-fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
+fn acting(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         for body in contact.interface.bodies {
             if let BodyId::Block(block) = body {
                 for normal in contact.normal_forces {
@@ -189,7 +192,7 @@ fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
             }
         }
     }
-    for robot in &found.robots {
+    for robot in &frame_analysis.robots {
         for component in [robot.force.x, robot.force.y] {
             note(robot.block, component.abs());
         }

@@ -34,7 +34,7 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 /// With [`Normalisation::Source`], this is the largest single unknown, weight or load.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
-    let (frame, found) = (&scene.frames[frame], &analysis.frames[frame]);
+    let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| view::around(scene, block));
     let shown = |at: Point| near.is_none_or(|near| view::holds(near, at));
@@ -44,7 +44,11 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     let mut most = weights.fold(0.0, f64::max);
     match options.normalisation {
         Normalisation::Source => {
-            for contact in found.contacts.iter().filter(|c| shown(c.resultant.at)) {
+            for contact in frame_analysis
+                .contacts
+                .iter()
+                .filter(|c| shown(c.resultant.at))
+            {
                 most = contact
                     .normal_forces
                     .iter()
@@ -52,7 +56,7 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
                     .fold(most, f64::max)
                     .max(contact.friction_force.abs());
             }
-            for robot in found.robots.iter().filter(|r| shown(r.at)) {
+            for robot in frame_analysis.robots.iter().filter(|r| shown(r.at)) {
                 most = most
                     .max(robot.force.x.abs())
                     .max(robot.force.y.abs())
@@ -60,15 +64,19 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
             }
         }
         Normalisation::Drawn => {
-            for contact in found.contacts.iter().filter(|c| shown(c.resultant.at)) {
+            for contact in frame_analysis
+                .contacts
+                .iter()
+                .filter(|c| shown(c.resultant.at))
+            {
                 for part in parts(contact, options.style) {
                     most = most.max(part.force.norm());
                 }
             }
-            for robot in found.robots.iter().filter(|r| shown(r.at)) {
+            for robot in frame_analysis.robots.iter().filter(|r| shown(r.at)) {
                 most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
             }
-            for failure in found.failures.iter().filter(|f| shown(f.at())) {
+            for failure in frame_analysis.failures.iter().filter(|f| shown(f.at())) {
                 most = most
                     .max(failure.force().norm())
                     .max(failure.torque().abs() / edge);
@@ -92,7 +100,7 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
         newtons_per_unit,
         ..Marks::default()
     };
-    let (Some(placed), Some(found)) =
+    let (Some(placed), Some(frame_analysis)) =
         (analysis.scene.frames.get(frame), analysis.frames.get(frame))
     else {
         return marks;
@@ -108,8 +116,8 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
         edge,
         metres_per_newton: edge / newtons_per_unit,
     };
-    pen.blocks(placed, found, &mut marks);
-    pen.robots(found, &mut marks);
-    pen.failures(found, &mut marks);
+    pen.blocks(placed, frame_analysis, &mut marks);
+    pen.robots(frame_analysis, &mut marks);
+    pen.failures(frame_analysis, &mut marks);
     marks
 }

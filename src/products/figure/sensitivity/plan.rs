@@ -56,8 +56,8 @@ pub(super) struct Numbered {
 impl Plan {
     /// Computes the arrows and the numbered changes of a frame; `None` if the derivatives of its margin are not known.
     pub fn new(analysis: &Analysis, frame: usize) -> Option<Plan> {
-        let (scene, found) = (&analysis.scene, analysis.frames.get(frame)?);
-        let sensitivity = found.sensitivity.as_ref()?;
+        let (scene, frame_analysis) = (&analysis.scene, analysis.frames.get(frame)?);
+        let sensitivity = frame_analysis.sensitivity.as_ref()?;
         let (is_high, end) = sensitivity.nearest()?;
         let kind = sensitivity.kind;
         let most = if analysis.frames.len() > 1 {
@@ -65,14 +65,14 @@ impl Plan {
         } else {
             MAX_NUMBERED.0
         };
-        let changes = visible(scene, found, (kind, end, is_high), most);
+        let changes = visible(scene, frame_analysis, (kind, end, is_high), most);
         let outward = if is_high { 1.0 } else { -1.0 };
         let number_of = |corner: usize| {
             let is_this = |change: &EffectiveChange| matches!(change.target, Target::Corner(number, _) if number == corner);
             changes.iter().position(is_this).map(|place| place + 1)
         };
         let (mut arrows, mut kinks) = (Vec::new(), 0);
-        for (number, best) in corner_moves(found, end, outward) {
+        for (number, best) in corner_moves(frame_analysis, end, outward) {
             let corner = &end.corners[number];
             if is_kink(corner.moves) {
                 kinks += 1;
@@ -86,7 +86,7 @@ impl Plan {
         }
         let sketch = Sketch {
             scene,
-            found,
+            frame_analysis,
             end,
             kind,
             is_high,
@@ -100,7 +100,7 @@ impl Plan {
             changes: changes.collect(),
             arrows,
             kinks,
-            step: step_length(found),
+            step: step_length(frame_analysis),
         })
     }
 
@@ -172,7 +172,7 @@ fn is_kink(moves: CornerMoves) -> bool {
 /// The end of a margin whose changes are described.
 struct Sketch<'a> {
     scene: &'a Scene,
-    found: &'a FrameAnalysis,
+    frame_analysis: &'a FrameAnalysis,
     end: &'a EndSensitivity,
     kind: MarginKind,
     is_high: bool,
@@ -181,7 +181,7 @@ struct Sketch<'a> {
 impl Sketch<'_> {
     /// Describes a change in words and finds the position of its number.
     fn numbered(&self, number: usize, change: &EffectiveChange) -> Numbered {
-        let (scene, found) = (self.scene, self.found);
+        let (scene, frame_analysis) = (self.scene, self.frame_analysis);
         let by = length(change.amount);
         let (at, done) = match change.target {
             Target::Corner(corner, direction) => {
@@ -207,7 +207,7 @@ impl Sketch<'_> {
                 (Some(block.centroid), done)
             }
             Target::Friction(interface) => {
-                let contact = found.contacts.get(interface);
+                let contact = frame_analysis.contacts.get(interface);
                 let between = contact.map(|c| pair(scene, c.interface.bodies));
                 let done = format!("friction of {}", between.unwrap_or_default());
                 let at = contact.map(|c| c.interface.middle());

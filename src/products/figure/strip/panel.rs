@@ -38,14 +38,14 @@ impl Strip<'_> {
     pub(super) fn panel(&self, frame: usize, place: Place) -> (Group, f64) {
         let (context, layout) = (self.context, self.layout);
         let (view, at) = (place.view, place.at);
-        let found = &context.analysis.frames[frame];
+        let frame_analysis = &context.analysis.frames[frame];
         let aside = (layout.panel - view.width() * layout.scale) / 2.0;
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
         let mut group = Group {
             id: Some(format!("frame-{}", frame + 1)),
             ..Group::with_class("frame")
         };
-        group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
+        group.title = self.labelled(frame, ": ", verdict::word(frame_analysis.verdict));
         let picture = self
             .content
             .picture(&Pen::new(context, frame, &camera), view);
@@ -159,14 +159,14 @@ impl Strip<'_> {
     /// symbol.
     fn marked_verdict(&self, frame: usize, words: String, start: PagePoint) -> [Item; 2] {
         let theme = &self.context.options.theme;
-        let found = &self.context.analysis.frames[frame];
+        let frame_analysis = &self.context.analysis.frames[frame];
         let size = theme.sizes.verdict;
         let radius = mark_radius(size);
-        let colour = verdict::badge_colour(found, theme);
+        let colour = verdict::badge_colour(frame_analysis, theme);
         let centre = start.moved(radius, 0.0);
         let at = start.moved(2.0 * radius + MARK_GAP, 0.35 * size);
         [
-            verdict::mark_in(colour, found.verdict, centre, radius, theme).into(),
+            verdict::mark_in(colour, frame_analysis.verdict, centre, radius, theme).into(),
             Text::new(at, words, Face::SansBold, size, colour).into(),
         ]
     }

@@ -80,7 +80,7 @@ impl Strip<'_> {
     /// part is only the verdict, and the second part is the rest.
     pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
-        let found = &self.context.analysis.frames[frame];
+        let frame_analysis = &self.context.analysis.frames[frame];
         let words = self.content.headline(self.context, frame);
         let sign = 1.2 * size + 6.0;
         let room = match (self.layout.columns, self.context.options.width) {
@@ -91,7 +91,7 @@ impl Strip<'_> {
         if sign + text::width(&words, Face::SansBold, size) <= room {
             return (words, None);
         }
-        let badge = verdict::badge(found);
+        let badge = verdict::badge(frame_analysis);
         let rest = words.strip_prefix(badge).unwrap_or(&words);
         let rest = rest.trim_start_matches([':', ',', ' ']).to_owned();
         (badge.to_owned(), Some(rest).filter(|rest| !rest.is_empty()))
@@ -121,19 +121,23 @@ impl Strip<'_> {
 
     /// Returns a sentence for screen readers about a frame: its blocks, its weight, its verdict and the reason.
     pub(super) fn described(&self, frame: usize) -> String {
-        let (scene, found) = (
+        let (scene, frame_analysis) = (
             &self.context.analysis.scene,
             &self.context.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");
-        let weight = quantity(found.weight, scene.units.force());
+        let weight = quantity(frame_analysis.weight, scene.units.force());
         let what = format!(
             "{blocks}, {weight} in all, {}",
-            verdict::word(found.verdict)
+            verdict::word(frame_analysis.verdict)
         );
         let mut sentence = self.labelled(frame, " ", &what);
         let more = [self.context.statements[frame].clone()];
-        for more in more.iter().chain(&found.notices).filter(|m| !m.is_empty()) {
+        for more in more
+            .iter()
+            .chain(&frame_analysis.notices)
+            .filter(|m| !m.is_empty())
+        {
             sentence.push_str("; ");
             sentence.push_str(&more.replace(text::NO_BREAK, " "));
         }

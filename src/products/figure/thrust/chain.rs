@@ -39,10 +39,10 @@ impl Chain {
 
 /// Returns the chains of a frame that have a thrust, at most [`MAX_CHAINS`]. The chain with the greatest thrust comes
 /// first.
-pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Chain> {
-    let bearings = bearings(scene, found);
+pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Chain> {
+    let bearings = bearings(scene, frame_analysis);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
-    for (number, contact) in found.contacts.iter().enumerate() {
+    for (number, contact) in frame_analysis.contacts.iter().enumerate() {
         if bearings[number].is_some() {
             for body in contact.interface.bodies {
                 if let BodyId::Block(block) = body {
@@ -55,15 +55,15 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec
     let mut chains: Vec<Chain> = Vec::new();
     for block in frame.placed.iter().filter(|b| joints[b.0].len() == 2) {
         for first in joints[block.0].clone() {
-            let before = other(&found.contacts[first], BodyId::Block(*block));
+            let before = other(&frame_analysis.contacts[first], BodyId::Block(*block));
             if !matches!(before, BodyId::Block(b) if joints[b.0].len() == 2) {
-                chains.extend(walked(*block, first, &joints, found));
+                chains.extend(walked(*block, first, &joints, frame_analysis));
             }
         }
     }
     // Each chain has been found twice, once from each end. Keep the copy that runs from left to right, if it is long
     // enough and has a thrust.
-    let place = |joint: usize| across.dot(&found.contacts[joint].resultant.at.coords);
+    let place = |joint: usize| across.dot(&frame_analysis.contacts[joint].resultant.at.coords);
     chains.retain(|chain| {
         let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);
         chain.blocks.len() >= MIN_BLOCKS
@@ -81,20 +81,25 @@ fn walked(
     start: BlockId,
     first: usize,
     joints: &[Vec<usize>],
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
 ) -> Option<Chain> {
     let mut chain = Chain {
         blocks: Vec::new(),
         joints: vec![first],
-        forces: vec![force_on(&found.contacts[first], BodyId::Block(start))],
+        forces: vec![force_on(
+            &frame_analysis.contacts[first],
+            BodyId::Block(start),
+        )],
     };
     let (mut block, mut joint) = (start, first);
     loop {
         chain.blocks.push(block);
         joint = *joints[block.0].iter().find(|j| **j != joint)?;
-        let next = other(&found.contacts[joint], BodyId::Block(block));
+        let next = other(&frame_analysis.contacts[joint], BodyId::Block(block));
         chain.joints.push(joint);
-        chain.forces.push(force_on(&found.contacts[joint], next));
+        chain
+            .forces
+            .push(force_on(&frame_analysis.contacts[joint], next));
         match next {
             BodyId::Block(next) if joints[next.0].len() == 2 => block = next,
             _ => return Some(chain),

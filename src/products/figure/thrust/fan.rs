@@ -59,12 +59,17 @@ pub(crate) struct Fans {
 impl Fans {
     /// Computes the force polygons of a frame, one fan of rays for each chain of blocks, to the right of the structure.
     /// Returns `None` if no chain of blocks has a thrust. `unit` is the unit edge in metres.
-    pub fn new(scene: &Scene, frame: &Frame, found: &FrameAnalysis, unit: f64) -> Option<Fans> {
+    pub fn new(
+        scene: &Scene,
+        frame: &Frame,
+        frame_analysis: &FrameAnalysis,
+        unit: f64,
+    ) -> Option<Fans> {
         let blocks = frame.placed.iter();
         let structure = blocks
             .map(|id| scene.blocks[id.0].body.polygon.bounds())
             .reduce(Bounds::union)?;
-        let chains = chains(scene, frame, found);
+        let chains = chains(scene, frame, frame_analysis);
         let boxes: Vec<Bounds> = chains
             .iter()
             .filter_map(|chain| {
@@ -119,7 +124,7 @@ impl Fans {
     pub fn draw(
         &self,
         scene: &Scene,
-        found: &FrameAnalysis,
+        frame_analysis: &FrameAnalysis,
         camera: &Camera,
         theme: &Theme,
         ink: &mut Ink,
@@ -131,7 +136,14 @@ impl Fans {
         ink.rect(page);
         for fan in &self.fans {
             fan.draw(scene, number, (camera, page), theme, &mut group);
-            fan.number_joints(found, number, middle, (camera, theme), ink, &mut group);
+            fan.number_joints(
+                frame_analysis,
+                number,
+                middle,
+                (camera, theme),
+                ink,
+                &mut group,
+            );
             number += fan.vertices.len();
         }
         self.draw_scale(camera, theme, page, scene.units.force(), &mut group);
@@ -274,7 +286,7 @@ impl Fan {
     /// is `before` + 1.
     fn number_joints(
         &self,
-        found: &FrameAnalysis,
+        frame_analysis: &FrameAnalysis,
         before: usize,
         middle: f64,
         (camera, theme): (&Camera, &Theme),
@@ -282,10 +294,10 @@ impl Fan {
         group: &mut Group,
     ) {
         let points = self.chain.joints.iter();
-        let points = points.map(|j| found.contacts[*j].resultant.at);
+        let points = points.map(|j| frame_analysis.contacts[*j].resultant.at);
         let own = Bounds::from_points(points).map_or(middle, |b| 0.5 * (b.min.x + b.max.x));
         for (k, joint) in self.chain.joints.iter().enumerate() {
-            let ends = found.contacts[*joint].interface.ends;
+            let ends = frame_analysis.contacts[*joint].interface.ends;
             let outward = |p: &Point| p.y + 0.5 * (p.x - own).abs();
             let [inner, outer] = if outward(&ends[0]) < outward(&ends[1]) {
                 ends

@@ -48,10 +48,10 @@ pub(super) fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
 }
 
 /// Draws all interfaces as lines of the same width.
-pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+pub(super) fn seams(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let theme = &pen.context.options.theme;
     let mut outline = Outline::default();
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         outline.extend(Outline::line(
             contact.interface.ends.map(|p| pen.camera.place(p)),
         ));
@@ -68,7 +68,7 @@ pub(super) fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 pub(super) fn lines(
     pen: &Pen<'_>,
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     segments: &[ThrustSegment],
 ) -> Group {
     let mut group = Group::with_class("thrust");
@@ -78,15 +78,23 @@ pub(super) fn lines(
             continue;
         }
         if pen.many() {
-            group.items.extend(joined_lines(pen, found, alike, through));
+            group
+                .items
+                .extend(joined_lines(pen, frame_analysis, alike, through));
             continue;
         }
         for segment in alike {
             let class = if through { "force" } else { "schematic" };
             let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
             let drawn = Group::with_class(class)
-                .titled(title(scene, found, segment))
-                .with(stroked(pen, found, line, width(pen, segment), through));
+                .titled(title(scene, frame_analysis, segment))
+                .with(stroked(
+                    pen,
+                    frame_analysis,
+                    line,
+                    width(pen, segment),
+                    through,
+                ));
             group.items.push(drawn.into());
         }
     }
@@ -97,13 +105,13 @@ pub(super) fn lines(
 /// frame does not stand, and pale if the line is schematic (`through` is false).
 fn stroked(
     pen: &Pen<'_>,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     outline: Outline,
     width: f64,
     through: bool,
 ) -> Path {
     let theme = &pen.context.options.theme;
-    let colour = match found.verdict {
+    let colour = match frame_analysis.verdict {
         Verdict::Stable if through => colour(theme),
         Verdict::Stable => schematic_colour(theme),
         _ => carried_colour(theme),
@@ -114,7 +122,7 @@ fn stroked(
 /// Draws the segments of the line for frames with very many blocks: all segments of about the same width are one path.
 fn joined_lines<'s>(
     pen: &Pen<'_>,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     segments: impl Iterator<Item = &'s ThrustSegment>,
     through: bool,
 ) -> Vec<Item> {
@@ -130,17 +138,17 @@ fn joined_lines<'s>(
     drawn
         .map(|(step, outline)| {
             let width = most * step as f64 / WIDTH_STEPS;
-            stroked(pen, found, outline, width, through).into()
+            stroked(pen, frame_analysis, outline, width, through).into()
         })
         .collect()
 }
 
 /// Describes a segment of the line of thrust: its block, the origin of the force along it, and this force.
-fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> String {
+fn title(scene: &Scene, frame_analysis: &FrameAnalysis, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.origin {
         ForceOrigin::Contact(number) => {
-            let [a, b] = found.contacts[number].interface.bodies;
+            let [a, b] = frame_analysis.contacts[number].interface.bodies;
             let other = if a == BodyId::Block(segment.on) { b } else { a };
             description::named(scene, other)
         }
@@ -160,14 +168,18 @@ fn title(scene: &Scene, found: &FrameAnalysis, segment: &ThrustSegment) -> Strin
 /// its radius in pixels.
 pub(super) fn dots(
     pen: &Pen<'_>,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     ink: &mut dyn FnMut(PagePoint, f64),
 ) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
     let mut group = Group::with_class("resultants");
     let mut joined = ByColour::default();
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+    for (contact, bearing) in frame_analysis
+        .contacts
+        .iter()
+        .zip(bearings(scene, frame_analysis))
+    {
         if bearing.is_none() {
             continue;
         }

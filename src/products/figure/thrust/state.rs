@@ -74,13 +74,13 @@ pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option
 /// Returns a note for the reader that the line shown is one of many possible lines. Returns `None` if there are no more
 /// unknown forces than equations of equilibrium.
 pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
-    let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let unknowns = |contact: &Contact| match contact.interface.kind {
         ContactKind::Corner => 2,
         _ => 3,
     };
-    let contacts: usize = found.contacts.iter().map(unknowns).sum();
-    let unknowns = contacts + 3 * found.robots.len();
+    let contacts: usize = frame_analysis.contacts.iter().map(unknowns).sum();
+    let unknowns = contacts + 3 * frame_analysis.robots.len();
     (unknowns > 3 * scene.frames[frame].placed.len())
         .then(|| "the line shown belongs to the forces of least sum".to_owned())
 }

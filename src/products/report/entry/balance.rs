@@ -55,17 +55,17 @@ impl Force {
 /// Makes a table of the external forces on the supported blocks of a frame: reactions, forces of robots, missing
 /// forces, weight and loads. The last row is their sum. Moments are about the origin.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let about = Point::origin();
     let supported: Vec<BlockId> = scene.frames[number]
         .placed
         .iter()
         .copied()
-        .filter(|block| !found.unsupported.contains(block))
+        .filter(|block| !frame_analysis.unsupported.contains(block))
         .collect();
-    let mut forces = reactions(scene, found, about);
-    forces.extend(robots(scene, found, None, about));
-    forces.extend(missing(scene, found, &supported, about));
+    let mut forces = reactions(scene, frame_analysis, about);
+    forces.extend(robots(scene, frame_analysis, None, about));
+    forces.extend(missing(scene, frame_analysis, &supported, about));
     let weights: Vec<(Point, f64)> = supported
         .iter()
         .map(|id| (scene.blocks[id.0].centroid, scene.blocks[id.0].weight))
@@ -85,12 +85,12 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     let loads = scene.loads.iter().filter(|l| supported.contains(&l.block));
     forces.extend(listed_loads(scene, loads, about));
     let caption = "Reactions, weights and loads; moments about the origin";
-    table(caption, &forces, Units::new(scene, found))
+    table(caption, &forces, Units::new(scene, frame_analysis))
 }
 
 /// Makes a table of the forces on one block. The last row is their sum. Moments are about the centroid of the block.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
     let about = own.centroid;
     let mut forces = vec![Force::new(
@@ -103,7 +103,7 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     let loads = scene.loads.iter().filter(|l| l.block == block);
     forces.extend(listed_loads(scene, loads, about));
     let body = BodyId::Block(block);
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         let [a, b] = contact.interface.bodies;
         let other = match body {
             body if body == a => b,
@@ -119,13 +119,13 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
             about,
         ));
     }
-    forces.extend(robots(scene, found, Some(block), about));
-    forces.extend(missing(scene, found, &[block], about));
+    forces.extend(robots(scene, frame_analysis, Some(block), about));
+    forces.extend(missing(scene, frame_analysis, &[block], about));
     let caption = format!(
         "Block {} cut free; moments about its centroid",
         line(&own.id)
     );
-    table(&caption, &forces, Units::new(scene, found))
+    table(&caption, &forces, Units::new(scene, frame_analysis))
 }
 
 /// Returns the force at an interface, in newtons, that acts on `body`. `body` is one of the two bodies of the
@@ -139,9 +139,9 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
 
 /// Returns the forces of the ground on the blocks, one for each joint. If there are more than [`MAX_REACTIONS`] joints,
 /// returns one force for each part of the ground.
-fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
+fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
-    for contact in &found.contacts {
+    for contact in &frame_analysis.contacts {
         let (ground, block) = match contact.interface.bodies {
             [BodyId::Ground(ground), BodyId::Block(block)]
             | [BodyId::Block(block), BodyId::Ground(ground)] => (ground, block),
@@ -173,11 +173,11 @@ fn reactions(scene: &Scene, found: &FrameAnalysis, about: Point) -> Vec<Force> {
 /// Returns the forces that robots exert on all blocks, or only on `block` if it is given.
 fn robots(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     block: Option<BlockId>,
     about: Point,
 ) -> Vec<Force> {
-    let holding = found
+    let holding = frame_analysis
         .robots
         .iter()
         .filter(|r| block.is_none_or(|b| b == r.block));
@@ -190,9 +190,14 @@ fn robots(
 
 /// Returns the missing forces on these blocks. Missing forces between two of these blocks cancel and are left out. If
 /// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
-fn missing(scene: &Scene, found: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
+fn missing(
+    scene: &Scene,
+    frame_analysis: &FrameAnalysis,
+    blocks: &[BlockId],
+    about: Point,
+) -> Vec<Force> {
     let mut forces = Vec::new();
-    for failure in &found.failures {
+    for failure in &frame_analysis.failures {
         let on = blocks
             .iter()
             .filter_map(|block| failure.on(BodyId::Block(*block)));
@@ -277,13 +282,13 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
 }
 
 /// Explains what the sums in the two balance tables mean, and how moments are computed.
-pub(super) fn check_words(found: &FrameAnalysis) -> String {
+pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
     let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
-    let words = match found.verdict {
+    let words = match frame_analysis.verdict {
         Verdict::Stable => {
             "The sums are zero in the printed digits: weights, loads and reactions balance."
         }
-        Verdict::Unstable if found.failures.is_empty() => {
+        Verdict::Unstable if frame_analysis.failures.is_empty() => {
             "The structure falls: the sums are the forces that are missing for a balance."
         }
         Verdict::Unstable => {

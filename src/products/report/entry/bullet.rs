@@ -41,8 +41,11 @@ pub struct MarginBar {
 }
 
 /// Returns the requested margins of a frame as bars, the headline margin first.
-pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
-    stated(scene, found).iter().map(MarginBar::new).collect()
+pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginBar> {
+    stated(scene, frame_analysis)
+        .iter()
+        .map(MarginBar::new)
+        .collect()
 }
 
 /// The meaning of the shapes of bars.

@@ -36,9 +36,9 @@ pub struct Side<'s> {
 }
 
 /// Makes the content of a report that compares two scenes. `sides` has the first scene, then the second.
-pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
+pub fn compared(sides: [Side<'_>; 2], report_options: &ReportOptions) -> Entry {
     let [was, is] = sides;
-    let (stated, sections) = steps(sides, wanted);
+    let (stated, sections) = steps(sides, report_options);
     let mut row = Row::new(is.file.name, is.analysis);
     row.before = Some(was.analysis.verdict());
     let names = sides.map(|side| line(side.file.name));
@@ -53,7 +53,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     };
     row.name = format!("{} → {}", names[0], names[1]);
     row.fails = stated.first().cloned().unwrap_or_default();
-    let commands = sides.map(|side| super::commands(side.file.name, side.analysis, wanted));
+    let commands = sides.map(|side| super::commands(side.file.name, side.analysis, report_options));
     let origins = sides.map(|side| super::hash(side.file.text));
     Entry {
         row,
@@ -67,7 +67,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
         commands: commands.concat(),
         source: String::new(),
         results: sides
-            .map(|side| super::result(side.file.name, side.analysis, wanted.timing))
+            .map(|side| super::result(side.file.name, side.analysis, report_options.timing))
             .to_vec(),
         changes: stated,
     }
@@ -75,9 +75,9 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
 
 /// Compares the steps of the two scenes in their order. Returns one sentence for each step, and the sections of the
 /// report.
-fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Section>) {
+fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, Vec<Section>) {
     let [was, is] = sides;
-    let options = sheet::options(wanted);
+    let options = sheet::options(report_options);
     let mut figures = sides.map(|side| {
         let panels = figure::panels(side.analysis, Kind::Forces, &options);
         panels.into_iter().map(Some).collect::<Vec<_>>()
@@ -98,7 +98,7 @@ fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Sect
     for number in 0..counts[0].max(counts[1]) {
         let drawn = [0, 1].map(|side: usize| figures[side].get_mut(number).and_then(Option::take));
         let (sentence, mut section) = match drawn {
-            [Some(a), Some(b)] => both([was, is], number, [a, b], wanted),
+            [Some(a), Some(b)] => both([was, is], number, [a, b], report_options),
             [a, b] => {
                 let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
                 alone(side, number, drawing, only_in(counts, number))
@@ -117,11 +117,11 @@ fn steps(sides: [Side<'_>; 2], wanted: &ReportOptions) -> (Vec<String>, Vec<Sect
     (stated, sections)
 }
 
-fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
+fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Figure {
     let scale = "this figure has its own scales for arrows and colours";
     let name = line(side.file.name);
     Figure {
-        caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
+        caption: format!("{name}: {}; {scale}.", plain(frame_analysis.verdict)),
         drawing,
         dark: None,
         touches: Vec::new(),
@@ -140,10 +140,10 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
 /// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`, which says
 /// which scene has the step.
 fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
-    let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
-    let mut section = sheet::empty(scene, number, found.verdict);
+    let (scene, frame_analysis) = (&side.analysis.scene, &side.analysis.frames[number]);
+    let mut section = sheet::empty(scene, number, frame_analysis.verdict);
     section.parts.push(SheetPart::Text(why.to_owned()));
-    let figures = drawing.map(|d| plate(side, found, d)).into_iter();
+    let figures = drawing.map(|d| plate(side, frame_analysis, d)).into_iter();
     section.parts.push(SheetPart::Figures(figures.collect()));
     (why.to_owned(), section)
 }
@@ -153,7 +153,7 @@ fn both(
     sides: [Side<'_>; 2],
     number: usize,
     drawings: [Drawing; 2],
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
 ) -> (String, Section) {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
@@ -164,11 +164,11 @@ fn both(
     let sentence = format!("{}.", capital(&line(&sentence)));
     let mut section = sheet::empty(&is.analysis.scene, number, now.verdict);
     section.parts.push(SheetPart::Text(sentence.clone()));
-    for (side, found, scene) in [
+    for (side, frame_analysis, scene) in [
         ("First", then, &was.analysis.scene),
         ("Second", now, &is.analysis.scene),
     ] {
-        let described = line(&verdict::sentence(scene, found));
+        let described = line(&verdict::sentence(scene, frame_analysis));
         section
             .parts
             .push(SheetPart::Note(format!("{side}: {described}")));
@@ -180,7 +180,7 @@ fn both(
         settings.grid(),
         forces.grid(&is.analysis.scene),
     ];
-    let colour = wanted.theme.motion;
+    let colour = report_options.theme.motion;
     let [loaded, now_loaded] = settings.blocks;
     let outlines = [
         [shape.gone_or_changed, loaded].concat(),
@@ -193,10 +193,10 @@ fn both(
             .collect::<Vec<Point>>()
     });
     let mut plates = Vec::new();
-    for (side, (found, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
+    for (side, (frame_analysis, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
         let scene = &sides[side].analysis.scene;
         mark(&mut drawing, scene, &outlines[side], &rings[side], colour);
-        plates.push(plate(sides[side], found, drawing));
+        plates.push(plate(sides[side], frame_analysis, drawing));
     }
     if let Some(last) = plates.last_mut() {
         last.caption.push_str(

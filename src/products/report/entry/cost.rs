@@ -10,7 +10,7 @@ use crate::text::line;
 use crate::wording::number::{counted, duration};
 
 /// Makes the table of the effects of a step. The table has times only if `timing` includes them.
-pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
+pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
     let timed = timing == Timing::Included;
     let (caption, heads): (&str, &[&str]) = match timed {
         true => (
@@ -26,13 +26,15 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     let mut add = |(cells, time): ([String; 4], String)| {
         grid.add("", cells.into_iter().chain(timed.then_some(time)));
     };
-    for described in &found.effects {
-        add(effect(described, &found.solve.stages));
+    for described in &frame_analysis.effects {
+        add(effect(described, &frame_analysis.solve.stages));
     }
     if timed {
-        stages(&found.solve.stages).into_iter().for_each(&mut add);
+        stages(&frame_analysis.solve.stages)
+            .into_iter()
+            .for_each(&mut add);
     }
-    add(sum(found));
+    add(sum(frame_analysis));
     grid
 }
 
@@ -79,9 +81,9 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
 }
 
 /// Returns the cells of the last row, which has the sums over all effects, and the total time.
-fn sum(found: &FrameAnalysis) -> ([String; 4], String) {
-    let solve = &found.solve;
-    let simulated = found.effects.iter().filter(|e| e.simulated);
+fn sum(frame_analysis: &FrameAnalysis) -> ([String; 4], String) {
+    let solve = &frame_analysis.solve;
+    let simulated = frame_analysis.effects.iter().filter(|e| e.simulated);
     let unknowns: usize = simulated.map(|e| e.unknowns).sum();
     let how = format!(
         "{}, {}; {}, of which earlier steps answered {}",

@@ -17,29 +17,35 @@ const MIN_CHART_JOINTS: usize = 8;
 
 /// Makes the appendix of a frame: all joints, all failures, effects with their cost, the proof in numbers, and
 /// charts.
-pub(super) fn appendix(analysis: &Analysis, number: usize, wanted: &ReportOptions) -> Section {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
-    let mut section = empty(scene, number, found.verdict);
+pub(super) fn appendix(
+    analysis: &Analysis,
+    number: usize,
+    report_options: &ReportOptions,
+) -> Section {
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
+    let mut section = empty(scene, number, frame_analysis.verdict);
     section.title = format!("Appendix {}", section.title).trim_end().to_owned();
     let grids = [
-        Ranking::new(scene, found).table(true),
-        failures(scene, found),
-        cost(found, wanted.timing),
-        proved(found),
+        Ranking::new(scene, frame_analysis).table(true),
+        failures(scene, frame_analysis),
+        cost(frame_analysis, report_options.timing),
+        proved(frame_analysis),
     ];
     section.begins_page = true;
     section.parts.extend(grids.map(SheetPart::Table));
-    section.parts.push(SheetPart::Charts(charts(found)));
+    section
+        .parts
+        .push(SheetPart::Charts(charts(frame_analysis)));
     section
 }
 
-fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
+fn failures(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("What fails", &["what", "at"]);
-    for what in failure::unsupported(scene, found, usize::MAX) {
+    for what in failure::unsupported(scene, frame_analysis, usize::MAX) {
         grid.add("", [line(&what), String::new()]);
     }
-    let units = Units::new(scene, found);
-    for (number, failed) in found.failures.iter().enumerate() {
+    let units = Units::new(scene, frame_analysis);
+    for (number, failed) in frame_analysis.failures.iter().enumerate() {
         let cells = [
             line(&missing(scene, failed, units)),
             place(failed.at(), scene.units),
@@ -49,22 +55,27 @@ fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
     grid
 }
 
-fn proved(found: &FrameAnalysis) -> Grid {
+fn proved(frame_analysis: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("The proof in numbers", &["what", "#how much"]);
-    for (what, much) in proof::numbers(found.proof) {
+    for (what, much) in proof::numbers(frame_analysis.proof) {
         grid.add("", [what.to_owned(), much]);
     }
     grid
 }
 
-fn charts(found: &FrameAnalysis) -> Vec<Chart> {
-    if found.contacts.len() < MIN_CHART_JOINTS {
+fn charts(frame_analysis: &FrameAnalysis) -> Vec<Chart> {
+    if frame_analysis.contacts.len() < MIN_CHART_JOINTS {
         return Vec::new();
     }
-    let sizes = || found.contacts.iter().map(|c| c.resultant.force.norm());
+    let sizes = || {
+        frame_analysis
+            .contacts
+            .iter()
+            .map(|c| c.resultant.force.norm())
+    };
     let (unit, factor) = prefixed(sizes().fold(0.0, f64::max), "N");
     let forces: Vec<f64> = sizes().map(|size| size * factor).collect();
-    let loaded = found
+    let loaded = frame_analysis
         .contacts
         .iter()
         .filter(|c| c.resultant.force.norm() > 0.0);

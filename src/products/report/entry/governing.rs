@@ -26,19 +26,23 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
 }
 
 /// Returns the most important margin of a frame as a sentence; empty if no margin was computed.
-pub(super) fn headline_words(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
+pub(super) fn headline_words(
+    scene: &Scene,
+    number: usize,
+    frame_analysis: &FrameAnalysis,
+) -> String {
     let placed = &scene.frames[number].placed;
     let loads = scene
         .loads
         .iter()
         .filter(|l| placed.contains(&l.block))
         .count();
-    let margins = stated(scene, found);
+    let margins = stated(scene, frame_analysis);
     let first = margins.first();
     let Some(first) = first else {
         return String::new();
     };
-    let mut words = headline(first, found.verdict, loads);
+    let mut words = headline(first, frame_analysis.verdict, loads);
     let load = margins
         .iter()
         .skip(1)

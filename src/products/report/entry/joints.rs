@@ -34,16 +34,16 @@ struct Used {
 /// The joints of a frame that carry force, sorted by utilisation, the highest first.
 pub(super) struct Ranking<'a> {
     scene: &'a Scene,
-    found: &'a FrameAnalysis,
+    frame_analysis: &'a FrameAnalysis,
     used: Vec<Used>,
     units: Units,
 }
 
 impl<'a> Ranking<'a> {
-    pub fn new(scene: &'a Scene, found: &'a FrameAnalysis) -> Ranking<'a> {
-        let largest = found.contacts.iter().map(size).fold(0.0, f64::max);
+    pub fn new(scene: &'a Scene, frame_analysis: &'a FrameAnalysis) -> Ranking<'a> {
+        let largest = frame_analysis.contacts.iter().map(size).fold(0.0, f64::max);
         let mut used: Vec<Used> = Vec::new();
-        for (number, contact) in found.contacts.iter().enumerate() {
+        for (number, contact) in frame_analysis.contacts.iter().enumerate() {
             if size(contact) <= FORCE_TOL * largest {
                 continue;
             }
@@ -61,16 +61,16 @@ impl<'a> Ranking<'a> {
         // equal, the joint with the larger force comes first.
         let key = |u: &Used| (1e3 * u.share).round();
         used.sort_by(|a, b| {
-            let force = |u: &Used| size(&found.contacts[u.contact]);
+            let force = |u: &Used| size(&frame_analysis.contacts[u.contact]);
             key(b)
                 .total_cmp(&key(a))
                 .then(force(b).total_cmp(&force(a)))
         });
         Ranking {
             scene,
-            found,
+            frame_analysis,
             used,
-            units: Units::new(scene, found),
+            units: Units::new(scene, frame_analysis),
         }
     }
 
@@ -78,13 +78,13 @@ impl<'a> Ranking<'a> {
     /// without failures, to the joint with the highest utilisation. If two blocks meet there, it is the heavier block.
     /// Returns `None` if there is no failure and no joint carries force.
     pub fn block(&self) -> Option<BlockId> {
-        let bodies = match failure::by_amount(self.found).first() {
+        let bodies = match failure::by_amount(self.frame_analysis).first() {
             Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
             Some(Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. }) => {
                 return Some(*block);
             }
             None => {
-                self.found.contacts[self.used.first()?.contact]
+                self.frame_analysis.contacts[self.used.first()?.contact]
                     .interface
                     .bodies
             }
@@ -103,7 +103,7 @@ impl<'a> Ranking<'a> {
     /// force.
     pub fn governing(&self) -> Option<String> {
         let first = self.used.first()?;
-        let contact = &self.found.contacts[first.contact];
+        let contact = &self.frame_analysis.contacts[first.contact];
         let why = match first.off_middle {
             Some((_, share)) if share >= contact.friction_used => {
                 format!("opening {}", percent(share))
@@ -120,7 +120,11 @@ impl<'a> Ranking<'a> {
             true => &self.used,
             false => &self.used[..self.used.len().min(MAX_JOINTS)],
         };
-        let contacts = || shown.iter().map(|u| &self.found.contacts[u.contact]);
+        let contacts = || {
+            shown
+                .iter()
+                .map(|u| &self.frame_analysis.contacts[u.contact])
+        };
         let newtons = self
             .units
             .newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
@@ -150,7 +154,7 @@ impl<'a> Ranking<'a> {
             ],
         );
         for used in shown {
-            let contact = &self.found.contacts[used.contact];
+            let contact = &self.frame_analysis.contacts[used.contact];
             let at = contact.resultant.at;
             let (off, opening) = match used.off_middle {
                 Some((off, share)) => (offs.write(off), share),
@@ -175,13 +179,13 @@ impl<'a> Ranking<'a> {
 
     /// Explains the columns of the table, and states how many joints it lists.
     pub fn words(&self) -> String {
-        let count = self.found.contacts.len();
+        let count = self.frame_analysis.contacts.len();
         let shown = self.used.len().min(MAX_JOINTS);
         let kernel = match self.scene.kernel {
             0.0 => "",
             _ => " × (1 − kernel)",
         };
-        let added = match self.found.verdict {
+        let added = match self.frame_analysis.verdict {
             Verdict::Stable => "",
             Verdict::Unstable => " These forces include the missing forces.",
             Verdict::Undecided => " These forces are not proved.",
@@ -196,12 +200,14 @@ impl<'a> Ranking<'a> {
     /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. Empty if the
     /// frame has more than [`MAX_JOINTS_WITH_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
-        if self.found.contacts.len() > MAX_JOINTS_WITH_TARGETS {
+        if self.frame_analysis.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
         }
-        let newtons = self.units.newtons(self.found.contacts.iter().map(normal));
+        let newtons = self
+            .units
+            .newtons(self.frame_analysis.contacts.iter().map(normal));
         let joints = self.used.iter().map(|used| {
-            let contact = &self.found.contacts[used.contact];
+            let contact = &self.frame_analysis.contacts[used.contact];
             let mut words = format!(
                 "{}: normal force {}, friction force {}, sliding {}",
                 name(self.scene, contact),
@@ -218,12 +224,17 @@ impl<'a> Ranking<'a> {
                 ends: contact.interface.ends,
             }
         });
-        let robots = self.found.robots.iter().enumerate().map(|(number, robot)| {
-            let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
-            touch::target(format!("r{number}"), &words, robot.at)
-        });
+        let robots = self
+            .frame_analysis
+            .robots
+            .iter()
+            .enumerate()
+            .map(|(number, robot)| {
+                let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
+                touch::target(format!("r{number}"), &words, robot.at)
+            });
         let failures = self
-            .found
+            .frame_analysis
             .failures
             .iter()
             .enumerate()
@@ -276,11 +287,14 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
 }
 
 /// Makes a table of the robots of a frame, with their forces and the largest share of a limit that each robot uses.
-pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
-    let forces = found.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
-    let units = Units::new(scene, found);
+pub(super) fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+    let forces = frame_analysis
+        .robots
+        .iter()
+        .flat_map(|r| [r.force.x, r.force.y]);
+    let units = Units::new(scene, frame_analysis);
     let newtons = units.newtons(forces);
-    let torques = units.torques(found.robots.iter().map(|r| r.torque));
+    let torques = units.torques(frame_analysis.robots.iter().map(|r| r.torque));
     let mut grid = Grid::new(
         "Robots",
         &[
@@ -292,7 +306,7 @@ pub(super) fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
             "#limit used".to_owned(),
         ],
     );
-    for (number, robot) in found.robots.iter().enumerate() {
+    for (number, robot) in frame_analysis.robots.iter().enumerate() {
         let limits = scene.robots[robot.robot.0].limits;
         let limits = [limits.fx, limits.fy, limits.torque];
         let is_limited = limits.iter().any(|l| l.is_finite() && *l > 0.0);

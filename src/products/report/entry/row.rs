@@ -80,11 +80,13 @@ impl Row {
         placed.sort_unstable();
         placed.dedup();
         let fails = frames.iter().find(|f| f.verdict != Verdict::Stable);
-        let fails = fails.map_or(String::new(), |found| {
-            let unsupported = failure::unsupported_phrase(scene, found);
-            let largest = failure::by_amount(found).into_iter().next();
+        let fails = fails.map_or(String::new(), |frame_analysis| {
+            let unsupported = failure::unsupported_phrase(scene, frame_analysis);
+            let largest = failure::by_amount(frame_analysis).into_iter().next();
             let largest = largest.map(|f| failure::missing_phrase(scene, f));
-            unsupported.or(largest).unwrap_or_else(|| found.doubt())
+            unsupported
+                .or(largest)
+                .unwrap_or_else(|| frame_analysis.doubt())
         });
         let title = match scene.title.trim() {
             "" => file_name(name),

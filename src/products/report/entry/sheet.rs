@@ -25,9 +25,9 @@ const FIGURE_HEIGHT: f64 = 300.0;
 
 /// Returns the options for figures in a report. The figures have no titles and no verdicts, because the page shows
 /// both.
-pub(super) fn options(wanted: &ReportOptions) -> Options {
+pub(super) fn options(report_options: &ReportOptions) -> Options {
     Options {
-        theme: wanted.theme.clone(),
+        theme: report_options.theme.clone(),
         titles: false,
         captions: false,
         verdicts: false,
@@ -62,18 +62,25 @@ pub(super) fn sheet(
     analysis: &Analysis,
     number: usize,
     steps: Option<Grid>,
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
 ) -> Section {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
-    let ranking = Ranking::new(scene, found);
-    let mut section = empty(scene, number, found.verdict);
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
+    let ranking = Ranking::new(scene, frame_analysis);
+    let mut section = empty(scene, number, frame_analysis.verdict);
     let parts = &mut section.parts;
-    parts.push(SheetPart::Badge(Box::new(badge(scene, number, found))));
+    parts.push(SheetPart::Badge(Box::new(badge(
+        scene,
+        number,
+        frame_analysis,
+    ))));
     parts.push(SheetPart::Figures(figures(
-        analysis, number, wanted, &ranking,
+        analysis,
+        number,
+        report_options,
+        &ranking,
     )));
     parts.extend(told(analysis, number));
-    parts.push(given(scene, number, Units::new(scene, found)));
+    parts.push(given(scene, number, Units::new(scene, frame_analysis)));
     if let Some(steps) = steps {
         parts.push(SheetPart::Heading("Steps".to_owned()));
         parts.push(SheetPart::Table(steps));
@@ -83,17 +90,17 @@ pub(super) fn sheet(
     parts.push(SheetPart::Heading("Governing joints".to_owned()));
     parts.push(SheetPart::Table(ranking.table(false)));
     parts.push(SheetPart::Note(ranking.words()));
-    parts.push(SheetPart::Table(robots(scene, found)));
+    parts.push(SheetPart::Table(robots(scene, frame_analysis)));
     if let Some(block) = ranking.block() {
         parts.push(SheetPart::Heading("Governing block".to_owned()));
         parts.push(SheetPart::Table(balance::of_block(analysis, number, block)));
     }
-    parts.push(SheetPart::Note(balance::check_words(found)));
-    parts.extend(margins(scene, found));
+    parts.push(SheetPart::Note(balance::check_words(frame_analysis)));
+    parts.extend(margins(scene, frame_analysis));
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
-    parts.push(SheetPart::Text(assumptions(scene, found)));
-    parts.push(SheetPart::Text(proof::sentence(found.proof)));
-    parts.extend(remarks(found).into_iter().map(SheetPart::Note));
+    parts.push(SheetPart::Text(assumptions(scene, frame_analysis)));
+    parts.push(SheetPart::Text(proof::sentence(frame_analysis.proof)));
+    parts.extend(remarks(frame_analysis).into_iter().map(SheetPart::Note));
     section
 }
 
@@ -102,13 +109,18 @@ pub(super) fn sheet(
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
 ) -> Vec<SheetPart> {
     let scene = &analysis.scene;
     let column = |number: &usize| {
-        let found = &analysis.frames[*number];
-        let own = empty(scene, *number, found.verdict);
-        let mut figures = figures(analysis, *number, wanted, &Ranking::new(scene, found));
+        let frame_analysis = &analysis.frames[*number];
+        let own = empty(scene, *number, frame_analysis.verdict);
+        let mut figures = figures(
+            analysis,
+            *number,
+            report_options,
+            &Ranking::new(scene, frame_analysis),
+        );
         figures.truncate(1);
         figures.iter_mut().for_each(|figure| figure.touches.clear());
         vec![
@@ -119,7 +131,7 @@ pub(super) fn others(
                 plain(own.verdict)
             )),
             SheetPart::Figures(figures),
-            SheetPart::Note(sentence(scene, found)),
+            SheetPart::Note(sentence(scene, frame_analysis)),
         ]
     };
     let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
@@ -130,18 +142,20 @@ pub(super) fn others(
 }
 
 /// Returns a sentence with the verdict and its reasons. Amounts have the units of the report sheet.
-fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
-    let units = Units::new(scene, found);
+fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+    let units = Units::new(scene, frame_analysis);
     let write = |value: f64, unit: Unit| units.words(value, unit);
-    line(&verdict::sentence_with(scene, found, &write))
+    line(&verdict::sentence_with(scene, frame_analysis, &write))
 }
 
-fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
+fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge {
     Badge {
-        verdict: found.verdict,
-        headline: headline_words(scene, number, found),
-        bar: bullet::margin_bars(scene, found).into_iter().next(),
-        sentence: sentence(scene, found),
+        verdict: frame_analysis.verdict,
+        headline: headline_words(scene, number, frame_analysis),
+        bar: bullet::margin_bars(scene, frame_analysis)
+            .into_iter()
+            .next(),
+        sentence: sentence(scene, frame_analysis),
     }
 }
 
@@ -150,12 +164,12 @@ fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
 fn figures(
     analysis: &Analysis,
     number: usize,
-    wanted: &ReportOptions,
+    report_options: &ReportOptions,
     ranking: &Ranking<'_>,
 ) -> Vec<Figure> {
-    let found = &analysis.frames[number];
-    let options = options(wanted);
-    let dark = wanted.dark.as_ref().map(|theme| Options {
+    let frame_analysis = &analysis.frames[number];
+    let options = options(report_options);
+    let dark = report_options.dark.as_ref().map(|theme| Options {
         theme: theme.clone(),
         ..options.clone()
     });
@@ -185,27 +199,28 @@ fn figures(
         }
     };
     let same: &dyn Fn(&mut Options) = &|_| {};
-    match found.verdict {
+    match frame_analysis.verdict {
         Verdict::Unstable => {
-            if !found.mechanism.is_empty() {
+            if !frame_analysis.mechanism.is_empty() {
                 let words =
                     "How the structure begins to fall. Dashed: the blocks before they move.";
                 add(words, Kind::Mechanism, same);
             }
-            let words = match found.failures.is_empty() {
+            let words = match frame_analysis.failures.is_empty() {
                 true => "The forces on every block.",
                 false => "The forces on every block; missing forces have the colour of failures.",
             };
             add(words, Kind::Forces, same);
         }
         _ => {
-            let (kind, words) =
-                match found.contacts.is_empty() || found.verdict == Verdict::Undecided {
-                    true => (Kind::Forces, "The forces on every block."),
-                    false => (Kind::Flow, "How the forces run from joint to joint."),
-                };
+            let (kind, words) = match frame_analysis.contacts.is_empty()
+                || frame_analysis.verdict == Verdict::Undecided
+            {
+                true => (Kind::Forces, "The forces on every block."),
+                false => (Kind::Flow, "How the forces run from joint to joint."),
+            };
             add(words, kind, same);
-            if let Some(toward) = story::toward(found) {
+            if let Some(toward) = story::toward(frame_analysis) {
                 let words = "How the structure would fall just beyond its margin.";
                 add(words, Kind::Margin, &|options| options.toward = toward);
             }
@@ -216,7 +231,7 @@ fn figures(
 
 /// Describes where the frame fails first, and what would change its verdict.
 fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let column = |heading: &str, words: Vec<String>| {
         let words = words.into_iter().map(SheetPart::Text);
         [SheetPart::Heading(heading.to_owned())]
@@ -225,12 +240,12 @@ fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
             .collect::<Vec<_>>()
     };
     let first: Vec<String> = story::fails_first(analysis, number).into_iter().collect();
-    let take = story::would_take(scene, found);
+    let take = story::would_take(scene, frame_analysis);
     let take = match take.is_empty() {
         true => take,
         false => vec![take.join(" ")],
     };
-    let heading = match found.verdict {
+    let heading = match frame_analysis.verdict {
         Verdict::Unstable => "Where the structure fails",
         _ => "Where the structure would fail first",
     };
@@ -265,9 +280,9 @@ fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     ])
 }
 
-fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
+fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     let mut grid = Grid::new("", &["margin", "bar", "in words"]);
-    for bar in bullet::margin_bars(scene, found) {
+    for bar in bullet::margin_bars(scene, frame_analysis) {
         let words = bar.words.clone();
         grid.add(
             "",
@@ -281,7 +296,7 @@ fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
     if grid.lines.is_empty() {
         return Vec::new();
     }
-    let notes = found
+    let notes = frame_analysis
         .margins
         .iter()
         .flat_map(|margins| &margins.intervals.notes);
@@ -294,12 +309,12 @@ fn margins(scene: &Scene, found: &FrameAnalysis) -> Vec<SheetPart> {
     parts
 }
 
-fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
+fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let frames = match scene.frames.len() {
         1 => "settlement, time, impact, earthquakes and the order of construction",
         _ => "settlement, time, impact and earthquakes",
     };
-    let least = match (found.verdict, found.least_force) {
+    let least = match (frame_analysis.verdict, frame_analysis.least_force) {
         (Verdict::Stable, true) => {
             " Other balances of forces may exist; the one shown has the least sum of forces."
         }
@@ -316,13 +331,16 @@ fn assumptions(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// Returns remarks that a reader of the results must know: the result of the test for wedging, and the notices of the
 /// analysis.
-fn remarks(found: &FrameAnalysis) -> Vec<String> {
-    let wedging = found
+fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
+    let wedging = frame_analysis
         .effects
         .iter()
         .find(|e| e.effect == EffectName::Wedging && e.simulated)
-        .filter(|_| found.only_by_wedging != Some(false));
+        .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
-    let notices = found.notices.iter().map(|n| format!("Note: {}.", line(n)));
+    let notices = frame_analysis
+        .notices
+        .iter()
+        .map(|n| format!("Note: {}.", line(n)));
     wedging.into_iter().chain(notices).collect()
 }

@@ -15,11 +15,11 @@ use crate::wording::verdict::plain;
 const MAX_FALLING_STEPS: usize = 4;
 
 /// Makes the sections of a report on a scene.
-pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Section> {
+pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> Vec<Section> {
     let count = analysis.frames.len();
     let governing = governing(analysis);
     let steps = (count > 1).then(|| table(analysis));
-    let mut first = sheet(analysis, governing, steps, wanted);
+    let mut first = sheet(analysis, governing, steps, report_options);
     if count > 1 {
         first.title = format!("{} (the step that governs)", first.title);
     }
@@ -27,7 +27,7 @@ pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Secti
     let falling =
         (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
     let falling: Vec<usize> = falling
-        .take(if wanted.full {
+        .take(if report_options.full {
             count
         } else {
             MAX_FALLING_STEPS
@@ -37,11 +37,11 @@ pub(super) fn sections(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Secti
         let mut section = empty(&analysis.scene, governing, analysis.verdict());
         (section.letter, section.title) =
             (String::new(), "Other steps that do not stand".to_owned());
-        section.parts = others(analysis, &falling, wanted);
+        section.parts = others(analysis, &falling, report_options);
         sections.push(section);
     }
-    if wanted.full {
-        sections.extend((0..count).map(|number| full::appendix(analysis, number, wanted)));
+    if report_options.full {
+        sections.extend((0..count).map(|number| full::appendix(analysis, number, report_options)));
     }
     sections
 }
@@ -58,22 +58,25 @@ fn table(analysis: &Analysis) -> Grid {
             "governing joint",
         ],
     );
-    for (number, found) in analysis.frames.iter().enumerate() {
+    for (number, frame_analysis) in analysis.frames.iter().enumerate() {
         let title = match scene.frames[number].title.as_str() {
             "" => format!("Step {}", number + 1),
             title => line(title),
         };
-        let headline = match headline_words(scene, number, found) {
+        let headline = match headline_words(scene, number, frame_analysis) {
             words if words.is_empty() => "–".to_owned(),
             words => words,
         };
-        let governing = Ranking::new(scene, found).governing();
+        let governing = Ranking::new(scene, frame_analysis).governing();
         grid.add(
             "",
             [
                 TableCell::picture(thumbnail(scene, &scene.frames[number].placed)),
                 format!("({}) {title}", letter(number)).into(),
-                TableCell::strong_if(found.verdict != Verdict::Stable, plain(found.verdict)),
+                TableCell::strong_if(
+                    frame_analysis.verdict != Verdict::Stable,
+                    plain(frame_analysis.verdict),
+                ),
                 headline.into(),
                 governing.unwrap_or_else(|| "–".to_owned()).into(),
             ],

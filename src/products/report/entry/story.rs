@@ -16,8 +16,8 @@ const MOTION_TOL: f64 = 2e-3;
 
 /// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,
 /// horizontal load. Returns `None` if no end of these margins has a mechanism.
-pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
-    let intervals = &found.margins.as_ref()?.intervals;
+pub(super) fn toward(frame_analysis: &FrameAnalysis) -> Option<Toward> {
+    let intervals = &frame_analysis.margins.as_ref()?.intervals;
     let has_edge = |interval: &Option<Interval>| {
         let ends = interval.iter().flat_map(|i| [i.low(), i.high()]);
         ends.flatten()
@@ -36,18 +36,20 @@ pub(super) fn toward(found: &FrameAnalysis) -> Option<Toward> {
 /// Describes how the frame falls, or how it would fall at the end of its margin. Returns `None` if the frame is
 /// undecided or if no mechanism is known.
 pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
-    match found.verdict {
+    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
+    match frame_analysis.verdict {
         Verdict::Undecided => None,
         Verdict::Unstable => {
-            let mut said: Vec<String> = unsupported_phrase(scene, found).into_iter().collect();
+            let mut said: Vec<String> = unsupported_phrase(scene, frame_analysis)
+                .into_iter()
+                .collect();
             // Use the elementary mechanism, because the figure shows it too.
             let shown = alone(analysis, number).elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
         }
         Verdict::Stable => {
-            let toward = toward(found)?;
+            let toward = toward(frame_analysis)?;
             let (value, mechanism) = analysis.edge(number, toward)?;
             let when = match toward {
                 Toward::LoadFactor if value < 1.0 => {
@@ -81,7 +83,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     let mut moved = alone(analysis, number);
     moved.frames[0].mechanism = mechanism.to_vec();
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
-    let found = joints(&moved, 0);
+    let frame_analysis = joints(&moved, 0);
     let at = |joint: &&Joint| {
         let contact = &contacts[joint.contact];
         match joint.hinge {
@@ -92,12 +94,14 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
             None => name(scene, contact),
         }
     };
-    let hinges: Vec<String> = found
+    let hinges: Vec<String> = frame_analysis
         .iter()
         .filter(|j| j.hinge.is_some())
         .map(|j| at(&j))
         .collect();
-    let slides = found.iter().filter(|j| j.hinge.is_none() && j.slip != 0.0);
+    let slides = frame_analysis
+        .iter()
+        .filter(|j| j.hinge.is_none() && j.slip != 0.0);
     let slides: Vec<String> = slides.map(|j| at(&j)).collect();
     let mut said = Vec::new();
     if !hinges.is_empty() {
@@ -137,10 +141,10 @@ fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
 
 /// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for each
 /// computed margin.
-pub(super) fn would_take(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
-    stated(scene, found)
+pub(super) fn would_take(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+    stated(scene, frame_analysis)
         .iter()
-        .filter_map(|margin| change(margin, found.verdict))
+        .filter_map(|margin| change(margin, frame_analysis.verdict))
         .collect()
 }
 

@@ -30,10 +30,13 @@ pub(super) struct Units {
 impl Units {
     /// Chooses the prefix for the largest force, weight or load: M, k, m, µ or no prefix. Above 1000 N the prefix is k,
     /// above 10⁸ N it is M.
-    pub fn new(scene: &Scene, found: &FrameAnalysis) -> Units {
-        let contacts = found.contacts.iter().map(|c| c.resultant.force.norm());
-        let robots = found.robots.iter().map(|r| r.force.norm());
-        let missing = found.failures.iter().map(failure::amount);
+    pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
+        let contacts = frame_analysis
+            .contacts
+            .iter()
+            .map(|c| c.resultant.force.norm());
+        let robots = frame_analysis.robots.iter().map(|r| r.force.norm());
+        let missing = frame_analysis.failures.iter().map(failure::amount);
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);
         let given = loads.chain(weights);

@@ -8,15 +8,15 @@ use crate::scene::Scene;
 
 /// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame stands
 /// or is undecided, or if no computed margin shows what is lacking.
-pub fn falls_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
-    if found.verdict != Verdict::Unstable {
+pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+    if frame_analysis.verdict != Verdict::Unstable {
         return None;
     }
-    let intervals = &found.margins.as_ref()?.intervals;
+    let intervals = &frame_analysis.margins.as_ref()?.intervals;
     let loads = intervals.load_factor.as_ref();
     let lack = loads
         .and_then(|interval| load_lack(scene, interval))
-        .or_else(|| friction_lack(found, intervals.friction.as_ref()?))?;
+        .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))?;
     Some(format!("falls: {lack}"))
 }
 
@@ -44,8 +44,8 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
 
 /// Describes the friction coefficient with which a falling frame would stand. Returns `None` if its present friction is
 /// large enough, or if no such coefficient is known.
-fn friction_lack(found: &FrameAnalysis, interval: &Interval) -> Option<String> {
-    let (least, most) = friction(found)?;
+fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    let (least, most) = friction(frame_analysis)?;
     match interval {
         Interval::Empty(_) => Some("no friction coefficient would hold it".to_owned()),
         Interval::Undecided => None,

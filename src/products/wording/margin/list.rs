@@ -6,17 +6,17 @@ use crate::scene::Scene;
 use crate::text;
 
 /// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.
-pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
-    let Some(margins) = &found.margins else {
+pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
+    let Some(margins) = &frame_analysis.margins else {
         return Vec::new();
     };
     let intervals = &margins.intervals;
-    let position = match found.verdict {
+    let position = match frame_analysis.verdict {
         Verdict::Stable => Position::Inside,
         Verdict::Unstable => Position::Outside,
         Verdict::Undecided => Position::Unknown,
     };
-    let mut list = whole_frame(scene, found, intervals, position);
+    let mut list = whole_frame(scene, frame_analysis, intervals, position);
     list.extend(robot_limits(scene, intervals, position));
     if let Some(first) = headline(&list) {
         list[..=first].rotate_right(1);
@@ -27,7 +27,7 @@ pub fn stated<'a>(scene: &Scene, found: &'a FrameAnalysis) -> Vec<StatedMargin<'
 /// Returns the computed margins that concern the whole frame: all except the limits of robots.
 fn whole_frame<'a>(
     scene: &Scene,
-    found: &FrameAnalysis,
+    frame_analysis: &FrameAnalysis,
     intervals: &'a Intervals,
     position: Position,
 ) -> Vec<StatedMargin<'a>> {
@@ -58,7 +58,7 @@ fn whole_frame<'a>(
             position,
         };
         if parameter == Friction {
-            margin.present = friction(found);
+            margin.present = friction(frame_analysis);
             margin.position = friction_position(interval, margin.present, position);
         }
         list.push(margin);
@@ -111,8 +111,8 @@ fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
 
 /// Returns the smallest and the largest friction coefficient of the frame's interfaces, or `None` if there are no
 /// interfaces.
-pub(super) fn friction(found: &FrameAnalysis) -> Option<(f64, f64)> {
-    let all = found
+pub(super) fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
+    let all = frame_analysis
         .contacts
         .iter()
         .map(|contact| contact.interface.friction);

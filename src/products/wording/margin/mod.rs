@@ -177,11 +177,11 @@ pub fn confirmed(end: &End) -> Option<f64> {
 
 /// Describes each margin of a frame in one line, the most important margin first. The notes on margins follow, one line
 /// each.
-pub fn lines(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
-    let stated = stated(scene, found);
+pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+    let stated = stated(scene, frame_analysis);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());
     let mut lines: Vec<String> = stated.iter().map(line).collect();
-    let notes = found
+    let notes = frame_analysis
         .margins
         .iter()
         .flat_map(|margins| &margins.intervals.notes);
