@@ -62,22 +62,49 @@ export function drawMissing(stage, { result, stale }) {
   const failures = stale ? [] : list(result?.failures).filter((f) => isPoint(f.at));
   const most = Math.max(...failures.map((f) => (f.force ? length(f.force) : 0)), 1e-300);
   const factor = (0.6 * longest(stage)) / most;
-  layer.replaceChildren(...failures.flatMap((failure) => {
+  /** @type {Label[]} */
+  const labels = [];
+  const marks = failures.flatMap((failure) => {
     const at = stage.view.toPixels(failure.at);
     const point = svg("circle", { class: "missing", cx: at[0], cy: at[1], r: 4.5 });
     if (!failure.force) return [point];
     const force = inPixels(failure.force, factor);
-    const size = length(force) || 1;
-    // The amount is written next to the arrow, on its upper side.
-    const up = force[0] > 0 ? -1 : 1;
-    const side = /** @type {Point} */ ([(-force[1] / size) * up * -18, (force[0] / size) * up * 18]);
     const pull = failure.kind === "tension";
-    const [x, y] = add(pull ? at : add(at, scale(force, 0.6)), side);
-    const label = svg("text", { class: "amount missing", x, y, dy: "0.35em" }, newtons(failure.amount));
+    labels.push(beside(pull ? at : add(at, scale(force, 0.6)), force, failure.amount));
     // If a joint opens, the missing force would pull both blocks together. Otherwise it acts on the first body.
     const arrows = pull ? [arrowPath(subtract(at, force), at, 4), arrowPath(add(at, force), at, 4)] : [arrowPath(at, add(at, force), 5)];
-    return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point]), ...(failures.length <= 6 ? [label] : [])];
-  }));
+    return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point])];
+  });
+  layer.replaceChildren(...marks, ...legibleLabels(labels).map(({ x, y, text }) => svg("text", { class: "amount missing", x, y, dy: "0.35em" }, text)));
+}
+
+/** @typedef {{ x: number, y: number, width: number, text: string, amount: number }} Label centred at a point, in pixels */
+
+/** At most this many amounts are written. */
+const MOST_LABELS = 6;
+/** Width of a character and height of a line, in pixels. */
+const LETTER = { width: 7.5, height: 16 };
+
+/** Returns the label of an amount next to an arrow, on its upper side. @param {Point} at @param {Point} force @param {number} amount @returns {Label} */
+function beside(at, force, amount) {
+  const text = newtons(amount);
+  const width = LETTER.width * text.length;
+  const size = length(force) || 1;
+  const up = force[0] > 0 ? -1 : 1;
+  const [nx, ny] = [(-force[1] / size) * up, (force[0] / size) * up];
+  const distance = 9 + (Math.abs(nx) * width) / 2 + (Math.abs(ny) * LETTER.height) / 2;
+  return { x: at[0] + nx * distance, y: at[1] + ny * distance, width, text, amount };
+}
+
+/** Returns the labels of the largest amounts that do not cover each other. @param {Label[]} labels */
+function legibleLabels(labels) {
+  /** @type {Label[]} */
+  const kept = [];
+  for (const label of labels.toSorted((a, b) => b.amount - a.amount)) {
+    const free = kept.every((other) => Math.abs(other.x - label.x) > (other.width + label.width) / 2 || Math.abs(other.y - label.y) > LETTER.height);
+    if (free && kept.length < MOST_LABELS) kept.push(label);
+  }
+  return kept;
 }
 
 /** The point at which a load acts. @param {any} load @param {import("./scene.js").Resolved} resolved @returns {Point | null} */

@@ -5,8 +5,9 @@
 #
 # usage: examples/playground/build.sh [--debian]
 #
-# Needs a Rust toolchain from rustup. If rustup cannot fetch the target wasm32-unknown-unknown, or with --debian, the
-# compiler of Debian's packages is unpacked in target/, without installing it, and compiles the standard library too.
+# Needs a Rust toolchain from rustup, with the component rust-src: the standard library is compiled too, for size. If
+# rustup cannot fetch this component, its compiled target wasm32-unknown-unknown is used; the module is then larger. If
+# it can fetch neither, or with --debian, the compiler of Debian's packages is unpacked in target/, without installing it.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -52,7 +53,22 @@ unpack_debian() {
 }
 
 arguments=(rustc --locked --lib --crate-type cdylib --profile web --target "$wasm" --no-default-features --features wasm)
-if [ "${1:-}" != --debian ] && { rustup target list --installed | grep -qx "$wasm" || rustup target add "$wasm"; }; then
+# The messages of panics name files. They do not contain the folders of this machine.
+remaps=(
+    "--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}/registry/src=crates"
+    "--remap-path-prefix=$(rustc --print sysroot)/lib/rustlib/src/rust=rust"
+    "--remap-path-prefix=$debian/root=debian"
+)
+CARGO_ENCODED_RUSTFLAGS=$(IFS=$'\x1f'; echo "${remaps[*]}")
+export CARGO_ENCODED_RUSTFLAGS
+
+# The compiled standard library sorts every type with its own copy of a large function.
+small_std=(-Z build-std=std,panic_abort -Z build-std-features=optimize_for_size)
+has_component() { rustup component list --installed | grep -qx "$1" || rustup component add "$1"; }
+if [ "${1:-}" != --debian ] && has_component rust-src; then
+    RUSTC_BOOTSTRAP=1 cargo "${arguments[@]}" "${small_std[@]}" --target-dir "$target/wasm-std"
+    made=$target/wasm-std/$wasm/web/drystone.wasm
+elif [ "${1:-}" != --debian ] && { rustup target list --installed | grep -qx "$wasm" || rustup target add "$wasm"; }; then
     cargo "${arguments[@]}" --target-dir "$target"
     made=$target/$wasm/web/drystone.wasm
 else
@@ -60,7 +76,7 @@ else
     linker=$(find "$(rustc --print sysroot)/lib/rustlib" -name rust-lld -type f | head -n 1)
     RUSTC=$debian/root/usr/bin/rustc RUSTC_BOOTSTRAP=1 LD_LIBRARY_PATH=$debian/root/usr/lib/x86_64-linux-gnu \
         CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$linker \
-        cargo "${arguments[@]}" -Z build-std=std,panic_abort --target-dir "$target/wasm-debian"
+        cargo "${arguments[@]}" "${small_std[@]}" --target-dir "$target/wasm-debian"
     made=$target/wasm-debian/$wasm/web/drystone.wasm
 fi
 

@@ -14,6 +14,8 @@ import { Theme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { Workbench } from "./workbench.js";
 
+byId("not-started").remove();
+
 const say = (/** @type {string} */ text) => { byId("status").textContent = text; };
 const snap = () => byId("snap").checked;
 const solver = new Solver();
@@ -35,7 +37,9 @@ new Outputs(store, solver, figures, say);
 function figureOptions(kind) {
   const body = store.body(store.selected) ?? store.resolved.bodies.findLast((b) => b.list === "blocks" && store.current.placed.has(b.id));
   const capacity = kind === "capacity" && body?.list === "blocks" ? { capacity: `${body.id}@${body.centre.map((c) => c.toFixed(6)).join(",")}` } : {};
-  return { frame: store.frame + 1, theme: theme.dark ? "dark" : "thesis", ...capacity };
+  // At this width the letters of the figure are as large as those of the page.
+  const width = Math.max(340, Math.round(byId("figure-panel").clientWidth));
+  return { frame: store.frame + 1, theme: theme.dark ? "dark" : "thesis", width_px: width, ...capacity };
 }
 
 /** @param {import("./verdict.js").Words} words @param {number} milliseconds */

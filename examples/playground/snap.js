@@ -1,11 +1,12 @@
 // Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid, and
 // it does not overlap other blocks, because stones cannot pass through each other.
 
-import { add, bounds, cross, dot, isConvex, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
+import { convexPieces } from "./convex.js";
+import { add, cross, dot, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
 
 /** @typedef {import("./geometry.js").Point} Point */
 /** @typedef {import("./geometry.js").Box} Box */
-/** @typedef {{ outline: Point[], box: Box }} Outline */
+/** @typedef {{ outline: Point[], holes?: Point[][], box: Box }} Outline */
 /** @typedef {{ normal: Point, distance: number, weight: number }} Pull a wish to move by a distance along a direction */
 
 /** The largest sine of the angle between two edges that count as parallel. */
@@ -115,7 +116,7 @@ const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
  * @returns {Point}
  */
 function way(body, wish, others, slack, last) {
-  if (!isConvex(body.outline)) return wish;
+  if (piecesOf(body).length === 0) return wish;
   const size = 0.3 * Math.min(body.box.right - body.box.left, body.box.top - body.box.bottom);
   const step = Math.max(size, length(subtract(wish, last)) / STEPS);
   let at = last;
@@ -131,18 +132,22 @@ function way(body, wish, others, slack, last) {
   return at;
 }
 
-/** Returns the move, changed so that the block does not overlap the others; only convex outlines are tested. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
+/** Returns the convex pieces of a body. A body with holes has none: other blocks may lie in its holes. @param {Outline} body */
+const piecesOf = (body) => (body.holes?.length ? [] : convexPieces(body.outline));
+
+/** Returns the move, changed so that the block does not overlap the others. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
 function outOfOthers(body, move, others, slack, last) {
-  if (!isConvex(body.outline)) return move;
+  const pieces = piecesOf(body);
   let result = move;
-  const before = shift(body.outline, last);
+  const before = pieces.map((piece) => shift(piece, last));
   // A block between two others may be pushed from one into the other: after a few rounds it stays where it was.
   for (let round = 0; round < 6; round++) {
-    const outline = shift(body.outline, result);
-    const box = bounds(outline);
+    const now = pieces.map((piece) => shift(piece, result));
+    const box = moved(body.box, result);
     const push = others
-      .filter((other) => near(other.box, box) && isConvex(other.outline))
-      .map((other) => pushOut(outline, other.outline, slack, before))
+      .filter((other) => near(other.box, box))
+      .flatMap(piecesOf)
+      .flatMap((piece) => now.map((own, i) => pushOut(own, piece, slack, before[i])))
       .reduce((most, one) => (one && (!most || length(one) > length(most)) ? one : most), null);
     if (!push) return result;
     result = add(result, push);

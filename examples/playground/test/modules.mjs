@@ -5,9 +5,10 @@ import { readFile, readdir } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
 import { root } from "./lib/root.mjs";
+import { convexPieces } from "../convex.js";
 import * as edit from "../edit.js";
 import { formatScene } from "../format.js";
-import { pushOut } from "../geometry.js";
+import { bounds, isConvex, pushOut, signedArea } from "../geometry.js";
 import { nearestNode, toMetres } from "../lattice.js";
 import { packed, unpacked } from "../link.js";
 import { resolve } from "../scene.js";
@@ -83,6 +84,42 @@ test("a block snaps onto the face below it, whichever way its corners run", () =
   // Far inside the other one it is pushed out.
   const move = snapMove(square(3, 0), [-2.3, 0], [below], { reach: 0.05, grid: 0, decimals: 3 });
   assert.equal(pushOut(square(3 + move[0], 0).outline, below.outline, 1e-6), null);
+});
+
+/** @typedef {[number, number][]} Outline */
+const CONCAVE = /** @type {Outline[]} */ ([
+  [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]],
+  [[0, 0], [5, 0], [5, 3], [4, 3], [4, 1], [3, 1], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]],
+  [[0, 0], [2, 0], [4, 0], [2, 0.5], [2, 4]],
+]);
+
+test("convex pieces have the area of the outline and do not overlap", () => {
+  for (const outline of CONCAVE.flatMap((o) => [o, o.toReversed()])) {
+    const pieces = convexPieces(outline);
+    assert.ok(pieces.length > 1 && pieces.every(isConvex));
+    const area = pieces.reduce((sum, piece) => sum + Math.abs(signedArea(piece)), 0);
+    assert.ok(Math.abs(area - Math.abs(signedArea(outline))) < 1e-12);
+    for (const [i, a] of pieces.entries()) for (const b of pieces.slice(i + 1)) assert.equal(pushOut(a, b, 1e-9), null);
+  }
+  assert.deepEqual(convexPieces([[0, 0], [2, 2], [2, 0], [0, 2]]), []);
+});
+
+test("concave stones do not overlap while they are dragged, and fit into each other", () => {
+  const body = (/** @type {Outline} */ outline) => ({ outline, box: bounds(outline) });
+  for (const outline of CONCAVE) {
+    const [angle, other] = [body(outline), body([[6, -1], [7, -1], [7, 4], [6, 4]])];
+    let last = /** @type {[number, number]} */ ([0, 0]);
+    for (let i = 0; i < 120; i++) {
+      last = snapMove(angle, [i / 10, Math.sin(i / 9)], [other], { reach: 0.01, grid: 0, decimals: 6, last });
+      const now = convexPieces(outline).map((piece) => piece.map((p) => /** @type {[number, number]} */ ([p[0] + last[0], p[1] + last[1]])));
+      assert.ok(now.every((piece) => pushOut(piece, other.outline, 2e-6) === null), `${outline} ${i}`);
+    }
+  }
+  // A block can be laid into the inner corner of an angle.
+  const [block, angle] = [body([[0, 0], [1, 0], [1, 1], [0, 1]]), body(CONCAVE[0])];
+  const from = body(block.outline.map(([x, y]) => /** @type {[number, number]} */ ([x + 4, y + 4])));
+  const move = snapMove(from, [-2.97, -2.98], [angle], { reach: 0.05, grid: 0, decimals: 3 });
+  assert.ok(Math.hypot(move[0] + 3, move[1] + 3) < 1e-9, `${move}`);
 });
 
 test("removing a block removes everything that names it", async () => {

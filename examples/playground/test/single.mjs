@@ -7,7 +7,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { single } from "../single.mjs";
-import { drag, middle, open, start, stop, verdict } from "./lib/page.mjs";
+import { drag, middle, open, root, start, stop, verdict, visit } from "./lib/page.mjs";
 
 before(start);
 after(stop);
@@ -24,4 +24,16 @@ test("one file holds everything and works from the disk", async () => {
   assert.ok((await page.evaluate(() => performance.getEntriesByType("resource").map((e) => e.name))).every((/** @type {string} */ name) => /^(blob|data|file):/.test(name)));
   await close();
   await rm(folder, { recursive: true });
+});
+
+test("the page itself, opened from the disk, says what to do; from a server it does not", async () => {
+  const { page } = await visit(pathToFileURL(path.join(root, "index.html")).href);
+  const note = page.locator("#not-started");
+  assert.equal(await note.isVisible(), false);
+  await note.waitFor({ state: "visible" });
+  assert.match(await note.innerText(), /single\.mjs/);
+  await page.context().close();
+  const served = await open();
+  assert.equal(await served.page.locator("#not-started").count(), 0);
+  await served.close();
 });
