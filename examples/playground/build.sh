@@ -53,23 +53,16 @@ unpack_debian() {
 }
 
 arguments=(rustc --locked --lib --crate-type cdylib --profile web --target "$wasm" --no-default-features --features wasm)
-# The messages of panics name files. They do not contain the folders of this machine.
-remaps=(
-    "--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}/registry/src=crates"
-    "--remap-path-prefix=$(rustc --print sysroot)/lib/rustlib/src/rust=rust"
-    "--remap-path-prefix=$debian/root=debian"
-)
-CARGO_ENCODED_RUSTFLAGS=$(IFS=$'\x1f'; echo "${remaps[*]}")
-export CARGO_ENCODED_RUSTFLAGS
-
-# The compiled standard library sorts every type with its own copy of a large function.
+# For a small module: the compiled standard library sorts every type with its own copy of a large function, and the
+# messages of internal errors need no places in the sources, because the program gives the same message with its place.
 small_std=(-Z build-std=std,panic_abort -Z build-std-features=optimize_for_size)
+export CARGO_ENCODED_RUSTFLAGS=-Zlocation-detail=none
 has_component() { rustup component list --installed | grep -qx "$1" || rustup component add "$1"; }
 if [ "${1:-}" != --debian ] && has_component rust-src; then
     RUSTC_BOOTSTRAP=1 cargo "${arguments[@]}" "${small_std[@]}" --target-dir "$target/wasm-std"
     made=$target/wasm-std/$wasm/web/drystone.wasm
 elif [ "${1:-}" != --debian ] && { rustup target list --installed | grep -qx "$wasm" || rustup target add "$wasm"; }; then
-    cargo "${arguments[@]}" --target-dir "$target"
+    CARGO_ENCODED_RUSTFLAGS='' cargo "${arguments[@]}" --target-dir "$target"
     made=$target/$wasm/web/drystone.wasm
 else
     unpack_debian
