@@ -16,7 +16,7 @@ pub(crate) enum ExitStatus {
     Unstable,
     /// The output could not be written.
     NotWritten,
-    /// The input or the command line is wrong; nothing was written.
+    /// An input or the command line is wrong. No output was written for that input.
     WrongInput,
 }
 

@@ -1,4 +1,5 @@
-//! Any heap of bricks gets a verdict with finite numbers, a proof that holds or a doubt in words, and a figure; never a panic.
+//! Every random pile of bricks gets a verdict with finite numbers, a proof that holds or a reason why there is none, and a
+//! figure. Nothing panics.
 
 #![no_main]
 
@@ -93,7 +94,7 @@ fuzz_target!(|heap: Heap| {
     let Ok(scene) = Scene::new(made(&heap)) else {
         return;
     };
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     for frame in &analysis.frames {
         assert!(frame.total_force.is_finite() && frame.total_sticking.is_finite());
         match frame.verdict {

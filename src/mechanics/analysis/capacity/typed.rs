@@ -40,8 +40,8 @@ fn unknown(scene: &Scene, name: &str) -> String {
     let hint = match nearest(name, names()) {
         Some(near) => format!("; did you mean {}?", line(near)),
         None => match names().next() {
-            Some(first) => format!("; its blocks are {}, …", line(first)),
-            None => "; it has no blocks".into(),
+            Some(first) => format!("; the blocks are {}, …", line(first)),
+            None => "; there are no blocks".into(),
         },
     };
     format!("--capacity: the scene has no block {}{hint}", line(name))

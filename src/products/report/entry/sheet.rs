@@ -324,8 +324,8 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         _ => "",
     };
     format!(
-        "Rigid blocks in one plane, at rest, laid dry: joints press and rub, and never pull; friction follows Coulomb's law \
-         with one coefficient μ. Not considered: the strength of the stone, {frames}.{least}"
+        "Rigid blocks in one plane, at rest, laid dry: joints transmit compression and friction, but no tension; friction \
+         follows Coulomb's law with one coefficient μ. Not considered: the strength of the stone, {frames}.{least}"
     )
 }
 
