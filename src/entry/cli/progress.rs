@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn margins_count_the_frames_they_judge() {
+    fn margins_count_the_frames_they_decide() {
         let paper = Paper::default();
         let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
         let progress = Progress::on(1, Duration::ZERO, target);
@@ -165,7 +165,7 @@ mod tests {
         thread::sleep(Duration::from_millis(300));
         drop(progress);
         let drawn = paper.text();
-        assert!(drawn.contains("changed frames judged"), "{drawn:?}");
+        assert!(drawn.contains("changed frames decided"), "{drawn:?}");
     }
 
     fn drawn(patience: Duration, work: Duration) -> String {
