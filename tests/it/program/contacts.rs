@@ -173,10 +173,10 @@ fn wrong_lists_are_refused_in_words() {
         .expect_err("refused")
         .to_string();
     for words in [
-        "with itself",
+        "both bodies of the contact are the same body",
         "grond",
         "no `mass` and no `weight`",
-        "both `centre` and `polygon`",
+        "the keys `centre` and `polygon` are both given",
     ] {
         assert!(problems.contains(words), "{words}: {problems}");
     }

@@ -158,7 +158,7 @@ fn scales_and_units_are_read_as_people_write_them() {
         &bench,
         "import drawing.svg --scale 0.1 --unit mm",
         2,
-        &["--scale 0.1 is already metres per unit"],
+        &["--scale 0.1 is already in metres per unit"],
     );
     says(
         &bench,
@@ -244,7 +244,7 @@ fn damaged_scenes_in_a_snapshot_folder_fail() {
         ("", "the file is empty"),
         (
             "{\n<<<<<<< HEAD\n\"blocks\": []\n=======\n>>>>>>> b\n}",
-            "a merge has left two versions",
+            "a merge conflict has left two versions",
         ),
     ] {
         fs::write(bench.path("scenes/bad.json"), text).expect("writable");
