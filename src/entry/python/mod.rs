@@ -90,8 +90,9 @@ impl Options {
         if let Some(name) = sensitivity {
             let kind = MarginKind::from_word(&name).filter(|kind| kind.has_sensitivity());
             let Some(kind) = kind else {
-                let why = "sensitivity is load_factor, tilt, horizontal_load, friction or kernel";
-                return Err(fault(py, &format!("{why}, not {name:?}")));
+                let known = "load_factor, tilt, horizontal_load, friction and kernel";
+                let why = "a sensitivity can be computed for the margins";
+                return Err(fault(py, &format!("{why} {known}, not for {name:?}")));
             };
             analysis_options = analysis_options.sensitivity(kind);
         }

@@ -216,7 +216,8 @@ impl TryFrom<String> for SensitivityMargin {
     fn try_from(word: String) -> Result<SensitivityMargin, String> {
         let kind = MarginKind::from_word(&word).filter(|kind| kind.has_sensitivity());
         kind.map(SensitivityMargin).ok_or_else(|| {
-            "sensitivity is load_factor, tilt, horizontal_load, friction or kernel".to_owned()
+            let known = "load_factor, tilt, horizontal_load, friction and kernel";
+            format!("a sensitivity can be computed for the margins {known}, not for {word:?}")
         })
     }
 }

@@ -1,5 +1,5 @@
-//! Decides whether a component stands or falls. The table lists all routes to a verdict, in the order in which they are
-//! tried.
+//! Decides whether a component stands or falls. Two tables list the routes to a verdict, for one component and for a
+//! whole frame. The numbers of the routes give the order in which they are tried.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a

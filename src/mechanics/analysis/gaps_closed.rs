@@ -97,7 +97,8 @@ pub(super) fn recheck(
     }
 }
 
-/// Returns, for each frame, the small gaps and overlaps of its bodies: there the bodies may have been meant to touch.
+/// Returns, for each frame, the small gaps and overlaps where bodies may have been meant to touch. Gaps that a pinning
+/// stone keeps open are left out.
 fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
     let touching = ContactsByBody::new(&found.all);
     let in_frame = |frame: &Frame| {

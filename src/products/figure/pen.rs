@@ -185,8 +185,9 @@ impl<'a> Pen<'a> {
         self.context.options.theme.widths.disc * self.unit()
     }
 
-    /// Returns the drawn width of an arrow's shaft, pixels. At small scales, shafts are wider, so that their colours
-    /// can be distinguished.
+    /// Returns the drawn width of an arrow's shaft in pixels. At small scales, shafts are drawn wider so that their
+    /// colours can be distinguished. Exceptions are missing forces, and scales so small that wider arrows would hide
+    /// the blocks.
     pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
         let wider = if arrow.kind.is_failure() {
             1.0

@@ -257,8 +257,9 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     })
 }
 
-/// Computes the force polygon of a frame from its arrows `marks`. The polygon is placed to the right of the blocks.
-/// Returns `None` if there are fewer than two forces or all of them are 0.
+/// Computes the force polygon of a frame from the external forces among the arrows in `marks`. The polygon is placed to
+/// the right of the structure. Returns `None` if the frame has no block, if there are fewer than two external forces, or
+/// if all of them are 0.
 fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();

@@ -238,8 +238,8 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     group
 }
 
-/// Returns the position nearest to `preferred` at which a disc covers nothing in `ink`. Positions up to `most` radii from
-/// `preferred` are tried. Returns `None` if none of them is free.
+/// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The candidates
+/// lie on circles around `wanted`, up to `most` times `radius` away. Returns `None` if no candidate is free.
 fn free(ink: &Ink, preferred: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
     let side = 2.0 * radius;
     let is_free = |centre: &PagePoint| {

@@ -9,7 +9,7 @@ use crate::text;
 pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
     let what = match capacity.shape() {
-        CapacityShape::Empty => format!("it falls with every force {place}"),
+        CapacityShape::Empty => format!("it falls under any force {place}"),
         CapacityShape::Everything => format!("every force {place} is carried"),
         _ => match sides(capacity) {
             Some(sides) => format!("{place} it carries {sides}"),

@@ -1,4 +1,5 @@
-//! Writes the answers of a batch as CSV: one row for each frame, with the same columns in every file.
+//! Writes the answers of a batch as CSV: one row for each frame, and one row for each scene that is not valid. All files
+//! have the same columns.
 
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::result::Origin;

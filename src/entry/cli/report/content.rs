@@ -51,7 +51,8 @@ pub(super) fn make_figures_legible(
     }
 }
 
-/// Returns the path of a source as the user typed it.
+/// Returns the path of a source: as the user typed it, or, for a scene in a folder that the user typed, the path of the
+/// folder followed by the path inside it.
 fn shown(source: &Source) -> String {
     source.path.display().to_string()
 }

@@ -95,8 +95,8 @@ fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program)
     proves(conic, &z, program)
 }
 
-/// Applies the least change of the multipliers that gives Aᵀz = 0. Multipliers of inequalities that would become
-/// negative are set to 0. `None` if Aᵀz is 0 already, or if the solver fails.
+/// Returns the multipliers after the least change, of those that are not 0, that gives Aᵀz = 0. Multipliers of
+/// inequalities that would become negative are then set to 0, which may leave an error. `None` if Aᵀz is 0 already.
 fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
     // Scale the error of Aᵀz to size 1.
     let off = transpose_product(conic, z);
