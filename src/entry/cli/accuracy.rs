@@ -7,7 +7,7 @@ use clap::Args;
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
-use crate::cli::progress::{Progress, Shown};
+use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::source;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
@@ -68,9 +68,9 @@ impl Accuracy {
             })
             .collect();
         let shown = if terminal.shows_progress() {
-            Shown::WhenLong
+            BarVisibility::WhenLong
         } else {
-            Shown::Never
+            BarVisibility::Never
         };
         let frames = scenes.iter().map(|s| s.frames.len()).sum();
         let progress = Progress::begin(frames, shown);

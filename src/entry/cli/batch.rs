@@ -30,7 +30,7 @@ use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdi
 use crate::scene::{Code, Problem, Scene, isolate};
 use crate::text;
 use output::{Output, Target};
-use pace::Pace;
+use pace::BatchProgress;
 use resume::Settings;
 
 /// The default width of a picture in pixels.
@@ -93,7 +93,7 @@ impl Batch {
         let work = self.work(form).map_err(|c| vec![c])?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;
         let mut records = Records::new(inputs.list);
-        let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
+        let mut pace = BatchProgress::begin(terminal, self.progress, inputs.bytes, records.read());
         let target = Target {
             path: self.output.as_deref(),
             resume: self.resume,
@@ -184,7 +184,7 @@ impl Batch {
         }
     }
 
-    fn work(&self, form: Form) -> Result<Work, CliError> {
+    fn work(&self, form: Form) -> Result<SceneWork, CliError> {
         let format = self.picture.requested_format().unwrap_or(Format::Png);
         let picture = self
             .picture
@@ -195,7 +195,7 @@ impl Batch {
             None => None,
             Some(folder) => {
                 picture.check(format)?;
-                Some(Drawn {
+                Some(PictureOutput {
                     folder: folder.clone(),
                     format,
                     fonts: picture.fonts()?,
@@ -215,7 +215,7 @@ impl Batch {
         if self.level.requests_wedging() {
             fields = fields.with_wedging();
         }
-        Ok(Work {
+        Ok(SceneWork {
             level: self.level,
             margins: self.margins.clone(),
             fields,
@@ -226,7 +226,7 @@ impl Batch {
 
     /// Returns the settings on which the output lines depend. They leave out the number of threads and the progress
     /// report, which do not change the lines.
-    fn settings(&self, work: &Work) -> Settings {
+    fn settings(&self, work: &SceneWork) -> Settings {
         let mut settings = vec![
             ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
             ("--fields", work.fields.to_string()),
@@ -250,12 +250,12 @@ impl Batch {
 }
 
 /// The work for every scene.
-struct Work {
+struct SceneWork {
     level: AnalysisArgs,
     margins: MarginArgs,
     fields: Fields,
     form: Form,
-    drawn: Option<Arc<Drawn>>,
+    drawn: Option<Arc<PictureOutput>>,
 }
 
 /// The form of the output.
@@ -268,7 +268,7 @@ enum Form {
 }
 
 /// The options for pictures, and their folder.
-struct Drawn {
+struct PictureOutput {
     folder: PathBuf,
     format: Format,
     picture: Picture,
@@ -277,17 +277,17 @@ struct Drawn {
 }
 
 /// A line of the output, with the exit status and the hash of its scene.
-struct Answer {
+struct OutputLine {
     line: String,
     ending: ExitStatus,
     /// The hash of the scene.
     scene: u64,
 }
 
-impl Work {
+impl SceneWork {
     /// Analyses one scene of the input, and returns its output line. A scene that is not valid gets a line with its
     /// problems. An error means that the picture cannot be written; later pictures would then fail too.
-    fn answer(&self, record: Record) -> Result<Answer, CliError> {
+    fn answer(&self, record: Record) -> Result<OutputLine, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
         let scene = resume::record_hash(&record);
@@ -295,7 +295,7 @@ impl Work {
         let caught = isolate(&shown, || self.examined(&origin, &name, &record));
         let (line, ending) =
             caught.unwrap_or_else(|fault| Ok(self.refused(&origin, &fault.list)))?;
-        Ok(Answer {
+        Ok(OutputLine {
             line,
             ending,
             scene,
@@ -358,7 +358,7 @@ impl Work {
     }
 }
 
-impl Drawn {
+impl PictureOutput {
     /// Draws a scene and writes the picture file, before the output line of the scene is written. Returns the name of
     /// the file, or the reason why the picture cannot be drawn.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {

@@ -12,7 +12,7 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
 use crate::cli::margins::{MarginArgs, SensitivityMargin};
 use crate::cli::page::Page;
-use crate::cli::progress::{Progress, Shown};
+use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::table::{self, Detail};
 use crate::cli::terminal::Terminal;
@@ -89,7 +89,7 @@ impl Check {
             }
         }
         // An internal fault of the program concerns only its scene: the other scenes are still answered.
-        let is_wrong = |(.., complaint): &Refused| !complaint.is_internal_fault();
+        let is_wrong = |(.., complaint): &RefusedFile| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
             return Err(refused
                 .into_iter()
@@ -133,11 +133,11 @@ impl Check {
         layout: Layout,
         terminal: &Terminal,
         width: Option<usize>,
-    ) -> Vec<Result<Answer, CliError>> {
+    ) -> Vec<Result<SceneResult, CliError>> {
         let shown = if terminal.shows_progress() {
-            Shown::WhenLong
+            BarVisibility::WhenLong
         } else {
-            Shown::Never
+            BarVisibility::Never
         };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
@@ -166,7 +166,7 @@ impl Check {
         options: &Options,
         layout: Layout,
         width: Option<usize>,
-    ) -> Result<Answer, CliError> {
+    ) -> Result<SceneResult, CliError> {
         let options = self.capacity.add_to(*options, &source.scene)?;
         let mut analysis = Analysis::with(&source.scene, &options);
         if self.no_notes {
@@ -196,7 +196,7 @@ impl Check {
 
     /// Returns the tables of all scenes. Below them are the totals of several scenes, and the meanings of the words if
     /// `--explain` is given.
-    fn tables(&self, done: &[Answer], width: Option<usize>) -> Page {
+    fn tables(&self, done: &[SceneResult], width: Option<usize>) -> Page {
         let mut page = Page::default();
         for (.., table) in done {
             page.append(table);
@@ -221,14 +221,14 @@ impl Check {
 }
 
 /// The exit status of a scene, the verdicts of its frames, and its JSON or its table.
-type Answer = (ExitStatus, Vec<Verdict>, String, Page);
+type SceneResult = (ExitStatus, Vec<Verdict>, String, Page);
 
 /// The number and the path of a file that got no answer, and the reason.
-type Refused = (usize, PathBuf, CliError);
+type RefusedFile = (usize, PathBuf, CliError);
 
 /// Returns the JSON of all files in their order: the answers of valid files, and the problems of refused files.
 /// `refused` must be sorted by the number of the file.
-fn objects(done: &[Answer], refused: &[Refused], layout: Layout) -> String {
+fn objects(done: &[SceneResult], refused: &[RefusedFile], layout: Layout) -> String {
     let mut objects: Vec<&str> = done.iter().map(|(_, _, json, _)| json.as_str()).collect();
     let problems = refused.iter().map(|(number, path, complaint)| {
         let file = path.to_string_lossy();

@@ -173,7 +173,7 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
     for problem in problems.iter().take(MAX_SHOWN_PROBLEMS) {
         let place = text
             .zip(problem.span.clone())
-            .and_then(|(text, span)| Place::new(text, span));
+            .and_then(|(text, span)| ProblemLine::new(text, span));
         out += &match place {
             Some(place) if place.is_shown_whole(problem, width) => {
                 pointed(&name, problem, &place, width)
@@ -190,15 +190,15 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
 }
 
 /// The line of a problem, and the range of the problem in this line, in characters.
-struct Place<'a> {
+struct ProblemLine<'a> {
     line: &'a str,
     range: Range<usize>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> ProblemLine<'a> {
     /// Finds the line in which a byte range of a text begins, and the part of the range in this line. Returns `None` if
     /// the range is not inside the text.
-    fn new(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
+    fn new(text: &'a str, span: Range<usize>) -> Option<ProblemLine<'a>> {
         let before = text.get(..span.start)?;
         let start = before.rfind('\n').map_or(0, |n| n + 1);
         let line = text[start..].lines().next().unwrap_or("");
@@ -211,7 +211,7 @@ impl<'a> Place<'a> {
             .chars()
             .count();
         let end = line.chars().count();
-        Some(Place {
+        Some(ProblemLine {
             line,
             range: from.min(end)..(from + inside.max(1)).min(end.max(from + 1)),
         })
@@ -271,7 +271,7 @@ fn plain(name: &str, problem: &Problem) -> String {
 
 /// Writes the message with the line and a mark below it. The lines above are replaced by empty lines, so that
 /// `ariadne` shows the right line number.
-fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
+fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
     // Add a space after the line, so that a problem at its very end, such as a file that ends early, can be marked.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
@@ -297,7 +297,7 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
 }
 
 /// Writes the message with a part of the line, for a line that is too long to be shown completely.
-fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
+fn windowed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     // Reserve four columns: two spaces before the text, and one `…` at each of its ends.
     let room = width.map_or(EXCERPT_COLUMNS, |width| {
         width

@@ -19,7 +19,7 @@ use crate::output::file::Existing;
 use crate::result::import_json;
 use crate::scene::format::SceneFile;
 use crate::scene::{Note, NoteCode, Scene};
-use value::{DrawnAt, Unit, WrittenIn, gravity, scale, stone};
+use value::{FormatArg, ScaleArg, Unit, gravity, scale, stone};
 
 /// At most this many moved bodies are listed; `--json` lists all.
 const MAX_LISTED_BODIES: usize = 12;
@@ -44,13 +44,13 @@ pub(crate) struct Import {
     output: Option<PathBuf>,
     /// Format of the drawing, if its file name does not show it
     #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<WrittenIn>,
+    format: Option<FormatArg>,
     /// Replace the scene file if it exists
     #[arg(long, requires = "output")]
     force: bool,
     /// Scale of the drawing as 1:50, or metres per unit of the drawing [default: 1:1]
     #[arg(long, value_name = "1:N", value_parser = scale)]
-    scale: Option<DrawnAt>,
+    scale: Option<ScaleArg>,
     /// Unit of the drawing's coordinates [default: the unit that the drawing states, else m]
     #[arg(long, value_name = "UNIT", value_enum)]
     unit: Option<Unit>,
@@ -162,7 +162,7 @@ impl Import {
         if let Some(file) = file {
             destination::apart(&[file.to_owned()], &[&self.drawing])?;
         }
-        if let (Some(DrawnAt::Metres(metres)), Some(_)) = (self.scale, self.unit) {
+        if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit) {
             let why = format!(
                 "--scale {metres} is already in metres per unit, so --unit has no effect; leave one of them out, or give the scale as 1:50"
             );
@@ -174,12 +174,12 @@ impl Import {
     fn format(&self) -> Result<Format, CliError> {
         if let Some(format) = self.format {
             return Ok(match format {
-                WrittenIn::Svg => Format::Svg,
-                WrittenIn::Dxf => Format::Dxf,
-                WrittenIn::Geojson => Format::GeoJson,
-                WrittenIn::Wkt => Format::Wkt,
-                WrittenIn::Contacts => Format::Contacts,
-                WrittenIn::Compas => Format::Compas,
+                FormatArg::Svg => Format::Svg,
+                FormatArg::Dxf => Format::Dxf,
+                FormatArg::Geojson => Format::GeoJson,
+                FormatArg::Wkt => Format::Wkt,
+                FormatArg::Contacts => Format::Contacts,
+                FormatArg::Compas => Format::Compas,
             });
         }
         let ending = self
@@ -235,11 +235,11 @@ impl Import {
     fn options(&self) -> Options {
         Options {
             scale: match (self.scale, self.unit) {
-                (Some(DrawnAt::Metres(metres)), _) => Some(metres),
+                (Some(ScaleArg::Metres(metres)), _) => Some(metres),
                 (_, unit) => unit.map(Unit::metres),
             },
             ratio: match self.scale {
-                Some(DrawnAt::Ratio(ratio)) => Some(ratio),
+                Some(ScaleArg::Ratio(ratio)) => Some(ratio),
                 _ => None,
             },
             ground_layers: self.ground_layer.clone(),

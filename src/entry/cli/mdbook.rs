@@ -17,11 +17,11 @@ use crate::report::book;
 #[derive(Debug, Args)]
 pub(crate) struct MdBook {
     #[command(subcommand)]
-    question: Option<Question>,
+    command: Option<MdBookCommand>,
 }
 
 #[derive(Debug, Subcommand)]
-enum Question {
+enum MdBookCommand {
     /// Report whether a renderer is supported: exit with 0 for html, with 1 for any other
     Supports {
         /// The renderer's name
@@ -31,7 +31,7 @@ enum Question {
 
 impl MdBook {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        if let Some(Question::Supports { renderer }) = &self.question {
+        if let Some(MdBookCommand::Supports { renderer }) = &self.command {
             return Ok(if renderer == "html" {
                 ExitStatus::Done
             } else {

@@ -22,14 +22,14 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Starts a progress bar with this number of steps. With [`Shown::Never`], nothing is drawn.
-    pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
+    /// Starts a progress bar with this number of steps. With [`BarVisibility::Never`], nothing is drawn.
+    pub(crate) fn begin(steps: usize, shown: BarVisibility) -> Progress {
         match shown {
-            Shown::Never => Progress {
+            BarVisibility::Never => Progress {
                 bar: ProgressBar::hidden(),
                 waiter: None,
             },
-            Shown::WhenLong => Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr()),
+            BarVisibility::WhenLong => Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr()),
         }
     }
 
@@ -78,7 +78,7 @@ impl Progress {
 
 /// Whether a bar is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub(crate) enum BarVisibility {
     /// Never: there is no terminal, or the user wants no bar.
     Never,
     /// If the work takes long.

@@ -23,7 +23,7 @@ use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::ExitStatus;
 use crate::cli::picture::{Format, or_split};
-use crate::cli::progress::{Progress, Shown};
+use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::script;
 use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
@@ -166,9 +166,9 @@ impl Render {
         terminal: &Terminal,
     ) -> Vec<Result<Rendered, CliError>> {
         let shown = if terminal.shows_progress() {
-            Shown::WhenLong
+            BarVisibility::WhenLong
         } else {
-            Shown::Never
+            BarVisibility::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut analysis_options = self.level.options();

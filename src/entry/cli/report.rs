@@ -18,7 +18,7 @@ use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
 use crate::cli::look::StyleArgs;
-use crate::cli::progress::{Progress, Shown};
+use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::script;
 use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
@@ -85,15 +85,15 @@ const DEFAULT_MARGINS: [MarginKind; 3] = [
 ];
 
 /// Files that are not valid scenes, with the error for the command line.
-type Wrong = Vec<(Refused, CliError)>;
+type InvalidFiles = Vec<(Refused, CliError)>;
 
 /// The piece of a task and its exit status, or the files that are not valid scenes.
-type Described = Result<(Piece, ExitStatus), Wrong>;
+type TaskResult = Result<(Piece, ExitStatus), InvalidFiles>;
 
 /// The results of all tasks.
-struct Collected {
+struct TaskResults {
     pieces: Vec<Piece>,
-    wrong: Wrong,
+    wrong: InvalidFiles,
     /// The worst exit status.
     ending: ExitStatus,
 }
@@ -119,7 +119,7 @@ impl Report {
                 Timing::LeftOut
             },
         };
-        let Collected {
+        let TaskResults {
             pieces,
             wrong,
             ending,
@@ -193,7 +193,7 @@ impl Report {
         form: Form,
         report_options: &ReportOptions,
         terminal: &Terminal,
-    ) -> Result<Collected, CliError> {
+    ) -> Result<TaskResults, CliError> {
         let options = analysis::Options {
             // JSON contains margins only if they were requested, as in `check`.
             margins: self.margins || form != Form::Json,
@@ -204,9 +204,9 @@ impl Report {
             ..self.level.options()
         };
         let shown = if terminal.shows_progress() {
-            Shown::WhenLong
+            BarVisibility::WhenLong
         } else {
-            Shown::Never
+            BarVisibility::Never
         };
         let progress = Progress::begin(tasks.len(), shown);
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
@@ -220,7 +220,7 @@ impl Report {
             // The overview lists a scene on which the program failed like a file that is not a valid scene.
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
-        let described: Vec<Result<Described, CliError>> = if self.accuracy_study {
+        let described: Vec<Result<TaskResult, CliError>> = if self.accuracy_study {
             // Analyse one scene after the other, because parallel work would disturb the measured times.
             numbered.iter().map(one).collect()
         } else {
@@ -240,7 +240,7 @@ impl Report {
         if self.sort {
             pieces.sort_by(|a: &Piece, b: &Piece| a.row.reserve.total_cmp(&b.row.reserve));
         }
-        Ok(Collected {
+        Ok(TaskResults {
             pieces,
             wrong,
             ending,
@@ -298,7 +298,7 @@ impl Report {
         form: Form,
         report_options: &ReportOptions,
         options: &analysis::Options,
-    ) -> Result<Described, CliError> {
+    ) -> Result<TaskResult, CliError> {
         let mut read = match self.read(task) {
             Ok(read) => read,
             Err(wrong) => return Ok(Err(wrong)),
@@ -333,7 +333,7 @@ impl Report {
     }
 
     /// Reads the scenes of a task with their text. The error contains the files that are not valid scenes.
-    fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, Wrong> {
+    fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, InvalidFiles> {
         let mut read = Vec::new();
         let mut wrong = Vec::new();
         for path in task.paths() {

@@ -10,7 +10,7 @@ use crate::cli::complaint::CliError;
 use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
-use crate::cli::progress::{Progress, Shown};
+use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::terminal::Terminal;
 use crate::output::file::{Existing, WriteError};
 use crate::snapshot::outcome::{Acceptance, folders};
@@ -62,9 +62,9 @@ impl Snapshot {
             return Err(vec![self.nothing()]);
         }
         let shown = if terminal.shows_progress() {
-            Shown::WhenLong
+            BarVisibility::WhenLong
         } else {
-            Shown::Never
+            BarVisibility::Never
         };
         let folders = folders(found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file));
         let access = if accepts { Access::Write } else { Access::Read };

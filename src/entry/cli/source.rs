@@ -138,7 +138,7 @@ pub(crate) fn read_apart_from_faults(
 }
 
 /// A path as given, with the scene that was read from it, or the error.
-pub(crate) type Outcome = (PathBuf, Result<Source, CliError>);
+pub(crate) type ReadResult = (PathBuf, Result<Source, CliError>);
 
 /// Reads all scenes, and returns a scene or an error for each file. The files are in the order of `paths`, and the
 /// files of a folder in the order of their names.
@@ -146,7 +146,7 @@ pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
     tolerance: Option<f64>,
-) -> Result<Vec<Outcome>, CliError> {
+) -> Result<Vec<ReadResult>, CliError> {
     let paths = files(paths)?;
     if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
         return Err(CliError::CommandLine(

@@ -15,7 +15,7 @@ use crate::cli::terminal::Terminal;
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
 /// The time of change and the size of a file in bytes; `None` while an editor replaces the file.
-type Mark = Option<(SystemTime, u64)>;
+type FileStamp = Option<(SystemTime, u64)>;
 
 /// Runs a command, and runs it again whenever one of the files changes, until the process is stopped.
 ///
@@ -46,11 +46,11 @@ pub(crate) fn repeat(
     }
 }
 
-fn marks(files: &[PathBuf]) -> Vec<Mark> {
+fn marks(files: &[PathBuf]) -> Vec<FileStamp> {
     files.iter().map(|file| mark(file)).collect()
 }
 
-fn mark(file: &Path) -> Mark {
+fn mark(file: &Path) -> FileStamp {
     let known = fs::metadata(file).ok()?;
     Some((known.modified().ok()?, known.len()))
 }

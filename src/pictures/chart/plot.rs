@@ -24,14 +24,14 @@ const UNITS_PER_PIXEL: i32 = 10;
 const FONT_FAMILY: &str = "sans-serif";
 
 /// The result of drawing: the error of plotters if it fails.
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+type DrawingResult = Result<(), Box<dyn std::error::Error>>;
 
 /// Returns the SVG document that `draw` writes, scaled to this width and height in pixels. `draw` must draw the picture
 /// [`UNITS_PER_PIXEL`] times as large. `title` is for screen readers.
 pub(super) fn document(
     (width, height): (i32, i32),
     title: &str,
-    draw: impl FnOnce(&mut String) -> Drawn,
+    draw: impl FnOnce(&mut String) -> DrawingResult,
 ) -> Result<String, ChartError> {
     static FONTS: Once = Once::new();
     FONTS.call_once(|| {
@@ -122,7 +122,7 @@ fn tick(value: f64) -> String {
 }
 
 /// Draws a histogram into `svg`.
-pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
+pub(super) fn bars(chart: &Bars, svg: &mut String) -> DrawingResult {
     let area = small(svg);
     let (first, last) = (chart.edges[0], chart.edges[chart.edges.len() - 1]);
     let most = chart.counts.iter().copied().max().unwrap_or(1) as f64;

@@ -36,7 +36,7 @@ pub struct WriteError {
 const MAX_LINKS: usize = 40;
 
 /// The temporary files that exist.
-static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes all files, or none of them if one cannot be written. All files are first written under temporary names, and
 /// then renamed.
@@ -76,7 +76,7 @@ pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(
 /// Deletes all temporary files, and prevents new ones until the returned value is dropped. The command line calls this
 /// function before a signal ends the process.
 pub(crate) fn abandon() -> impl Drop {
-    let mut beside = beside();
+    let mut beside = temporary_files();
     for path in beside.drain(..) {
         // The file may already be deleted. No caller can handle an error here, so the error is ignored.
         let _ = fs::remove_file(path);
@@ -103,49 +103,51 @@ fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-fn beside() -> MutexGuard<'static, Vec<PathBuf>> {
+fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     // A poisoned lock is no problem: the list is valid even if a thread panicked while it held the lock.
-    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+    TEMPORARY_FILES
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file that is prepared for writing.
-enum Ready {
+enum PreparedFile {
     /// Its bytes are in a temporary file.
-    Beside(Beside),
+    TemporaryFile(TemporaryFile),
     /// A device or a pipe, open for writing.
     Stream(File),
 }
 
-impl Ready {
+impl PreparedFile {
     fn put(self, bytes: &[u8], existing: Existing) -> io::Result<()> {
         match self {
-            Ready::Beside(file) => file.put(existing),
-            Ready::Stream(mut stream) => stream.write_all(bytes),
+            PreparedFile::TemporaryFile(file) => file.put(existing),
+            PreparedFile::Stream(mut stream) => stream.write_all(bytes),
         }
     }
 }
 
 /// A temporary file that is in the list of temporary files, and the path to which it will be renamed.
-struct Beside {
+struct TemporaryFile {
     /// The file; `None` after it was renamed.
     file: Option<NamedTempFile>,
     target: PathBuf,
 }
 
-impl Beside {
-    fn make(target: PathBuf) -> io::Result<Beside> {
+impl TemporaryFile {
+    fn make(target: PathBuf) -> io::Result<TemporaryFile> {
         let folder = target
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
             .unwrap_or(Path::new("."));
         // Lock the list before the file is created, so that no file exists without an entry in the list.
-        let mut list = beside();
+        let mut list = temporary_files();
         let file = builder()
             .tempfile_in(folder)
             .map_err(|error| nameless(&error))?;
         list.push(file.path().to_owned());
         drop(list);
-        Ok(Beside {
+        Ok(TemporaryFile {
             file: Some(file),
             target,
         })
@@ -164,7 +166,7 @@ impl Beside {
     }
 
     fn put(mut self, existing: Existing) -> io::Result<()> {
-        let mut list = beside();
+        let mut list = temporary_files();
         let Some(file) = self.file.take() else {
             return Ok(());
         };
@@ -179,10 +181,10 @@ impl Beside {
     }
 }
 
-impl Drop for Beside {
+impl Drop for TemporaryFile {
     fn drop(&mut self) {
         if let Some(file) = self.file.take() {
-            let mut list = beside();
+            let mut list = temporary_files();
             list.retain(|p| p != file.path());
             drop(file);
         }
@@ -209,7 +211,7 @@ fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
 }
 
 /// Prepares a file for writing. Writes `bytes` to a temporary file, or opens the path if it is a device or pipe.
-fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
+fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<PreparedFile> {
     let target = followed(path)?;
     let old = fs::metadata(&target).ok();
     if let Some(old) = &old {
@@ -228,12 +230,12 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
         // Open the existing file without changing it: a file that this user may not write must not be replaced either.
         let open = OpenOptions::new().write(true).open(&target)?;
         if !old.is_file() {
-            return Ok(Ready::Stream(open));
+            return Ok(PreparedFile::Stream(open));
         }
     }
-    let mut file = Beside::make(target)?;
+    let mut file = TemporaryFile::make(target)?;
     file.fill(bytes, old.as_ref())?;
-    Ok(Ready::Beside(file))
+    Ok(PreparedFile::TemporaryFile(file))
 }
 
 /// Follows symbolic links and returns the path to which they lead. A file need not exist at this path.

@@ -135,10 +135,10 @@ pub(super) fn face(id: fontdb::ID) -> Option<Face> {
 }
 
 /// The built-in fonts, and the id that resvg gave each.
-type Ours = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
+type BuiltInFonts = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
 
-fn fonts() -> &'static Ours {
-    static FONTS: OnceLock<Ours> = OnceLock::new();
+fn fonts() -> &'static BuiltInFonts {
+    static FONTS: OnceLock<BuiltInFonts> = OnceLock::new();
     FONTS.get_or_init(|| {
         let mut fonts = fontdb::Database::new();
         let mut known = Vec::new();

@@ -14,7 +14,7 @@
 
 mod place;
 
-use self::place::Places;
+use self::place::BoxGrid;
 use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
 use crate::geometry::{Bounds, Vector};
@@ -46,7 +46,7 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
     let original = arrows.clone();
     // `placed` contains the bounding boxes of the arrows whose final positions are known.
-    let mut placed = Places::sized_for(original.iter().map(space_around));
+    let mut placed = BoxGrid::sized_for(original.iter().map(space_around));
     let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
     for i in 0..arrows.len() {
@@ -71,7 +71,7 @@ fn offset_of_least_change(
     across: Vector,
     ideal: f64,
     arrows: &[ForceArrow],
-    placed: &Places,
+    placed: &BoxGrid,
 ) -> f64 {
     let clear = |offset: &f64| {
         let there = ForceArrow {

@@ -2,7 +2,7 @@
 
 mod picture;
 
-use picture::{DISC_RADIUS, Marked, disc, numbers, structure, view};
+use picture::{DISC_RADIUS, NumberedMark, disc, numbers, structure, view};
 
 use super::layout::MAX_MARGIN;
 use super::option::Options;
@@ -138,14 +138,14 @@ fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Gro
 }
 
 /// Returns the marks in the picture, and the entries of the list below the picture.
-fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
+fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
     let mut marks = Vec::new();
     let mut entries = Vec::new();
     let problems = sketch.problems.list.iter().zip(&sketch.places);
     for (i, (problem, spot)) in problems.enumerate().take(MAX_MARKED) {
         let number = i + 1;
         if let Some(Spot { at, bodies }) = spot {
-            marks.push(Marked {
+            marks.push(NumberedMark {
                 at: *at,
                 bodies: bodies.clone(),
                 code: Some(problem.code),
@@ -171,7 +171,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<ListEntry>) {
             name(gap.bodies[1])
         );
         entries.push(ListEntry::numbered(number, words));
-        marks.push(Marked {
+        marks.push(NumberedMark {
             at: gap.at,
             bodies: gap.bodies.to_vec(),
             code: None,

@@ -24,7 +24,7 @@ use crate::drawing::{
 };
 use crate::geometry::{Bounds, Point};
 use crate::wording;
-use plan::{Plan, Small, falling};
+use plan::{Plan, SmallPicture, falling};
 
 /// Opacity of the area of carried forces.
 const AREA_OPACITY: f64 = 0.34;
@@ -241,7 +241,7 @@ fn before_stroke(theme: &Theme) -> Stroke {
 
 /// Draws a small picture of a mechanism, with the number of its edge and an arrow in the direction in which the loaded
 /// point begins to move.
-fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &Small, ink: &mut Ink) -> Group {
+fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut Ink) -> Group {
     let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
     let scene = &analysis.scene;
     let place = |point: Point| pen.camera.place(small.place(point));

@@ -234,7 +234,7 @@ const MIN_LONGEST_LOAD_ARROW: f64 = 24.0;
 /// longest load arrow, in metres.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
-    let bare = FigureContext::new(analysis, options, &Bare);
+    let bare = FigureContext::new(analysis, options, &NoArrows);
     let scale = Layout::new(&bare, analysis.frames.len()).scale;
     let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
     let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
@@ -266,9 +266,9 @@ fn lengthen_loads(marks: &mut Marks, least: f64) {
 }
 
 /// A content without arrows, to compute the scale of a figure before its arrows are known.
-struct Bare;
+struct NoArrows;
 
-impl PanelContent for Bare {
+impl PanelContent for NoArrows {
     fn about(&self) -> About {
         About::default()
     }

@@ -85,7 +85,7 @@ pub(crate) fn segments(
 
 /// A force with its line of action.
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct LineOfAction {
     origin: ForceOrigin,
     /// A point of the line: where the force enters the block.
     at: Point,
@@ -94,8 +94,8 @@ struct Line {
 
 /// Returns the forces that other bodies and robots exert on each block, with their lines of action. The list is indexed
 /// by block.
-fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<Line>> {
-    let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
+fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfAction>> {
+    let mut lines: Vec<Vec<LineOfAction>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, frame_analysis);
     for (number, contact) in frame_analysis.contacts.iter().enumerate() {
         if bearings[number].is_none() {
@@ -110,7 +110,7 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<Line>> {
         };
         for (body, force) in [(first, force), (second, -force)] {
             if let BodyId::Block(block) = body {
-                lines[block.0].push(Line {
+                lines[block.0].push(LineOfAction {
                     origin: ForceOrigin::Contact(number),
                     at: contact.resultant.at,
                     force,
@@ -121,7 +121,7 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<Line>> {
     for robot in &frame_analysis.robots {
         let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
         if robot.force.norm() > noise {
-            lines[robot.block.0].push(Line {
+            lines[robot.block.0].push(LineOfAction {
                 origin: ForceOrigin::Robot(robot.robot),
                 at: shifted_by_torque(robot.at, robot.force, robot.torque),
                 force: robot.force,
@@ -133,14 +133,14 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<Line>> {
 
 /// Returns the weight and the loads of each block with their lines of action, indexed by block. A load that is only a
 /// torque shifts the line of action of the weight.
-fn loads(scene: &Scene) -> Vec<Vec<Line>> {
+fn loads(scene: &Scene) -> Vec<Vec<LineOfAction>> {
     let mut torques = vec![0.0; scene.blocks.len()];
     for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
         torques[load.block.0] += load.torque;
     }
     let weight = |(block, torque): (&Block, &f64)| {
         let force = scene.down() * block.weight;
-        let line = Line {
+        let line = LineOfAction {
             origin: ForceOrigin::Resultant,
             at: shifted_by_torque(block.centroid, force, *torque),
             force,
@@ -151,10 +151,10 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
             Vec::new()
         }
     };
-    let mut lines: Vec<Vec<Line>> = scene.blocks.iter().zip(&torques).map(weight).collect();
+    let mut lines: Vec<Vec<LineOfAction>> = scene.blocks.iter().zip(&torques).map(weight).collect();
     for (number, load) in scene.loads.iter().enumerate() {
         if load.force.norm() > 0.0 {
-            lines[load.block.0].push(Line {
+            lines[load.block.0].push(LineOfAction {
                 origin: ForceOrigin::Load(number),
                 at: shifted_by_torque(load.at, load.force, load.torque),
                 force: load.force,
@@ -178,8 +178,8 @@ fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
 struct BlockForces<'a> {
     id: BlockId,
     block: &'a Block,
-    pressing: &'a [Line],
-    loads: &'a [Line],
+    pressing: &'a [LineOfAction],
+    loads: &'a [LineOfAction],
 }
 
 impl BlockForces<'_> {
@@ -228,11 +228,11 @@ impl BlockForces<'_> {
 
     /// Returns the resultant of the weight and all loads of the block. Returns `None` if only one of these forces acts,
     /// or if their sum is zero.
-    fn total_load(&self) -> Option<Line> {
+    fn total_load(&self) -> Option<LineOfAction> {
         let centroid = self.block.centroid;
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
         let moments = self.loads.iter().map(|l| cross(l.at - centroid, l.force));
-        let line = Line {
+        let line = LineOfAction {
             origin: ForceOrigin::Resultant,
             at: shifted_by_torque(centroid, force, moments.sum()),
             force,
@@ -245,9 +245,9 @@ impl BlockForces<'_> {
     /// end or leaves the block.
     fn funicular(
         &self,
-        first: &Line,
-        loads: &[Line],
-        last: Option<&Line>,
+        first: &LineOfAction,
+        loads: &[LineOfAction],
+        last: Option<&LineOfAction>,
     ) -> Option<Vec<ThrustSegment>> {
         let tolerance = LENGTH_TOL * self.size();
         let sum: f64 = self.pressing.iter().map(|l| l.force.norm()).sum();
@@ -331,8 +331,8 @@ impl BlockForces<'_> {
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
-        let given: Vec<&Line> = given.collect();
-        let piece = |line: &Line, to: Point| {
+        let given: Vec<&LineOfAction> = given.collect();
+        let piece = |line: &LineOfAction, to: Point| {
             let segment = self.segment(line.origin, (line.at, to), line.force)?;
             Some(ThrustSegment {
                 through: false,
@@ -357,7 +357,7 @@ impl BlockForces<'_> {
     /// Returns the common point of a schematic path: the mean of the points at which the forces act, weighted with the
     /// magnitudes of the forces. If this mean lies outside the block, or for fewer than three forces, returns the
     /// centroid of the block.
-    fn meeting(&self, given: &[&Line]) -> Point {
+    fn meeting(&self, given: &[&LineOfAction]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;
         let arms = given
@@ -389,7 +389,7 @@ fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
 /// Returns the intersection of the line of action of `force` through `at` and the line of action of a load. If the two
 /// lines coincide within `near` metres, returns the point on the line that is nearest to the load. Returns `None` for
 /// other parallel lines.
-fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
+fn intersection(at: Point, force: Vector, load: &LineOfAction, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
     let between = load.at - at;
@@ -407,7 +407,7 @@ fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Poin
 }
 
 /// Returns all permutations of a few loads. The first permutation has the order of `loads`.
-fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
+fn permutations(loads: &[LineOfAction]) -> Vec<Vec<LineOfAction>> {
     let Some((first, rest)) = loads.split_first() else {
         return vec![Vec::new()];
     };

@@ -71,26 +71,26 @@ const MIN_NAMED_SHARE: f64 = 0.01;
 
 /// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
 /// its limit, provided that the text of the figure names it.
-pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Marked<'a>> {
+pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<MarkedJoint<'a>> {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, frame_analysis);
     if all.iter().any(Nearness::reached) {
         let reached = all.into_iter().filter(Nearness::reached);
-        return reached.map(|n| Marked::new(n.contact, true)).collect();
+        return reached.map(|n| MarkedJoint::new(n.contact, true)).collect();
     }
     let nearest = nearest(&all).filter(|_| names_nearest(context));
-    let nearest = nearest.map(|n| Marked::new(n.contact, false));
+    let nearest = nearest.map(|n| MarkedJoint::new(n.contact, false));
     nearest.into_iter().collect()
 }
 
 /// A joint that figures mark with a diamond.
-pub(crate) struct Marked<'a> {
+pub(crate) struct MarkedJoint<'a> {
     pub contact: &'a Contact,
     /// `true` at the limit (full diamond); `false` for the joint nearest to its limit (open diamond).
     pub reached: bool,
 }
 
-impl<'a> Marked<'a> {
+impl<'a> MarkedJoint<'a> {
     fn new(contact: &'a Contact, reached: bool) -> Self {
         Self { contact, reached }
     }

@@ -33,11 +33,11 @@ pub enum Form {
 pub struct Piece {
     /// Its row in the table of all scenes.
     pub row: Row,
-    body: Body,
+    body: PieceContent,
 }
 
 #[derive(Debug)]
-enum Body {
+enum PieceContent {
     Text(String),
     Files(String, Vec<OutputFile>),
     Sheets(Vec<print::Page>),
@@ -70,13 +70,13 @@ impl Piece {
     /// If the text of a figure cannot be laid out.
     pub fn new(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, ReportError> {
         let body = match form {
-            Form::Html | Form::Split => Body::Text(html::section(entry, number)),
+            Form::Html | Form::Split => PieceContent::Text(html::section(entry, number)),
             Form::Markdown => {
                 let (words, files) = markdown::section(entry, number, stem)?;
-                Body::Files(words, files)
+                PieceContent::Files(words, files)
             }
-            Form::Pdf => Body::Sheets(print::section(entry)),
-            Form::Json => Body::Text(json(entry)),
+            Form::Pdf => PieceContent::Sheets(print::section(entry)),
+            Form::Json => PieceContent::Text(json(entry)),
         };
         Ok(Piece {
             row: Row {
@@ -107,9 +107,9 @@ fn json(entry: &Entry) -> String {
     }
 }
 
-impl Default for Body {
-    fn default() -> Body {
-        Body::Text(String::new())
+impl Default for PieceContent {
+    fn default() -> PieceContent {
+        PieceContent::Text(String::new())
     }
 }
 
@@ -189,13 +189,13 @@ impl Report {
     /// # Errors
     /// If a PDF cannot be written.
     pub fn files(mut self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
-        let bodies: Vec<Body> = self
+        let bodies: Vec<PieceContent> = self
             .pieces
             .iter_mut()
             .map(|p| std::mem::take(&mut p.body))
             .collect();
         let head = self.head();
-        let texts = || bodies.iter().map(Body::text).collect::<Vec<_>>();
+        let texts = || bodies.iter().map(PieceContent::text).collect::<Vec<_>>();
         match form {
             Form::Html => {
                 let page = html::whole(&head, &texts());
@@ -206,7 +206,7 @@ impl Report {
                 let text = markdown::head(&head) + &texts().concat();
                 let mut files = vec![(format!("{stem}.md"), text.into_bytes())];
                 for body in bodies {
-                    if let Body::Files(_, made) = body {
+                    if let PieceContent::Files(_, made) = body {
                         files.extend(made);
                     }
                 }
@@ -214,7 +214,7 @@ impl Report {
             }
             Form::Pdf => {
                 let scenes = bodies.into_iter().map(|body| match body {
-                    Body::Sheets(pages) => pages,
+                    PieceContent::Sheets(pages) => pages,
                     _ => Vec::new(),
                 });
                 let bytes = printed(&head, scenes.collect())?;
@@ -236,11 +236,11 @@ impl Report {
     }
 }
 
-impl Body {
+impl PieceContent {
     fn text(&self) -> &str {
         match self {
-            Body::Text(text) | Body::Files(text, _) => text,
-            Body::Sheets(_) => "",
+            PieceContent::Text(text) | PieceContent::Files(text, _) => text,
+            PieceContent::Sheets(_) => "",
         }
     }
 }

@@ -46,11 +46,11 @@ struct Edge<'a> {
 #[derive(Serialize)]
 struct Balance {
     torque: Number,
-    interfaces: Vec<Pressed>,
+    interfaces: Vec<InterfaceForces>,
 }
 
 #[derive(Serialize)]
-struct Pressed {
+struct InterfaceForces {
     interface: usize,
     normal_forces: Pair,
     friction_force: Number,
@@ -88,7 +88,7 @@ impl<'a> Capacity<'a> {
 
 impl Balance {
     fn new(vertex: &CapacityVertex) -> Balance {
-        let pressed = vertex.contacts.iter().map(|forces| Pressed {
+        let pressed = vertex.contacts.iter().map(|forces| InterfaceForces {
             interface: forces.interface,
             normal_forces: forces.normal.map(Number),
             friction_force: Number(forces.friction),

@@ -31,7 +31,7 @@ pub(crate) fn imported_json(imported: &Imported) -> String {
 
 fn log(imported: &Imported, text: Option<String>) -> String {
     let scene = &imported.scene;
-    let done = Done {
+    let done = ImportReport {
         drystone: env!("CARGO_PKG_VERSION"),
         blocks: scene.blocks.len(),
         ground: scene.ground.len(),
@@ -46,7 +46,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
             })
             .collect(),
         snapped: (imported.snapped.iter())
-            .map(|s| Moved {
+            .map(|s| SnappedBody {
                 body: &s.body,
                 element: &s.element,
                 corners: s.corners,
@@ -64,7 +64,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
 }
 
 #[derive(Serialize)]
-struct Done<'a> {
+struct ImportReport<'a> {
     drystone: &'static str,
     blocks: usize,
     ground: usize,
@@ -73,7 +73,7 @@ struct Done<'a> {
     scene: Option<String>,
     notes: &'a [String],
     warnings: Vec<Warning<'a>>,
-    snapped: Vec<Moved<'a>>,
+    snapped: Vec<SnappedBody<'a>>,
 }
 
 #[derive(Serialize)]
@@ -85,7 +85,7 @@ struct Warning<'a> {
 }
 
 #[derive(Serialize)]
-struct Moved<'a> {
+struct SnappedBody<'a> {
     body: &'a str,
     element: &'a str,
     corners: usize,

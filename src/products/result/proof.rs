@@ -17,7 +17,7 @@ pub(super) enum ProofNumbers {
     Mechanism {
         power: Number,
         worst_violation: Number,
-        no_balance_below: Below,
+        no_balance_below: BalanceBound,
     },
 }
 
@@ -25,7 +25,7 @@ pub(super) enum ProofNumbers {
 /// forces balance at all.
 #[derive(Serialize)]
 #[serde(untagged)]
-pub(super) enum Below {
+pub(super) enum BalanceBound {
     Sum(Number),
     Unbounded(&'static str),
 }
@@ -51,8 +51,8 @@ impl ProofNumbers {
                 power: Number(power),
                 worst_violation: Number(worst_violation),
                 no_balance_below: match proof.excluded_force_sum() {
-                    sum if sum.is_finite() => Below::Sum(Number(sum)),
-                    _ => Below::Unbounded("unbounded"),
+                    sum if sum.is_finite() => BalanceBound::Sum(Number(sum)),
+                    _ => BalanceBound::Unbounded("unbounded"),
                 },
             },
         }

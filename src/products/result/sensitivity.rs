@@ -17,11 +17,11 @@ use crate::scene::{BodyId, Scene};
 pub(super) struct Sensitivity<'a> {
     parameter: &'static str,
     ends: Vec<End<'a>>,
-    without_value: Vec<Absent>,
+    without_value: Vec<AbsentEnd>,
 }
 
 #[derive(Serialize)]
-struct Absent {
+struct AbsentEnd {
     end: &'static str,
     reason: &'static str,
 }
@@ -34,7 +34,7 @@ struct End<'a> {
     weights: Vec<Weight<'a>>,
     friction: Vec<Friction<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    friction_of_all: Option<One>,
+    friction_of_all: Option<ScalarSlope>,
     loads: Vec<Load<'a>>,
 }
 
@@ -48,14 +48,14 @@ struct Vertex<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     along: Option<Pair>,
     #[serde(flatten)]
-    slope: Two,
+    slope: VectorSlope,
 }
 
 #[derive(Serialize)]
 struct Weight<'a> {
     block: &'a str,
     #[serde(flatten)]
-    slope: One,
+    slope: ScalarSlope,
 }
 
 #[derive(Serialize)]
@@ -64,7 +64,7 @@ struct Friction<'a> {
     interface: usize,
     bodies: [&'a str; 2],
     #[serde(flatten)]
-    slope: One,
+    slope: ScalarSlope,
 }
 
 #[derive(Serialize)]
@@ -74,7 +74,7 @@ struct Load<'a> {
     block: &'a str,
     at: Pair,
     #[serde(flatten)]
-    slope: Two,
+    slope: VectorSlope,
 }
 
 /// A derivative, or the derivatives along x and y.
@@ -84,8 +84,8 @@ struct Derivative<T> {
     slope: Value<T>,
 }
 
-type One = Derivative<Number>;
-type Two = Derivative<Pair>;
+type ScalarSlope = Derivative<Number>;
+type VectorSlope = Derivative<Pair>;
 
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -117,7 +117,7 @@ impl<'a> Sensitivity<'a> {
         let absent = [("low", &found.low), ("high", &found.high)];
         let absent = absent.into_iter().filter_map(|(end, found)| {
             let reason = word(*found.as_ref().err()?);
-            Some(Absent { end, reason })
+            Some(AbsentEnd { end, reason })
         });
         Sensitivity {
             parameter: found.kind.word(),
@@ -199,19 +199,19 @@ impl<'a> Vertex<'a> {
     }
 }
 
-fn one(slope: Slope) -> One {
+fn one(slope: Slope) -> ScalarSlope {
     let sides = slope.both().map(|sides| sides.map(Number));
     Derivative::new(slope.unique().map(Number), sides)
 }
 
-fn two([x, y]: [Slope; 2]) -> Two {
+fn two([x, y]: [Slope; 2]) -> VectorSlope {
     let unique = x.unique().zip(y.unique()).map(|(x, y)| [x, y].map(Number));
     let sides = x.both().zip(y.both());
     let sides = sides.map(|(x, y)| [0, 1].map(|side| [x[side], y[side]].map(Number)));
     Derivative::new(unique, sides)
 }
 
-fn along_edge(direction: Vector, slope: Slope) -> Two {
+fn along_edge(direction: Vector, slope: Slope) -> VectorSlope {
     let pair = |slope: f64| arrow(direction * slope);
     Derivative::new(
         slope.unique().map(pair),

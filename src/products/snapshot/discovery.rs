@@ -83,7 +83,7 @@ pub struct Discovered {
 /// # Errors
 /// All errors in scenes and settings, files that cannot be read, and scenes that would share a reference.
 pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<DiscoveryError>> {
-    let mut search = Search::default();
+    let mut search = SnapshotSearch::default();
     search.add_places(places);
     let names = search.candidates.iter().map(|(_, base)| shown(base));
     let filter = Filter::new(only, names);
@@ -142,7 +142,7 @@ pub(super) fn shown(path: &Path) -> String {
 }
 
 #[derive(Default)]
-struct Search {
+struct SnapshotSearch {
     /// Possible scenes: the path of each, and the base path of its references.
     candidates: Vec<(PathBuf, PathBuf)>,
     /// Possible references.
@@ -152,7 +152,7 @@ struct Search {
     errors: Vec<DiscoveryError>,
 }
 
-impl Search {
+impl SnapshotSearch {
     /// Adds the given scene files, and all scene files in the given folders, to the candidates.
     fn add_places(&mut self, places: &[PathBuf]) {
         for place in places {
@@ -214,7 +214,7 @@ impl Search {
             let place = folder.join(place);
             match fs::metadata(&place) {
                 Ok(data) if data.is_dir() => {
-                    let mut there = Search::default();
+                    let mut there = SnapshotSearch::default();
                     there.add_folder(&place);
                     for (path, _) in there.candidates {
                         let name = path.file_stem().unwrap_or_default().to_owned();

@@ -96,7 +96,7 @@ impl Settings {
             });
             return Err(described.collect());
         }
-        let mut reading = Reading {
+        let mut reading = SettingsReader {
             text,
             settings: Settings::default(),
             problems: Vec::new(),
@@ -124,20 +124,20 @@ fn place_in(text: &str, at: usize) -> String {
     format!("{line}:{column}")
 }
 
-struct Reading<'t> {
+struct SettingsReader<'t> {
     text: &'t str,
     settings: Settings,
     problems: Vec<(usize, String)>,
 }
 
-type Found<'v> = Spanned<DeValue<'v>>;
+type SpannedValue<'v> = Spanned<DeValue<'v>>;
 
-impl Reading<'_> {
+impl SettingsReader<'_> {
     fn wrong(&mut self, at: usize, words: String) {
         self.problems.push((at, words));
     }
 
-    fn key<'v>(&mut self, key: &Spanned<std::borrow::Cow<'v, str>>, value: &Found<'v>) {
+    fn key<'v>(&mut self, key: &Spanned<std::borrow::Cow<'v, str>>, value: &SpannedValue<'v>) {
         let at = key.span().start;
         match key.get_ref().as_ref() {
             "layers" => {
@@ -190,7 +190,11 @@ impl Reading<'_> {
         }
     }
 
-    fn list<'v, 'f>(&mut self, key: &str, value: &'f Found<'v>) -> Vec<&'f Found<'v>> {
+    fn list<'v, 'f>(
+        &mut self,
+        key: &str,
+        value: &'f SpannedValue<'v>,
+    ) -> Vec<&'f SpannedValue<'v>> {
         match value.get_ref() {
             DeValue::Array(list) => list.iter().collect(),
             other => {
@@ -204,7 +208,7 @@ impl Reading<'_> {
         }
     }
 
-    fn texts(&mut self, key: &str, value: &Found<'_>) -> Vec<String> {
+    fn texts(&mut self, key: &str, value: &SpannedValue<'_>) -> Vec<String> {
         let mut texts = Vec::new();
         for entry in self.list(key, value) {
             match entry.get_ref() {
@@ -228,7 +232,7 @@ impl Reading<'_> {
     fn named<T: PartialEq + Clone>(
         &mut self,
         key: &str,
-        value: &Found<'_>,
+        value: &SpannedValue<'_>,
         names: &[&str],
         known: impl Fn(&str) -> Option<T>,
     ) -> Vec<T> {
@@ -261,7 +265,12 @@ impl Reading<'_> {
         found
     }
 
-    fn report_duplicates<T: PartialEq>(&mut self, key: &str, value: &Found<'_>, list: Vec<T>) {
+    fn report_duplicates<T: PartialEq>(
+        &mut self,
+        key: &str,
+        value: &SpannedValue<'_>,
+        list: Vec<T>,
+    ) {
         let again = |i: usize| list[..i].contains(&list[i]);
         if (0..list.len()).any(again) {
             self.wrong(
@@ -271,7 +280,7 @@ impl Reading<'_> {
         }
     }
 
-    fn whole(&mut self, key: &str, value: &Found<'_>, least: u64, most: u64) -> Option<u64> {
+    fn whole(&mut self, key: &str, value: &SpannedValue<'_>, least: u64, most: u64) -> Option<u64> {
         let number = match value.get_ref() {
             DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
             _ => None,
@@ -288,7 +297,7 @@ impl Reading<'_> {
         number
     }
 
-    fn threshold(&mut self, value: &Found<'_>) {
+    fn threshold(&mut self, value: &SpannedValue<'_>) {
         let stated = self.text.get(value.span()).unwrap_or_default();
         match stated.parse::<f64>() {
             Ok(threshold) if (0.0..=1.0).contains(&threshold) => {

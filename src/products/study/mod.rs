@@ -51,14 +51,14 @@ pub struct Case {
     /// The number of placed blocks.
     pub blocks: usize,
     /// The reference.
-    pub truth: Truth,
+    pub truth: FrameReference,
     /// One run per method and tolerance.
     pub runs: Vec<Run>,
 }
 
 /// The reference for a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth {
+pub struct FrameReference {
     /// The exact verdict, without a tolerance; `Undecided` if it could not be certified.
     pub verdict: Verdict,
     /// The least total force if the frame stands; the least total adhesion if it falls; in N.
@@ -160,7 +160,7 @@ impl Task {
 }
 
 /// Computes the reference of each independent part of a frame, and combines them into the reference of the frame.
-fn truth(programs: &[Program]) -> Truth {
+fn truth(programs: &[Program]) -> FrameReference {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();
     let verdict = references
@@ -182,7 +182,7 @@ fn truth(programs: &[Program]) -> Truth {
         r.total
             .is_some_and(|t| t <= MAX_NEGLIGIBLE_ADHESION * Scale::HEAVIEST)
     };
-    Truth {
+    FrameReference {
         verdict: if decided || falls {
             verdict
         } else {
@@ -213,7 +213,7 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
 
 /// Runs a method three times, or up to nine times while the total time is below 0.02 s. The time of the run is the
 /// median.
-fn run(method: Method, tolerance: f64, task: &Task, truth: &Truth) -> Run {
+fn run(method: Method, tolerance: f64, task: &Task, truth: &FrameReference) -> Run {
     let mut times = Vec::with_capacity(9);
     let mut outcome = Outcome::empty();
     let mut spent = 0.0;

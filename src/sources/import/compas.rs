@@ -24,7 +24,7 @@ type Plane = (&'static str, [usize; 3]);
 const PLANES: [Plane; 3] = [("xz", [0, 2, 1]), ("yz", [1, 2, 0]), ("xy", [0, 1, 2])];
 
 /// A block of the assembly: its node, whether it is a support, and the corners of its faces.
-struct Solid {
+struct AssemblyBlock {
     name: String,
     is_support: bool,
     faces: Vec<Vec<[f64; 3]>>,
@@ -61,7 +61,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         return refuse("it has no nodes with blocks".into(), help);
     };
     let metres = options.scale.unwrap_or(1.0) * options.ratio.unwrap_or(1.0);
-    let solids: Vec<Solid> = nodes
+    let solids: Vec<AssemblyBlock> = nodes
         .iter()
         .filter_map(|(name, node)| solid(name, node))
         .collect();
@@ -110,7 +110,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
 
 /// Returns a message that names the first block that is not a prism across any coordinate plane. If there is no such
 /// block, the message says that the blocks are prisms across different planes.
-fn not_prismatic(solids: &[Solid]) -> String {
+fn not_prismatic(solids: &[AssemblyBlock]) -> String {
     let odd = solids
         .iter()
         .find(|s| PLANES.iter().all(|plane| prism(s, plane.1).is_none()));
@@ -149,7 +149,7 @@ fn mesh(block: &Value) -> Option<&Map<String, Value>> {
         .find_map(|key| mesh(object.get(*key)?))
 }
 
-fn solid(name: &str, node: &Value) -> Option<Solid> {
+fn solid(name: &str, node: &Value) -> Option<AssemblyBlock> {
     let mesh = mesh(&node["block"])?;
     let vertices: BTreeMap<&str, [f64; 3]> = mesh["vertex"]
         .as_object()?
@@ -171,7 +171,7 @@ fn solid(name: &str, node: &Value) -> Option<Solid> {
         .collect();
     let is_true = |value: &Value| value.as_bool() == Some(true);
     let attributes = mesh.get("attributes");
-    Some(Solid {
+    Some(AssemblyBlock {
         name: name.trim_matches('\'').to_owned(),
         is_support: is_true(&node["is_support"])
             || attributes.is_some_and(|a| is_true(&a["is_support"])),
@@ -181,7 +181,7 @@ fn solid(name: &str, node: &Value) -> Option<Solid> {
 
 /// Returns the section of a block in the plane of the axes `right` and `up`, and its thickness along the axis `across`.
 /// `None` if the block is not a prism along that axis.
-fn prism(solid: &Solid, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f64)> {
+fn prism(solid: &AssemblyBlock, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f64)> {
     let size = solid
         .faces
         .iter()

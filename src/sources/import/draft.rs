@@ -33,14 +33,14 @@ pub(super) struct Part {
     pub(super) name: String,
     /// A description by which the user finds the element in the drawing.
     pub(super) element: String,
-    pub(super) form: Form,
+    pub(super) form: PartGeometry,
     pub(super) fill: Option<[u8; 3]>,
     pub(super) values: Values,
 }
 
 /// The geometry of a part.
 #[derive(Debug)]
-pub(super) enum Form {
+pub(super) enum PartGeometry {
     /// The outlines of one element.
     Subpaths(Vec<Subpath>, FillRule),
     /// The grip point of a robot.

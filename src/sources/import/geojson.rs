@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::degrees;
-use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
@@ -95,7 +95,7 @@ impl Reader<'_> {
             },
             "Point" if about.kind == Some(Role::Robot) => {
                 match object.get("coordinates").and_then(|c| self.point(c)) {
-                    Some(spot) => self.part(Form::Point(spot), at, about),
+                    Some(spot) => self.part(PartGeometry::Point(spot), at, about),
                     None => self.unreadable(at, about),
                 }
             }
@@ -216,10 +216,14 @@ impl Reader<'_> {
 
     fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &Properties) {
         let subpaths = rings.iter().filter_map(|r| Subpath::closed(r)).collect();
-        self.part(Form::Subpaths(subpaths, FillRule::EvenOdd), at, about);
+        self.part(
+            PartGeometry::Subpaths(subpaths, FillRule::EvenOdd),
+            at,
+            about,
+        );
     }
 
-    fn part(&mut self, form: Form, at: &str, about: &Properties) {
+    fn part(&mut self, form: PartGeometry, at: &str, about: &Properties) {
         self.draft.parts.push(Part {
             kind: about.kind.unwrap_or(Role::Block),
             name: about.name.clone(),
@@ -280,7 +284,7 @@ mod tests {
         assert_eq!(draft.parts[0].values.friction, Some(0.4));
         assert_eq!(draft.parts[1].name, "12");
         assert_eq!(draft.parts[1].fill, Some([0x8b, 0x6b, 0x3d]));
-        assert!(matches!(draft.parts[3].form, Form::Point(p) if p == Point::new(0.4, 0.4)));
+        assert!(matches!(draft.parts[3].form, PartGeometry::Point(p) if p == Point::new(0.4, 0.4)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
         assert!(remarks[1].contains("its kind `cloud` is not block, ground, robot or ignore"));

@@ -38,7 +38,7 @@ pub use stone::{STONES, Stone};
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
-use draft::{Draft, Form, Role};
+use draft::{Draft, PartGeometry, Role};
 use naming::Naming;
 use outline::Outlines;
 use scale::Scale;
@@ -366,7 +366,7 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
         .gap
         .unwrap_or(LENGTH_TOL * size)
         .min(LENGTH_TOL * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, Form::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
+    if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
         draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scene_file::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);

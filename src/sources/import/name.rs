@@ -16,7 +16,7 @@ pub(super) struct Names {
 /// name gets its number as its name.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved, because results use it for the ground.
-    let mut taken = Taken::with("ground");
+    let mut taken = TakenNames::with("ground");
     let given_names: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
     let mut bodies = Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn unique_names(outlines: &Outlines) -> Names {
             (_, name) => taken.first_free(&format!("{name}-"), 2, &given_names),
         });
     }
-    let mut taken = Taken::default();
+    let mut taken = TakenNames::default();
     let given_names: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
     let mut robots = Vec::new();
     for (i, robot) in outlines.robots.iter().enumerate() {
@@ -42,17 +42,17 @@ pub(super) fn unique_names(outlines: &Outlines) -> Names {
 }
 
 #[derive(Default)]
-struct Taken {
+struct TakenNames {
     names: BTreeSet<String>,
     /// The next number to try for each stem. Smaller numbers are taken. Naming n duplicates therefore takes n steps.
     last: BTreeMap<String, usize>,
 }
 
-impl Taken {
-    fn with(name: &str) -> Taken {
-        Taken {
+impl TakenNames {
+    fn with(name: &str) -> TakenNames {
+        TakenNames {
             names: BTreeSet::from([name.to_owned()]),
-            ..Taken::default()
+            ..TakenNames::default()
         }
     }
 

@@ -1,6 +1,6 @@
 //! [`Outlines`]: the bodies of a drawing as polygons with holes, with flattened curves, and its robots as points.
 
-use super::draft::{Draft, Form, Part, Role, Values};
+use super::draft::{Draft, Part, PartGeometry, Role, Values};
 use super::region::regions;
 use super::subpath::Subpath;
 use super::{Remark, limit};
@@ -39,8 +39,8 @@ pub(super) struct Robot {
 /// the bounding box of all blocks, in metres.
 pub(super) fn size(draft: &mut Draft) -> f64 {
     let hull = |part: &Part| match &part.form {
-        Form::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
-        Form::Point(at) => vec![*at],
+        PartGeometry::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
+        PartGeometry::Point(at) => vec![*at],
     };
     let mut around: Option<Bounds> = None;
     let (mut kept, mut out) = (Vec::new(), Vec::new());
@@ -78,12 +78,12 @@ impl Outlines {
         };
         for part in std::mem::take(&mut draft.parts) {
             match part.form {
-                Form::Point(at) => outlines.robots.push(Robot {
+                PartGeometry::Point(at) => outlines.robots.push(Robot {
                     name: part.name,
                     element: part.element,
                     at,
                 }),
-                Form::Subpaths(ref subpaths, rule) => {
+                PartGeometry::Subpaths(ref subpaths, rule) => {
                     let rings = closed_rings(draft, &part, subpaths, flatten, close);
                     if limit::has_too_many_pairs(&rings) {
                         let message = format!(

@@ -1,6 +1,6 @@
 //! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it.
 
-use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
@@ -34,7 +34,7 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
             rest,
             scale,
             robot: kind == Some(Role::Robot),
-            found: Vec::new(),
+            geometries: Vec::new(),
         };
         let read = reader.geometry(0).and_then(|()| {
             if reader.rest.trim().is_empty() {
@@ -51,12 +51,12 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
             );
             continue;
         }
-        if reader.found.is_empty() {
+        if reader.geometries.is_empty() {
             draft.remark(&element, "it is empty; left out", "");
         }
         draft
             .parts
-            .extend(reader.found.into_iter().map(|form| Part {
+            .extend(reader.geometries.into_iter().map(|form| Part {
                 kind: kind.unwrap_or(Role::Block),
                 name: name.to_owned(),
                 element: element.clone(),
@@ -95,7 +95,7 @@ struct Reader<'t> {
     scale: f64,
     /// Whether points are allowed: only as grip points of robots.
     robot: bool,
-    found: Vec<Form>,
+    geometries: Vec<PartGeometry>,
 }
 
 impl Reader<'_> {
@@ -130,7 +130,7 @@ impl Reader<'_> {
             "POINT" if self.robot => {
                 self.expect('(')?;
                 let spot = self.point()?;
-                self.found.push(Form::Point(spot));
+                self.geometries.push(PartGeometry::Point(spot));
                 self.expect(')')
             }
             "GEOMETRYCOLLECTION" => self.list(|reader| reader.geometry(depth + 1)),
@@ -152,7 +152,8 @@ impl Reader<'_> {
             subpaths.extend(Subpath::closed(&points));
             Ok(())
         })?;
-        self.found.push(Form::Subpaths(subpaths, FillRule::EvenOdd));
+        self.geometries
+            .push(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd));
         Ok(())
     }
 
@@ -249,13 +250,13 @@ mod tests {
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
         let draft = read(text, 1.0, &Naming::default());
-        let found: Vec<(&str, Role)> = draft
+        let parts: Vec<(&str, Role)> = draft
             .parts
             .iter()
             .map(|p| (p.name.as_str(), p.kind))
             .collect();
         assert_eq!(
-            found,
+            parts,
             [
                 ("ground", Role::Ground),
                 ("a", Role::Block),
@@ -265,8 +266,10 @@ mod tests {
                 ("", Role::Block)
             ]
         );
-        assert!(matches!(&draft.parts[2].form, Form::Subpaths(subpaths, _) if subpaths.len() == 2));
-        assert!(matches!(draft.parts[4].form, Form::Point(p) if p == Point::new(0.2, 0.3)));
+        assert!(
+            matches!(&draft.parts[2].form, PartGeometry::Subpaths(subpaths, _) if subpaths.len() == 2)
+        );
+        assert!(matches!(draft.parts[4].form, PartGeometry::Point(p) if p == Point::new(0.2, 0.3)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
         assert_eq!(remarks[0], "a LINESTRING encloses no area; left out");

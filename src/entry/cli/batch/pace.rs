@@ -14,7 +14,7 @@ use crate::wording::verdict::counted;
 const REPORT_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The pace of a batch.
-pub(super) struct Pace<'t> {
+pub(super) struct BatchProgress<'t> {
     terminal: &'t Terminal,
     start: Instant,
     /// The interval between two reports; `None` for no reports.
@@ -31,7 +31,7 @@ pub(super) struct Pace<'t> {
 /// The kinds of answers, in the order in which they are counted. Scenes that are not valid come last.
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
-impl<'t> Pace<'t> {
+impl<'t> BatchProgress<'t> {
     /// Starts the clock. `every` is the interval between two reports in seconds, `all` the size of the inputs in bytes,
     /// and `read` counts the bytes read so far.
     pub fn begin(
@@ -39,10 +39,10 @@ impl<'t> Pace<'t> {
         every: Option<f64>,
         all: Option<u64>,
         read: Arc<AtomicU64>,
-    ) -> Pace<'t> {
+    ) -> BatchProgress<'t> {
         let now = Instant::now();
         let watched = terminal.shows_progress().then_some(REPORT_INTERVAL);
-        Pace {
+        BatchProgress {
             terminal,
             start: now,
             every: every.map(Duration::from_secs_f64).or(watched),

@@ -6,7 +6,7 @@ use crate::import::{STONES, Stone};
 
 /// The format of a drawing.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum WrittenIn {
+pub(super) enum FormatArg {
     Svg,
     Dxf,
     Geojson,
@@ -40,7 +40,7 @@ impl Unit {
 
 /// The value of `--scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum DrawnAt {
+pub(super) enum ScaleArg {
     /// Real lengths divided by drawn lengths.
     Ratio(f64),
     /// Metres per unit of the drawing.
@@ -59,18 +59,18 @@ pub(super) fn stone(typed: &str) -> Result<Stone, String> {
 }
 
 /// Parses a scale: `1:50` is a ratio, and `0.02` is the number of metres per unit of the drawing.
-pub(super) fn scale(typed: &str) -> Result<DrawnAt, String> {
+pub(super) fn scale(typed: &str) -> Result<ScaleArg, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
     let wrong =
         || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
     match typed.split_once(':') {
         Some((drawn, real)) => match (number(drawn), number(real)) {
             (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
-                Ok(DrawnAt::Ratio(real / drawn))
+                Ok(ScaleArg::Ratio(real / drawn))
             }
             _ => Err(wrong()),
         },
-        None => number(typed).map(DrawnAt::Metres).ok_or_else(wrong),
+        None => number(typed).map(ScaleArg::Metres).ok_or_else(wrong),
     }
 }
 
@@ -90,9 +90,9 @@ mod tests {
 
     #[test]
     fn a_scale_is_a_ratio_or_metres() {
-        assert_eq!(scale("1:50"), Ok(DrawnAt::Ratio(50.0)));
-        assert_eq!(scale("2 : 1"), Ok(DrawnAt::Ratio(0.5)));
-        assert_eq!(scale("0.02"), Ok(DrawnAt::Metres(0.02)));
+        assert_eq!(scale("1:50"), Ok(ScaleArg::Ratio(50.0)));
+        assert_eq!(scale("2 : 1"), Ok(ScaleArg::Ratio(0.5)));
+        assert_eq!(scale("0.02"), Ok(ScaleArg::Metres(0.02)));
         assert!(scale("1:0").is_err() && scale("1:x").is_err() && scale("big").is_err());
     }
 

@@ -4,13 +4,13 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::{Drawn, GRID, INK, Page, UNITS_PER_PIXEL, font, small, tick, words_from};
+use super::{DrawingResult, GRID, INK, Page, UNITS_PER_PIXEL, font, small, tick, words_from};
 use crate::chart::{Course, SMALL_SIZE, round_step};
 
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Draws values over the steps of a scene into `svg`.
-pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Drawn {
+pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> DrawingResult {
     let area = small(svg);
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     let most = values.copied().fold(0.0, f64::max);
@@ -84,7 +84,7 @@ fn draw_lines<'c>(
 }
 
 /// Draws the name of each line at the right end of the line. Names that would overlap are moved down.
-fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> Drawn {
+fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> DrawingResult {
     ends.sort();
     let mut free = i32::MIN;
     for (y, name) in ends {

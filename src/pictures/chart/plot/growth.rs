@@ -4,8 +4,8 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
 
 use super::{
-    Drawn, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, tick,
-    words_from,
+    DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large,
+    tick, words_from,
 };
 use crate::chart::{Growing, Growth, LARGE_SIZE, Point};
 
@@ -27,7 +27,7 @@ struct LineEnd<'c> {
 }
 
 /// Draws lines on two logarithmic axes into `svg`.
-pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
+pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> DrawingResult {
     let area = large(svg);
     area.fill(&WHITE)?;
     let all = || chart.lines.iter().flat_map(|line| &line.points);
@@ -119,7 +119,7 @@ fn draw_lines<'c>(
 }
 
 /// Draws the names of the lines to the right of the picture. A thin line joins each name to the end of its line.
-fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> Drawn {
+fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> DrawingResult {
     for (y, end) in name_heights(ends).into_iter().zip(ends) {
         let (colour, _) = style(end.line.ours);
         let joint = vec![

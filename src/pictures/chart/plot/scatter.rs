@@ -3,14 +3,16 @@
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::{Drawn, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from};
+use super::{
+    DrawingResult, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from,
+};
 use crate::chart::{LARGE_SIZE, Scatter, power_of_ten};
 
 /// The colour of the front.
 const FRONT_COLOUR: RGBColor = RGBColor(240, 190, 60);
 
 /// Draws points on two logarithmic axes into `svg`, with a legend.
-pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> Drawn {
+pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> DrawingResult {
     let area = large(svg);
     area.fill(&WHITE)?;
     let all = chart.series.iter().flat_map(|s| &s.points);
@@ -55,7 +57,7 @@ fn red() -> ShapeStyle {
 }
 
 /// Draws the Pareto front, above it the series of points, and on top the crosses that mark wrong results.
-fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> Drawn {
+fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> DrawingResult {
     let front = stair(&chart.front.1);
     axes.draw_series(LineSeries::new(
         front,
@@ -91,7 +93,7 @@ fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// Draws the legend to the right of the axes.
-fn draw_legend(area: &Page<'_>, chart: &Scatter) -> Drawn {
+fn draw_legend(area: &Page<'_>, chart: &Scatter) -> DrawingResult {
     let (name, front) = &chart.front;
     let mut y = 60 * UNITS_PER_PIXEL;
     let x = (LARGE_SIZE.0 - 225) * UNITS_PER_PIXEL;

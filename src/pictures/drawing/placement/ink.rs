@@ -14,17 +14,17 @@ use crate::drawing::{PagePoint, PageRect};
 /// Convex pieces that labels must not cover.
 #[derive(Clone, Debug, Default)]
 pub struct Ink {
-    pieces: Vec<Piece>,
+    pieces: Vec<ConvexPiece>,
     /// Corners of all pieces, one piece after the other.
     corners: Vec<PagePoint>,
     /// The side that begins at each of the corners.
-    sides: Vec<Side>,
+    sides: Vec<ConvexSide>,
     /// The grid, once [`Ink::index`] has built it.
     grid: Option<Grid>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct ConvexPiece {
     /// Whether the piece is a label or a leader of a label. Other leaders should not cross such a piece.
     is_label: bool,
     /// The range of its corners and sides.
@@ -52,9 +52,9 @@ impl Ink {
         }
         for (i, corner) in own.iter().enumerate() {
             let next = own.get(i + 1).copied().unwrap_or(start);
-            self.sides.push(Side::new(*corner, next, own));
+            self.sides.push(ConvexSide::new(*corner, next, own));
         }
-        let piece = Piece {
+        let piece = ConvexPiece {
             is_label,
             first,
             end: self.corners.len(),
@@ -80,9 +80,9 @@ impl Ink {
         &self,
         min: PagePoint,
         max: PagePoint,
-        mut matches: impl FnMut(&Piece) -> bool,
+        mut matches: impl FnMut(&ConvexPiece) -> bool,
     ) -> bool {
-        let mut tested = |piece: &Piece| {
+        let mut tested = |piece: &ConvexPiece| {
             piece.min.x < max.x
                 && piece.max.x > min.x
                 && piece.min.y < max.y
@@ -172,7 +172,7 @@ impl Ink {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
         // `any_near` only calls this for pieces whose bounding box overlaps the rectangle. No side of the rectangle
         // separates these pieces from it, so only the sides of the piece must be tested.
-        let meets = |piece: &Piece| {
+        let meets = |piece: &ConvexPiece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))
         };
@@ -212,25 +212,25 @@ const TOUCH_TOL: f64 = 1e-3;
 
 /// A side of a convex piece, and the projection of the piece onto its normal.
 #[derive(Clone, Copy, Debug)]
-struct Side {
+struct ConvexSide {
     from: PagePoint,
     along: (f64, f64),
-    /// The least and the greatest [`Side::offset`] of the piece's corners.
+    /// The least and the greatest [`ConvexSide::offset`] of the piece's corners.
     own: (f64, f64),
     /// [`TOUCH_TOL`] times the length of the side, to compare with offsets.
     touch: f64,
 }
 
-impl Side {
-    fn new(from: PagePoint, to: PagePoint, piece: &[PagePoint]) -> Side {
+impl ConvexSide {
+    fn new(from: PagePoint, to: PagePoint, piece: &[PagePoint]) -> ConvexSide {
         let along = (to.x - from.x, to.y - from.y);
-        let side = Side {
+        let side = ConvexSide {
             from,
             along,
             own: (0.0, 0.0),
             touch: TOUCH_TOL * libm::hypot(along.0, along.1),
         };
-        Side {
+        ConvexSide {
             own: side.reach(piece),
             ..side
         }
@@ -282,7 +282,7 @@ impl Side {
 pub(super) fn separated(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
         let next = piece[(i + 1) % piece.len()];
-        Side::new(piece[i], next, piece).separates(others)
+        ConvexSide::new(piece[i], next, piece).separates(others)
     })
 }
 
@@ -318,7 +318,7 @@ struct Cells {
 }
 
 impl Grid {
-    fn new(pieces: &[Piece]) -> Grid {
+    fn new(pieces: &[ConvexPiece]) -> Grid {
         // Limit the size of the grid: a page is only a few thousand pixels wide. Pieces far outside the page share the
         // outermost cells.
         let cell = |v: f64| (v / CELL_SIDE).floor().clamp(-20.0, 200.0);
@@ -348,7 +348,7 @@ impl Grid {
         grid
     }
 
-    fn add(&mut self, number: usize, piece: &Piece) {
+    fn add(&mut self, number: usize, piece: &ConvexPiece) {
         let Cells {
             left,
             right,
@@ -428,7 +428,8 @@ mod tests {
             };
             assert_eq!(plain.clear(rect), sorted.clear(rect), "{rect:?}");
             // A box is a piece like any other: tested corner by corner it meets the same ones.
-            let meets = |p: &Piece| !separated(&plain.corners[p.first..p.end], &corners(rect));
+            let meets =
+                |p: &ConvexPiece| !separated(&plain.corners[p.first..p.end], &corners(rect));
             let max = at.moved(rect.width, rect.height);
             assert_eq!(
                 !plain.any_near(at, max, meets),

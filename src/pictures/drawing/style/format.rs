@@ -12,7 +12,7 @@ use core::fmt;
 use super::super::colour::Colour;
 use super::super::ramp;
 use super::{Sizes, Theme, Widths};
-use reading::Reading;
+use reading::ThemeReader;
 use value::Value;
 
 /// The format of a style file.
@@ -73,7 +73,7 @@ impl Theme {
             Notation::Toml => value::toml(text),
         };
         let value = value.map_err(|problem| StyleProblems(vec![problem]))?;
-        let mut reading = Reading::default();
+        let mut reading = ThemeReader::default();
         let Value::Table(entries) = value else {
             reading.note(
                 "",

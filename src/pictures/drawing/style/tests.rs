@@ -7,7 +7,7 @@ use super::*;
 
 /// Least distances of a theme's colours that can meet.
 #[derive(Clone, Copy, Debug)]
-struct Least {
+struct LeastDistances {
     /// Arrows of blocks placed one after the other.
     neighbours: f64,
     /// A force's arrow and a robot's.
@@ -20,7 +20,7 @@ struct Least {
     letters: f64,
 }
 
-impl Least {
+impl LeastDistances {
     fn all(self) -> [f64; 5] {
         [
             self.neighbours,
@@ -33,7 +33,7 @@ impl Least {
 }
 
 /// The least distances of a theme as eyes of this sort see it, by ΔE or, in grey, by lightness.
-fn least(theme: &Theme, sight: Sight) -> Least {
+fn least(theme: &Theme, sight: Sight) -> LeastDistances {
     let apart = |a: Colour, b: Colour| match sight {
         Sight::Grey => (lightness(a) - lightness(b)).abs(),
         _ => difference(seen(a, sight), seen(b, sight)),
@@ -45,7 +45,7 @@ fn least(theme: &Theme, sight: Sight) -> Least {
         let others = [theme.block, theme.ground, theme.page];
         theme.amplitudes.iter().copied().chain(others)
     };
-    Least {
+    LeastDistances {
         neighbours: closest(
             &mut (0..arrows.len()).map(|i| apart(theme.arrow(i), theme.arrow(i + 1))),
         ),

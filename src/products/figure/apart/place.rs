@@ -1,4 +1,4 @@
-//! [`Places`]: stores boxes in a uniform grid (a spatial hash), which finds the boxes near a given box quickly.
+//! [`BoxGrid`]: stores boxes in a uniform grid (a spatial hash), which finds the boxes near a given box quickly.
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use crate::geometry::{Bounds, Point};
 const MAX_CELLS: f64 = 64.0;
 
 /// Boxes, numbered from 0 in the order in which they were added.
-pub(super) struct Places {
+pub(super) struct BoxGrid {
     /// Width and height of a cell, metres.
     cell: f64,
     boxes: Vec<Bounds>,
@@ -16,11 +16,11 @@ pub(super) struct Places {
     large: Vec<usize>,
 }
 
-impl Places {
+impl BoxGrid {
     /// Creates an empty grid. The width of a cell is the mean diagonal of `boxes`.
-    pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> Places {
+    pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> BoxGrid {
         let count = boxes.len();
-        Places {
+        BoxGrid {
             cell: boxes.map(Bounds::diagonal).sum::<f64>() / count as f64,
             boxes: Vec::new(),
             cells: HashMap::new(),
@@ -105,7 +105,7 @@ mod tests {
             let max = min + Vector::new(long * random(), random());
             boxes.push(Bounds { min, max });
         }
-        let mut places = Places::sized_for(boxes.iter().copied());
+        let mut places = BoxGrid::sized_for(boxes.iter().copied());
         for (count, query) in boxes.iter().enumerate() {
             for near in [*query, query.grown(3.0), query.grown(100.0)] {
                 let all = (0..count).filter(|n| near.intersects(boxes[*n]));
@@ -118,7 +118,7 @@ mod tests {
             min: Point::origin(),
             max: Point::origin(),
         };
-        let mut one = Places::sized_for([point].into_iter());
+        let mut one = BoxGrid::sized_for([point].into_iter());
         one.put(point);
         assert_eq!(one.meeting(Some(point)), [0]);
     }

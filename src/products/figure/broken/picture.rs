@@ -15,7 +15,7 @@ pub(super) const DISC_RADIUS: f64 = 9.0;
 const HATCH_SPACING: f64 = 5.0;
 
 /// A numbered mark.
-pub(super) struct Marked {
+pub(super) struct NumberedMark {
     pub at: Point,
     pub bodies: Vec<BodyId>,
     /// The code of the problem; `None` for a gap.
@@ -25,7 +25,7 @@ pub(super) struct Marked {
 
 /// Returns the shown part of the scene, in units of the scene file. It contains all blocks and marks, or the ground and
 /// all marks if there are no blocks. Returns `None` if it is empty or a single point.
-pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
+pub(super) fn view(sketch: &Sketch, marks: &[NumberedMark]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
         let bodies = bodies.filter(move |b| matches!(b.id, BodyId::Block(_)) == blocks);
@@ -42,7 +42,7 @@ pub(super) fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
 /// Draws the bodies, and hatches the areas in which they overlap.
 pub(super) fn structure(
     sketch: &Sketch,
-    marks: &[Marked],
+    marks: &[NumberedMark],
     camera: &Camera,
     rect: PageRect,
     options: &Options,
@@ -104,7 +104,12 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
 
 /// Draws the name of a block at its centre, or below a mark that covers the centre. Returns `None` if there is no
 /// space.
-fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
+fn name(
+    body: &SketchedBody,
+    marks: &[NumberedMark],
+    camera: &Camera,
+    options: &Options,
+) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
     let (size, rect) = (theme.sizes.name, camera.rect(bounds));
@@ -146,7 +151,7 @@ fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
 }
 
 /// Draws the marks, each with its number in a disc next to it. The discs do not overlap.
-pub(super) fn numbers(marks: &[Marked], camera: &Camera, options: &Options) -> Group {
+pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options) -> Group {
     let theme = &options.theme;
     let mut group = Group::with_class("marks");
     let mut taken: Vec<PagePoint> = Vec::new();

@@ -38,12 +38,12 @@ pub(super) struct Plan<'a> {
     pub scale: f64,
     /// The corners of the drawn set.
     pub ring: Vec<Point>,
-    pub sides: Vec<Side>,
-    pub pictures: Vec<Small>,
+    pub sides: Vec<DrawnEdge>,
+    pub pictures: Vec<SmallPicture>,
 }
 
 /// A drawn edge.
-pub(super) struct Side {
+pub(super) struct DrawnEdge {
     pub ends: [Point; 2],
     /// For each end, whether the edge is unbounded in this direction.
     pub is_open: [bool; 2],
@@ -53,7 +53,7 @@ pub(super) struct Side {
 }
 
 /// A small picture of a mechanism.
-pub(super) struct Small {
+pub(super) struct SmallPicture {
     pub number: usize,
     pub mechanism: Vec<Motion>,
     /// The direction in which the loaded point begins to move.
@@ -64,7 +64,7 @@ pub(super) struct Small {
     pub scale: f64,
 }
 
-impl Small {
+impl SmallPicture {
     /// Converts a point of the scene to its position in the small picture; both are in metres.
     pub fn place(&self, point: Point) -> Point {
         self.corner + (point - self.view.min) * self.scale
@@ -129,7 +129,7 @@ impl<'a> Plan<'a> {
     /// Returns a box around the polygon, the loaded point and the small pictures, in metres.
     pub fn bounds(&self) -> Option<Bounds> {
         let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
-        let pictures = self.pictures.iter().map(Small::bounds);
+        let pictures = self.pictures.iter().map(SmallPicture::bounds);
         pictures.chain([polygon]).reduce(Bounds::union)
     }
 
@@ -147,7 +147,7 @@ impl<'a> Plan<'a> {
         numbers: &[usize],
         structure: Bounds,
         unit: f64,
-    ) -> Vec<Small> {
+    ) -> Vec<SmallPicture> {
         let source = source(analysis, frame, structure, unit);
         let polygon = Bounds::from_points(self.ring.iter().copied()).unwrap_or(structure);
         let whole = view::ground_shown(&analysis.scene, unit)
@@ -176,7 +176,7 @@ impl<'a> Plan<'a> {
             let top = (middle + 0.5 * used).max(whole.min.y + used);
             Point::new(whole.max.x + 0.12 * size, top - source.height() * share)
         };
-        let small = |(k, edge): (usize, &usize)| Small {
+        let small = |(k, edge): (usize, &usize)| SmallPicture {
             number: k + 1,
             mechanism: analysis.edge_mechanism(frame, self.capacity, *edge),
             outward: self.capacity.edges[*edge].normal,
@@ -338,7 +338,7 @@ fn sides(
     cut: f64,
     numbers: &[usize],
     place: &dyn Fn(&Vector) -> Point,
-) -> Vec<Side> {
+) -> Vec<DrawnEdge> {
     let force = |vertex: Option<usize>| vertex.map(|k| capacity.vertices[k].force);
     let mut sides = Vec::new();
     for (k, edge) in capacity.edges.iter().enumerate() {
@@ -352,7 +352,7 @@ fn sides(
             base + along * (-b + sign * root)
         };
         let ends = [known[0].unwrap_or(far(-1.0)), known[1].unwrap_or(far(1.0))];
-        sides.push(Side {
+        sides.push(DrawnEdge {
             ends: [place(&ends[0]), place(&ends[1])],
             is_open: [edge.ends[0].is_none(), edge.ends[1].is_none()],
             outward: edge.normal,

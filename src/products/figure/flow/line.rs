@@ -16,7 +16,7 @@ const MAX_ORDERED: usize = 4;
 
 /// A force with a point of its line of action.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pressed {
+pub(super) struct LineOfAction {
     pub at: Point,
     /// The force on the block, N.
     pub force: Vector,
@@ -38,9 +38,9 @@ pub(super) struct TruePath {
 /// or near the block and never turns back.
 pub(super) fn path(
     polygon: &Polygon,
-    first: Pressed,
-    second: Pressed,
-    loads: &[Pressed],
+    first: LineOfAction,
+    second: LineOfAction,
+    loads: &[LineOfAction],
 ) -> Option<TruePath> {
     if loads.len() > MAX_ORDERED {
         return None;
@@ -67,8 +67,8 @@ struct Search<'a> {
     near: f64,
     /// Largest distance at which a line still meets a point, metres.
     miss: f64,
-    second: Pressed,
-    loads: &'a [Pressed],
+    second: LineOfAction,
+    loads: &'a [LineOfAction],
 }
 
 impl Search<'_> {

@@ -6,7 +6,7 @@
 //! divided among the forces that leave, in proportion to their magnitudes. All strands of a force together are as wide
 //! as the force.
 
-use super::line::{self, Pressed};
+use super::line::{self, LineOfAction};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -37,7 +37,7 @@ pub(crate) enum Origin {
 
 /// A force on a block.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Acting {
+pub(crate) struct ForceOnBlock {
     pub origin: Origin,
     /// A point of its line of action, metres: where it enters or leaves the block.
     pub at: Point,
@@ -85,7 +85,7 @@ pub(crate) fn strands(
     let mut all = Vec::new();
     for id in &frame.placed {
         let forces = &acting[id.0];
-        let sharing = Sharing {
+        let sharing = ForceDistribution {
             on: *id,
             down: scene.down(),
             metres_per_newton,
@@ -100,11 +100,11 @@ pub(crate) fn strands(
 
 /// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
 /// forces.
-fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Vec<Acting>> {
-    let mut acting: Vec<Vec<Acting>> = vec![Vec::new(); scene.blocks.len()];
+fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Vec<ForceOnBlock>> {
+    let mut acting: Vec<Vec<ForceOnBlock>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
         if let BodyId::Block(block) = body {
-            acting[block.0].push(Acting { origin, at, force });
+            acting[block.0].push(ForceOnBlock { origin, at, force });
         }
     };
     for (number, bearing) in bearings(scene, frame_analysis).iter().enumerate() {
@@ -160,21 +160,21 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
 
 /// Returns the strands of a block along true lines of action. Apart from its weight and its loads, exactly two forces
 /// of contacts or robots must act on the block. Otherwise, or if no such path exists, returns `None`.
-fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Strand>> {
-    let presses = |f: &&Acting| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
-    let given = |f: &&Acting| matches!(f.origin, Origin::Load | Origin::Weight);
+fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec<Strand>> {
+    let presses = |f: &&ForceOnBlock| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
+    let given = |f: &&ForceOnBlock| matches!(f.origin, Origin::Load | Origin::Weight);
     let turned = |load: &crate::scene::Load| load.block == on && load.torque != 0.0;
-    let pressing: Vec<&Acting> = forces.iter().filter(presses).collect();
+    let pressing: Vec<&ForceOnBlock> = forces.iter().filter(presses).collect();
     let [one, other] = pressing[..] else {
         return None;
     };
     // The path begins at the joint whose force has the larger downward component.
-    let along = |f: &Acting| f.force.dot(&scene.down());
+    let along = |f: &ForceOnBlock| f.force.dot(&scene.down());
     let (first, second) = match along(one) < along(other) {
         true => (other, one),
         false => (one, other),
     };
-    let loads: Vec<Pressed> = forces.iter().filter(given).map(pressed).collect();
+    let loads: Vec<LineOfAction> = forces.iter().filter(given).map(pressed).collect();
     if loads.len() + 2 != forces.len() || scene.loads.iter().any(turned) {
         return None;
     }
@@ -211,25 +211,25 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[Acting]) -> Option<Vec<Stran
     Some(joins.chain([through]).collect())
 }
 
-fn pressed(acting: &Acting) -> Pressed {
-    Pressed {
+fn pressed(acting: &ForceOnBlock) -> LineOfAction {
+    LineOfAction {
         at: acting.at,
         force: acting.force,
     }
 }
 
 /// Divides the forces that enter a block among the forces that leave it.
-struct Sharing {
+struct ForceDistribution {
     on: BlockId,
     /// The direction of gravity.
     down: Vector,
     metres_per_newton: f64,
 }
 
-impl Sharing {
+impl ForceDistribution {
     /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
     /// is positive, and leaves the block otherwise.
-    fn enters(&self, acting: &Acting) -> bool {
+    fn enters(&self, acting: &ForceOnBlock) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ALONG_GRAVITY_TOL * acting.force.norm() {
             return along > 0.0;
@@ -238,9 +238,10 @@ impl Sharing {
     }
 
     /// Returns one strand for each pair of a force that enters the block and a force that leaves it.
-    fn strands(&self, forces: &[Acting]) -> Vec<Strand> {
-        let (ins, outs): (Vec<&Acting>, Vec<&Acting>) = forces.iter().partition(|f| self.enters(f));
-        let sum = |side: &[&Acting]| side.iter().map(|f| f.force.norm()).sum::<f64>();
+    fn strands(&self, forces: &[ForceOnBlock]) -> Vec<Strand> {
+        let (ins, outs): (Vec<&ForceOnBlock>, Vec<&ForceOnBlock>) =
+            forces.iter().partition(|f| self.enters(f));
+        let sum = |side: &[&ForceOnBlock]| side.iter().map(|f| f.force.norm()).sum::<f64>();
         let (entering, leaving) = (sum(&ins), sum(&outs));
         if ins.is_empty() || outs.is_empty() {
             return Vec::new();
@@ -267,14 +268,14 @@ impl Sharing {
         &self,
         at: Point,
         force: Vector,
-        partners: &[&Acting],
-        partner: &Acting,
+        partners: &[&ForceOnBlock],
+        partner: &ForceOnBlock,
         sum: f64,
     ) -> (Point, Vector) {
         let (along, width) = (force / force.norm(), force.norm());
         let aside = quarter_turn(along);
-        let place = |p: &Acting| (p.at - at).dot(&aside);
-        let share = |p: &Acting| p.force.norm() / sum;
+        let place = |p: &ForceOnBlock| (p.at - at).dot(&aside);
+        let share = |p: &ForceOnBlock| p.force.norm() / sum;
         let own = place(partner);
         let mut before = 0.0;
         for other in partners {
@@ -291,12 +292,12 @@ impl Sharing {
 
     fn strand(
         &self,
-        from: &Acting,
-        to: &Acting,
+        from: &ForceOnBlock,
+        to: &ForceOnBlock,
         ends: [(Point, Vector); 2],
         widths: [f64; 2],
     ) -> Strand {
-        let missing = |f: &Acting| matches!(f.origin, Origin::Missing(_));
+        let missing = |f: &ForceOnBlock| matches!(f.origin, Origin::Missing(_));
         let kind = match from.origin {
             _ if missing(from) || missing(to) => StrandKind::Missing,
             Origin::Weight => StrandKind::Weight,

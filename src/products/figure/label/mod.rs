@@ -19,7 +19,7 @@ pub(crate) use obstacle::ink;
 use amount::{amounts, called_out};
 use lettering::{Label, drawn, drawn_over, middle};
 use name::{name, robots};
-use solid::Solids;
+use solid::DrawnBoxes;
 use spoken::names;
 
 use super::context::FigureContext;
@@ -70,7 +70,7 @@ pub(crate) fn labels_with(
     let mut ink = ink();
     let page = pen.camera.rect(view);
     let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
-    let solids = Solids::new(pen);
+    let solids = DrawnBoxes::new(pen);
     let covers_other_block = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
         own.is_some_and(|own| solids.other(pen, own, rect))

@@ -1,4 +1,4 @@
-//! [`Solids`]: tests whether a label lies inside a block or the ground that it does not name. A reader would take it
+//! [`DrawnBoxes`]: tests whether a label lies inside a block or the ground that it does not name. A reader would take it
 //! for the name of this body.
 
 use super::middle;
@@ -8,13 +8,13 @@ use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
 /// The bounding boxes on the page of the blocks of a frame, as they are drawn, and of the ground.
-pub(super) struct Solids {
+pub(super) struct DrawnBoxes {
     blocks: Vec<(BlockId, PageRect)>,
     ground: Vec<(usize, PageRect)>,
 }
 
-impl Solids {
-    pub(super) fn new(pen: &Pen<'_>) -> Solids {
+impl DrawnBoxes {
+    pub(super) fn new(pen: &Pen<'_>) -> DrawnBoxes {
         let scene = &pen.context.analysis.scene;
         let drawn = |id: &BlockId| {
             let corners = scene.blocks[id.0].body.polygon.rings().first();
@@ -23,7 +23,7 @@ impl Solids {
             Some((*id, pen.camera.rect(bounds)))
         };
         let ground = scene.ground.iter().enumerate();
-        Solids {
+        DrawnBoxes {
             blocks: scene.frames[pen.number]
                 .placed
                 .iter()

@@ -24,15 +24,15 @@ fn glued(words: &str) -> String {
 }
 
 /// An entry with its text broken into lines.
-struct Laid<'e> {
+struct WrappedEntry<'e> {
     entry: &'e Entry,
     lines: Vec<String>,
     width: f64,
 }
 
-impl<'e> Laid<'e> {
+impl<'e> WrappedEntry<'e> {
     /// Breaks the text of an entry into lines, so that the entry is at most `room` pixels wide.
-    fn new(entry: &'e Entry, room: f64, theme: &Theme) -> Laid<'e> {
+    fn new(entry: &'e Entry, room: f64, theme: &Theme) -> WrappedEntry<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
         let sign = entry.sign_width(theme);
         let left = (room - sign).max(MIN_TEXT_WIDTH);
@@ -44,7 +44,7 @@ impl<'e> Laid<'e> {
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
         let column = entry.column().unwrap_or(0.0).min(room);
         let width = (sign + widths.fold(0.0, f64::max)).max(column);
-        Laid {
+        WrappedEntry {
             entry,
             lines,
             width,
@@ -74,7 +74,7 @@ impl<'e> Laid<'e> {
 /// A line of the legend: entries next to each other.
 #[derive(Default)]
 struct KeyLine<'e> {
-    entries: Vec<Laid<'e>>,
+    entries: Vec<WrappedEntry<'e>>,
     width: f64,
 }
 
@@ -91,7 +91,7 @@ impl KeyLine<'_> {
 fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
-        let laid = Laid::new(entry, room, theme);
+        let laid = WrappedEntry::new(entry, room, theme);
         let is_listed = entry.column().is_some();
         let fits = |line: &&mut KeyLine<'e>| {
             line.is_list() == is_listed && line.width + ENTRY_GAP + laid.width <= room

@@ -7,7 +7,7 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::BodyId;
 
 /// A force of an interface on its first body.
-pub(super) struct Part {
+pub(super) struct InterfaceForce {
     /// Returns the kind of the arrow for the other body.
     pub kind: fn(BodyId) -> ArrowKind,
     /// The force, N.
@@ -18,9 +18,9 @@ pub(super) struct Part {
 
 /// Returns the forces of an interface on its first body. `style` selects the resultant, or the normal and the friction
 /// force.
-pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
+pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<InterfaceForce> {
     let at = contact.resultant.at;
-    let part = |kind, force| Part { kind, force, at };
+    let part = |kind, force| InterfaceForce { kind, force, at };
     match style {
         ForceStyle::Resultant => {
             let on_first = contact.resultant.on == contact.interface.bodies[0];

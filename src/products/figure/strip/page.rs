@@ -5,7 +5,7 @@ use super::super::legend::{self, Entry};
 use super::super::option::Options;
 use super::super::title;
 use super::Strip;
-use super::panel::Place;
+use super::panel::PanelPosition;
 use crate::drawing::{Anchor, Drawing, Item, Outline, PagePoint, Path, Stroke, Text};
 use crate::geometry::{Bounds, Point};
 
@@ -165,7 +165,7 @@ impl PageWriter<'_> {
                 max: Point::new(view.max.x, high),
             };
             let x = left + column as f64 * (self.layout.panel + self.layout.gap);
-            let place = Place {
+            let place = PanelPosition {
                 at: PagePoint::new(x, self.y),
                 view,
                 captions,

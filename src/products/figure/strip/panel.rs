@@ -23,7 +23,7 @@ const MARK_GAP: f64 = 6.0;
 const SCALE_GAP: f64 = 22.0;
 
 /// The position of a panel, and the content for which it has space.
-pub(super) struct Place {
+pub(super) struct PanelPosition {
     /// Its upper left corner.
     pub at: PagePoint,
     /// The part of the scene that its picture shows, metres.
@@ -35,7 +35,7 @@ pub(super) struct Place {
 impl Strip<'_> {
     /// Draws the panel of a frame: picture, caption, verdict and reason. Also returns the y coordinate below the panel,
     /// pixels.
-    pub(super) fn panel(&self, frame: usize, place: Place) -> (Group, f64) {
+    pub(super) fn panel(&self, frame: usize, place: PanelPosition) -> (Group, f64) {
         let (context, layout) = (self.context, self.layout);
         let (view, at) = (place.view, place.at);
         let frame_analysis = &context.analysis.frames[frame];

@@ -12,18 +12,18 @@ const MAX_ROWS: usize = 12;
 
 /// The lowest and the highest of some values.
 #[derive(Clone, Copy)]
-struct Range(f64, f64);
+struct ValueRange(f64, f64);
 
-impl Range {
-    fn add(range: Option<Range>, value: f64) -> Option<Range> {
+impl ValueRange {
+    fn add(range: Option<ValueRange>, value: f64) -> Option<ValueRange> {
         Some(match range {
-            None => Range(value, value),
-            Some(Range(low, high)) => Range(low.min(value), high.max(value)),
+            None => ValueRange(value, value),
+            Some(ValueRange(low, high)) => ValueRange(low.min(value), high.max(value)),
         })
     }
 
-    fn words(range: Option<Range>) -> String {
-        match range.map(|Range(low, high)| (digits(low), digits(high))) {
+    fn words(range: Option<ValueRange>) -> String {
+        match range.map(|ValueRange(low, high)| (digits(low), digits(high))) {
             None => "–".to_owned(),
             Some((low, high)) if low == high => low,
             Some((low, high)) => format!("{low} to {high}"),
@@ -66,8 +66,8 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
         let cells = [
             name,
             blocks.len().to_string(),
-            Range::words(densities.fold(None, Range::add)),
-            Range::words(frictions.fold(None, Range::add)),
+            ValueRange::words(densities.fold(None, ValueRange::add)),
+            ValueRange::words(frictions.fold(None, ValueRange::add)),
             newtons.write(weight(blocks)),
         ];
         grid.add("", cells);
@@ -225,7 +225,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         "dry: no tension, no cohesion; rigid blocks".to_owned(),
     );
     let frictions = scene.ground.iter().map(|g| g.body.friction);
-    let friction = Range::words(frictions.fold(None, Range::add));
+    let friction = ValueRange::words(frictions.fold(None, ValueRange::add));
     let ground = match scene.ground.len() {
         0 => "none".to_owned(),
         parts => format!("{}, fixed; friction μ {friction}", counted(parts, "part")),

@@ -21,7 +21,7 @@ const HIGH_UTILISATION: f64 = 0.8;
 const MAX_JOINTS_WITH_TARGETS: usize = 3000;
 
 /// A joint that carries force, with its utilisation.
-struct Used {
+struct UsedJoint {
     /// The index of the contact in the frame.
     contact: usize,
     /// The distance of the resultant from the middle, m, and this distance divided by the largest allowed distance.
@@ -35,14 +35,14 @@ struct Used {
 pub(super) struct Ranking<'a> {
     scene: &'a Scene,
     frame_analysis: &'a FrameAnalysis,
-    used: Vec<Used>,
+    used: Vec<UsedJoint>,
     units: Units,
 }
 
 impl<'a> Ranking<'a> {
     pub fn new(scene: &'a Scene, frame_analysis: &'a FrameAnalysis) -> Ranking<'a> {
         let largest = frame_analysis.contacts.iter().map(size).fold(0.0, f64::max);
-        let mut used: Vec<Used> = Vec::new();
+        let mut used: Vec<UsedJoint> = Vec::new();
         for (number, contact) in frame_analysis.contacts.iter().enumerate() {
             if size(contact) <= FORCE_TOL * largest {
                 continue;
@@ -51,7 +51,7 @@ impl<'a> Ranking<'a> {
             let share = off_middle
                 .map_or(0.0, |off| off.1)
                 .max(contact.friction_used);
-            used.push(Used {
+            used.push(UsedJoint {
                 contact: number,
                 off_middle,
                 share,
@@ -59,9 +59,9 @@ impl<'a> Ranking<'a> {
         }
         // Sort by utilisation, rounded to thousandths to remove rounding errors of the solver. If utilisations are
         // equal, the joint with the larger force comes first.
-        let key = |u: &Used| (1e3 * u.share).round();
+        let key = |u: &UsedJoint| (1e3 * u.share).round();
         used.sort_by(|a, b| {
-            let force = |u: &Used| size(&frame_analysis.contacts[u.contact]);
+            let force = |u: &UsedJoint| size(&frame_analysis.contacts[u.contact]);
             key(b)
                 .total_cmp(&key(a))
                 .then(force(b).total_cmp(&force(a)))
@@ -116,7 +116,7 @@ impl<'a> Ranking<'a> {
     /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, it has only
     /// the first [`MAX_JOINTS`] joints.
     pub fn table(&self, all: bool) -> Grid {
-        let shown: &[Used] = match all {
+        let shown: &[UsedJoint] = match all {
             true => &self.used,
             false => &self.used[..self.used.len().min(MAX_JOINTS)],
         };

@@ -20,14 +20,14 @@ const BAR_HEIGHT: f64 = 22.0;
 const HEADLINE_SIZE: f64 = 14.0;
 
 /// The texts of a badge. Code points replace characters that the fonts do not have.
-struct Words {
+struct BadgeTexts {
     headline: Option<String>,
     /// The headline margin in words.
     margin: Option<String>,
     sentence: String,
 }
 
-impl Words {
+impl BadgeTexts {
     /// Returns the height, in pixels, of the panel for these texts. A line of text is at most `room` pixels wide.
     fn height(&self, room: f64) -> f64 {
         let lines = |words: &str, face: Face, size: f64| {
@@ -49,7 +49,7 @@ impl Flow {
         let (left, room) = (self.left, self.room);
         let inner = room - WORD_WIDTH - COLUMN_GAP;
         let headline = (!badge.headline.is_empty()).then(|| format!("{}.", badge.headline));
-        let words = Words {
+        let words = BadgeTexts {
             headline: headline.map(|words| self.legible(&words)),
             margin: badge.bar.as_ref().map(|bar| self.legible(&bar.short())),
             sentence: self.legible(&badge.sentence),

@@ -114,8 +114,8 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
                     weight: weight + if is_failure { FAILURE_WEIGHT } else { 0.0 },
                 }
             }),
-            (Some(old), None) => Some(presence_change(key, old, &place, Presence::Gone)),
-            (None, Some(new)) => Some(presence_change(key, new, &place, Presence::New)),
+            (Some(old), None) => Some(presence_change(key, old, &place, PresenceChange::Gone)),
+            (None, Some(new)) => Some(presence_change(key, new, &place, PresenceChange::New)),
             (None, None) => None,
         };
         changes.extend(change);
@@ -238,16 +238,20 @@ fn called((kind, names, number): &Key) -> String {
     }
 }
 
-enum Presence {
+enum PresenceChange {
     Gone,
     New,
 }
 
-fn presence_change(key: &Key, fact: &Fact, place: &str, presence: Presence) -> Change {
+fn presence_change(key: &Key, fact: &Fact, place: &str, presence: PresenceChange) -> Change {
     let block = key.1.join("–");
     let (words, weight) = match (key.0.as_str(), presence) {
-        (FALLING_FACT, Presence::New) => (format!("block {block} no longer stands"), FALL_WEIGHT),
-        (FALLING_FACT, Presence::Gone) => (format!("block {block} no longer falls"), FALL_WEIGHT),
+        (FALLING_FACT, PresenceChange::New) => {
+            (format!("block {block} no longer stands"), FALL_WEIGHT)
+        }
+        (FALLING_FACT, PresenceChange::Gone) => {
+            (format!("block {block} no longer falls"), FALL_WEIGHT)
+        }
         (kind, presence) => {
             let weight = if kind.starts_with("failure") {
                 FAILURE_WEIGHT
@@ -256,8 +260,8 @@ fn presence_change(key: &Key, fact: &Fact, place: &str, presence: Presence) -> C
             };
             let first = fact.values.first().map(described).unwrap_or_default();
             let is = match presence {
-                Presence::Gone => "is gone:",
-                Presence::New => "is new:",
+                PresenceChange::Gone => "is gone:",
+                PresenceChange::New => "is new:",
             };
             (format!("{} {is} {first}", called(key)), weight)
         }

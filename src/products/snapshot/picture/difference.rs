@@ -26,7 +26,7 @@ impl Default for PixelTolerance {
 
 /// The result for one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Mark {
+enum PixelMark {
     Same,
     Smoothed,
     Changed,
@@ -45,7 +45,7 @@ struct PixelPair<'p> {
 impl PixelPair<'_> {
     /// Compares the two pixels. Returns the mark of the pixel, and the largest difference of a colour channel. Returns
     /// `None` if the tolerance allows this difference.
-    fn compare(&self, tolerance: PixelTolerance) -> Option<(Mark, u8)> {
+    fn compare(&self, tolerance: PixelTolerance) -> Option<(PixelMark, u8)> {
         let (expected, found) = (self.expected, self.found);
         let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
         // Allow for the palette of a reference, which may have rounded the colours.
@@ -55,7 +55,7 @@ impl PixelPair<'_> {
             return None;
         }
         let Some(threshold) = tolerance.perceptual else {
-            return Some((Mark::Changed, by));
+            return Some((PixelMark::Changed, by));
         };
         if !differ(a, b, threshold) {
             return None;
@@ -66,9 +66,9 @@ impl PixelPair<'_> {
             && (is_antialiased(expected, found, self.x, self.y)
                 || is_antialiased(found, expected, self.x, self.y));
         let mark = if antialiased {
-            Mark::Smoothed
+            PixelMark::Smoothed
         } else {
-            Mark::Changed
+            PixelMark::Changed
         };
         Some((mark, by))
     }
@@ -89,7 +89,7 @@ pub struct Difference {
     pub bounds: Option<[u32; 4]>,
     /// The sizes of the expected and of the found picture: width and height.
     pub sizes: [(u32, u32); 2],
-    marks: Vec<Mark>,
+    marks: Vec<PixelMark>,
 }
 
 impl Difference {
@@ -121,7 +121,7 @@ impl Difference {
             sizes: [expected, found].map(|p| (p.width, p.height)),
             marks: Vec::new(),
         };
-        let mut marked: Vec<(u32, u32, Mark)> = Vec::new();
+        let mut marked: Vec<(u32, u32, PixelMark)> = Vec::new();
         for y in 0..height {
             let row = |p: &Picture| {
                 let begin = y as usize * p.width as usize;
@@ -157,8 +157,8 @@ impl Difference {
     }
 
     /// Adds a differing pixel to the counts and to the bounding box.
-    fn count(&mut self, mark: Mark, by: u8, x: u32, y: u32) {
-        if mark == Mark::Smoothed {
+    fn count(&mut self, mark: PixelMark, by: u8, x: u32, y: u32) {
+        if mark == PixelMark::Smoothed {
             self.smoothed += 1;
             return;
         }
@@ -175,14 +175,14 @@ impl Difference {
     }
 
     /// Stores the marks of all pixels, in an area that covers both pictures.
-    fn set_marks(&mut self, marked: &[(u32, u32, Mark)]) {
+    fn set_marks(&mut self, marked: &[(u32, u32, PixelMark)]) {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (all_across, all_down) = (ew.max(fw), eh.max(fh));
-        self.marks = vec![Mark::Beyond; all_across as usize * all_down as usize];
+        self.marks = vec![PixelMark::Beyond; all_across as usize * all_down as usize];
         let index = |x: u32, y: u32| y as usize * all_across as usize + x as usize;
         for y in 0..eh.min(fh) {
             let begin = index(0, y);
-            self.marks[begin..begin + ew.min(fw) as usize].fill(Mark::Same);
+            self.marks[begin..begin + ew.min(fw) as usize].fill(PixelMark::Same);
         }
         for (x, y, mark) in marked {
             self.marks[index(*x, *y)] = *mark;
@@ -223,12 +223,12 @@ impl Difference {
         for y in 0..high {
             for x in 0..wide {
                 let mark = self.marks.get(y as usize * wide as usize + x as usize);
-                pixels.push(match mark.copied().unwrap_or(Mark::Same) {
-                    Mark::Changed => [0xd4, 0x00, 0x1a, 255],
-                    Mark::Smoothed => [0xe8, 0xb4, 0x00, 255],
-                    Mark::Beyond => [0xb8, 0xd4, 0xf0, 255],
-                    Mark::Same if x < ew && y < eh => faded(expected.pixel(x, y)),
-                    Mark::Same => [255; 4],
+                pixels.push(match mark.copied().unwrap_or(PixelMark::Same) {
+                    PixelMark::Changed => [0xd4, 0x00, 0x1a, 255],
+                    PixelMark::Smoothed => [0xe8, 0xb4, 0x00, 255],
+                    PixelMark::Beyond => [0xb8, 0xd4, 0xf0, 255],
+                    PixelMark::Same if x < ew && y < eh => faded(expected.pixel(x, y)),
+                    PixelMark::Same => [255; 4],
                 });
             }
         }

@@ -1,7 +1,7 @@
 //! Bounding boxes of outlines, for finding outlines that are drawn twice.
 
 use crate::geometry::{Bounds, Point};
-use crate::import::draft::{Form, Part};
+use crate::import::draft::{Part, PartGeometry};
 use crate::import::subpath::Subpath;
 
 /// Two outlines coincide if their boxes differ by at most this share of their size.
@@ -23,8 +23,8 @@ pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
 /// Returns the bounding box of a part; `None` for a point.
 pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     match &part.form {
-        Form::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
-        Form::Point(_) => None,
+        PartGeometry::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
+        PartGeometry::Point(_) => None,
     }
 }
 

@@ -25,7 +25,7 @@ use super::draft::Draft;
 use super::naming::Naming;
 use super::scale::Scale;
 use document::Document;
-use walk::Walk;
+use walk::DxfWalk;
 
 /// Reads a DXF file in text form into a draft in metres, with y up.
 ///
@@ -35,7 +35,7 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
     let records = record::records(text)?;
     let document = Document::new(&records)?;
     let (metres, note) = scale.of(unit(document.unit), "the drawing states no unit")?;
-    let mut walk = Walk {
+    let mut walk = DxfWalk {
         document: &document,
         naming,
         metres,

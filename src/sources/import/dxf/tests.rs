@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::geometry::Point;
-use crate::import::draft::{Form, Role};
+use crate::import::draft::{PartGeometry, Role};
 use crate::import::subpath::Subpath;
 
 /// A DXF file with entities, written as `code value` lines.
@@ -28,8 +28,8 @@ fn draft(blocks: &str, entities: &str) -> Draft {
 
 fn curves(draft: &Draft) -> Vec<&Subpath> {
     let forms = draft.parts.iter().map(|p| match &p.form {
-        Form::Subpaths(curves, _) => curves.as_slice(),
-        Form::Point(_) => &[],
+        PartGeometry::Subpaths(curves, _) => curves.as_slice(),
+        PartGeometry::Point(_) => &[],
     });
     forms.flatten().collect()
 }

@@ -1,4 +1,4 @@
-//! [`Walk`]: visits the entities of a DXF drawing, inserts blocks, and groups the curves by layer.
+//! [`DxfWalk`]: visits the entities of a DXF drawing, inserts blocks, and groups the curves by layer.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::record::Record;
 use crate::geometry::Bounds;
 use crate::import::LENGTH_TOL;
 use crate::import::affine::Affine;
-use crate::import::draft::{Draft, FillRule, Form, Part, Role, Values};
+use crate::import::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use crate::import::limit::{MAX_BODIES, too_many};
 use crate::import::naming::Naming;
 use crate::import::stone::Stone;
@@ -41,15 +41,15 @@ const ANNOTATIONS: [&str; 17] = [
 ];
 
 /// The state of the walk.
-pub(super) struct Walk<'d> {
+pub(super) struct DxfWalk<'d> {
     pub(super) document: &'d Document<'d>,
     pub(super) naming: &'d Naming<'d>,
     /// Metres per unit of the drawing.
     pub(super) metres: f64,
     pub(super) draft: Draft,
     /// Open curves by layer and by insertion: only curves of one layer in one insertion form a loop.
-    pub(super) open: BTreeMap<(String, usize), (Place, Vec<OpenCurve>)>,
-    pub(super) hatches: Vec<(Place, Vec<Subpath>, String)>,
+    pub(super) open: BTreeMap<(String, usize), (EntityContext, Vec<OpenCurve>)>,
+    pub(super) hatches: Vec<(EntityContext, Vec<Subpath>, String)>,
     /// The number of entities that are left out, by reason.
     pub(super) left_out: BTreeMap<String, usize>,
     /// The number of insertions so far.
@@ -58,7 +58,7 @@ pub(super) struct Walk<'d> {
 
 /// The place of entities: their transform, and the names around them.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct EntityContext {
     map: Affine,
     /// The layer of the INSERT, for entities on layer 0.
     layer: String,
@@ -69,13 +69,13 @@ pub(super) struct Place {
     depth: usize,
 }
 
-impl<'d> Walk<'d> {
+impl<'d> DxfWalk<'d> {
     /// Reads the entities of the drawing, and those of the blocks that they insert.
     ///
     /// # Errors
     /// Returns a message if the drawing has too many outlines.
     pub(super) fn drawing(&mut self) -> Result<(), String> {
-        let place = Place {
+        let place = EntityContext {
             map: Affine::scale(self.metres, self.metres),
             layer: "0".into(),
             block: String::new(),
@@ -86,7 +86,11 @@ impl<'d> Walk<'d> {
         self.entities(self.document.entities, &place)
     }
 
-    fn entities(&mut self, records: &'d [Record<'d>], around: &Place) -> Result<(), String> {
+    fn entities(
+        &mut self,
+        records: &'d [Record<'d>],
+        around: &EntityContext,
+    ) -> Result<(), String> {
         for (i, entity) in records.iter().enumerate() {
             if self.draft.parts.len() > MAX_BODIES {
                 return Err(too_many(self.draft.parts.len()).message);
@@ -112,7 +116,7 @@ impl<'d> Walk<'d> {
 
     /// Returns the transform, layer and role of an entity, which depend on those of the block around it. Returns
     /// `None`, and counts the entity as left out, if it is in paper space or on a hidden or ignored layer.
-    fn place(&mut self, entity: &Record<'_>, around: &Place) -> Option<Place> {
+    fn place(&mut self, entity: &Record<'_>, around: &EntityContext) -> Option<EntityContext> {
         if entity.integer(67) == 1 {
             self.leave("entities in paper space");
             return None;
@@ -130,14 +134,14 @@ impl<'d> Walk<'d> {
             self.leave("entities on layers whose names begin with ignore or guide");
             return None;
         }
-        Some(Place {
+        Some(EntityContext {
             layer,
             role,
             ..around.clone()
         })
     }
 
-    fn entity(&mut self, entity: &Record<'_>, vertices: &[Record<'_>], place: Place) {
+    fn entity(&mut self, entity: &Record<'_>, vertices: &[Record<'_>], place: EntityContext) {
         let element = described(entity, &place);
         match curve(entity, vertices) {
             Some(Shape::Curve(curve)) => {
@@ -151,7 +155,7 @@ impl<'d> Walk<'d> {
                 }
             }
             Some(Shape::Point(at)) if place.role == Some(Role::Robot) => {
-                let form = Form::Point(place.map.point(at));
+                let form = PartGeometry::Point(place.map.point(at));
                 self.draft.parts.push(new_part(&place, form, element));
             }
             Some(Shape::Point(_)) => self.leave("POINT"),
@@ -169,13 +173,13 @@ impl<'d> Walk<'d> {
         }
     }
 
-    fn part(&mut self, place: &Place, curves: Vec<Subpath>, element: String) {
-        let form = Form::Subpaths(curves, FillRule::EvenOdd);
+    fn part(&mut self, place: &EntityContext, curves: Vec<Subpath>, element: String) {
+        let form = PartGeometry::Subpaths(curves, FillRule::EvenOdd);
         self.draft.parts.push(new_part(place, form, element));
     }
 
     /// Reads the entities of the block that an INSERT entity inserts, once for each of its rows and columns.
-    fn insert(&mut self, insert: &Record<'_>, around: &Place) -> Result<(), String> {
+    fn insert(&mut self, insert: &Record<'_>, around: &EntityContext) -> Result<(), String> {
         let name = insert.text(2).unwrap_or("");
         let element = described(insert, around);
         let Some(block) = self.document.blocks.get(name) else {
@@ -216,7 +220,7 @@ impl<'d> Walk<'d> {
             if self.inserted > 10 * MAX_BODIES {
                 return Err(too_many(self.inserted).message);
             }
-            let place = Place {
+            let place = EntityContext {
                 map: around
                     .map
                     .after(&transform(insert, block, [cell % columns, cell / columns])),
@@ -235,7 +239,7 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    fn hatch(&mut self, entity: &Record<'_>, place: &Place) {
+    fn hatch(&mut self, entity: &Record<'_>, place: &EntityContext) {
         let element = described(entity, place);
         match hatch::loops(entity) {
             Ok(loops) => {
@@ -276,7 +280,7 @@ impl<'d> Walk<'d> {
         self.draft
     }
 
-    fn chain(&mut self, layer: &str, place: &Place, list: Vec<OpenCurve>, tolerance: f64) {
+    fn chain(&mut self, layer: &str, place: &EntityContext, list: Vec<OpenCurve>, tolerance: f64) {
         let chained = match tolerance > 0.0 {
             true => chains(list, tolerance),
             false => Default::default(),
@@ -336,7 +340,7 @@ impl<'d> Walk<'d> {
     }
 }
 
-fn new_part(place: &Place, form: Form, element: String) -> Part {
+fn new_part(place: &EntityContext, form: PartGeometry, element: String) -> Part {
     let stone = Stone::from_name(&place.layer);
     Part {
         kind: place.role.unwrap_or(Role::Block),
@@ -353,7 +357,7 @@ fn new_part(place: &Place, form: Form, element: String) -> Part {
 }
 
 /// Returns the kind, layer and line of an entity as text, so that the user finds it in the drawing.
-fn described(entity: &Record<'_>, place: &Place) -> String {
+fn described(entity: &Record<'_>, place: &EntityContext) -> String {
     let layer = crate::text::heading(&place.layer, 60);
     format!("{} on layer {layer} in line {}", entity.kind, entity.line)
 }

@@ -6,10 +6,10 @@ use super::context::Context;
 use super::element;
 use super::style::Style;
 use super::viewport::Viewport;
-use super::walk::Walk;
+use super::walk::SvgWalk;
 use super::xml::{is, words};
 use crate::import::affine::Affine;
-use crate::import::draft::{FillRule, Form, Part, Role, Values};
+use crate::import::draft::{FillRule, Part, PartGeometry, Role, Values};
 
 const SCALE_ATTRIBUTE: &str = "data-drystone-scale";
 const ORIGIN_ATTRIBUTE: &str = "data-drystone-origin";
@@ -50,7 +50,7 @@ fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String
     Ok(Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]))
 }
 
-impl<'a, 'd> Walk<'a, 'd> {
+impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Reads one frame of a figure; `frame` is counted from 0, and the default is the last frame. Returns a message if
     /// there is no such frame.
     pub(super) fn figure(
@@ -160,7 +160,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 kind,
                 name: name.to_owned(),
                 element,
-                form: Form::Subpaths(
+                form: PartGeometry::Subpaths(
                     subpaths.iter().map(|t| t.mapped(&map)).collect(),
                     FillRule::NonZero,
                 ),

@@ -1,7 +1,7 @@
 //! Reads SVG from Inkscape, Illustrator and other programs into a [`Draft`].
 //!
 //! 1. Parse the XML and the style sheets.
-//! 2. Walk the tree ([`Walk`]). Each element inherits its transform, its style, and the role from the names around it.
+//! 2. Walk the tree ([`SvgWalk`]). Each element inherits its transform, its style, and the role from the names around it.
 //! 3. Convert shapes to subpaths in metres, with y up.
 //!
 //! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED_REMARKS`] of one kind.
@@ -24,7 +24,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use simplecss::StyleSheet;
 
 use self::name::Lines;
-use self::walk::Walk;
+use self::walk::SvgWalk;
 use self::xml::{is, words};
 use super::draft::Draft;
 use super::limit::too_many;
@@ -64,7 +64,7 @@ pub(super) fn read(
             "its {rules} style rules and {elements} elements need too many comparisons; simplify its styles"
         ));
     }
-    let mut walk = Walk {
+    let mut walk = SvgWalk {
         sheet,
         naming,
         styled: 0,

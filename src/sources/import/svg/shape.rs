@@ -6,13 +6,13 @@ use svgtypes::{TransformListParser, TransformListToken};
 use super::context::Context;
 use super::remark::RemarkKind;
 use super::style::Fill;
-use super::walk::Walk;
+use super::walk::SvgWalk;
 use super::{element, name};
 use crate::import::affine::Affine;
-use crate::import::draft::{Form, Part, Role, Values};
+use crate::import::draft::{Part, PartGeometry, Role, Values};
 use crate::import::limit::MAX_BODIES;
 
-impl<'a, 'd> Walk<'a, 'd> {
+impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Adds a shape to the draft, in metres. A hidden shape is left out, and a shape that cannot be read is reported.
     pub(super) fn shape(&mut self, node: Node<'a, 'd>, around: &Context) {
         if !around.style.visible {
@@ -37,7 +37,7 @@ impl<'a, 'd> Walk<'a, 'd> {
             kind: around.kind.unwrap_or(Role::Block),
             name: shape_name(node, around),
             element: self.element_label(node, around),
-            form: Form::Subpaths(mapped, around.style.rule),
+            form: PartGeometry::Subpaths(mapped, around.style.rule),
             fill,
             values: Values::default(),
         };

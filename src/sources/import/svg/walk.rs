@@ -1,4 +1,4 @@
-//! [`Walk`]: visits the elements of an SVG and adds the shapes to a draft.
+//! [`SvgWalk`]: visits the elements of an SVG and adds the shapes to a draft.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ const MAX_DEPTH: usize = 100;
 const MAX_ELEMENTS: usize = 500_000;
 
 /// The state of a walk over the elements of an SVG.
-pub(super) struct Walk<'a, 'd> {
+pub(super) struct SvgWalk<'a, 'd> {
     pub(super) sheet: StyleSheet<'a>,
     pub(super) naming: &'a Naming<'a>,
     pub(super) ids: BTreeMap<&'a str, Node<'a, 'd>>,
@@ -40,7 +40,7 @@ pub(super) struct Walk<'a, 'd> {
     pub(super) remarked: BTreeMap<RemarkKind, usize>,
 }
 
-impl<'a, 'd> Walk<'a, 'd> {
+impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Reads an SVG that is not a figure of drystone.
     pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Scale) -> Result<(), String> {
         let page = viewport::page(root);

@@ -1,4 +1,4 @@
-//! [`Reading`]: reads the keys of a style file and collects all problems.
+//! [`ThemeReader`]: reads the keys of a style file and collects all problems.
 
 use super::value::Value;
 use super::{
@@ -11,11 +11,11 @@ use crate::text::nearest;
 
 /// Reads the keys of a file and collects all problems.
 #[derive(Default)]
-pub(super) struct Reading {
+pub(super) struct ThemeReader {
     pub(super) problems: Vec<StyleProblem>,
 }
 
-impl Reading {
+impl ThemeReader {
     /// Adds a problem to the list. `path` is the path to the value, and `help` says what is expected.
     pub(super) fn note(&mut self, path: &str, message: String, help: String) {
         self.problems.push(StyleProblem {
@@ -26,7 +26,7 @@ impl Reading {
     }
 
     /// Returns the theme that the key `theme` of a file names. Returns `None` if there is no such key or if the name is
-    /// unknown. [`Reading::theme`] reports an unknown name.
+    /// unknown. [`ThemeReader::theme`] reports an unknown name.
     pub(super) fn base(&self, entries: &[(String, Value)]) -> Option<Theme> {
         let named = |(key, value): &(String, Value)| match value {
             Value::Text(name) if key == "theme" => Theme::named(name),

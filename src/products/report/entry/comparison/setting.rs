@@ -14,7 +14,7 @@ use crate::wording::number::{amount, digits, listed, place};
 const MAX_NAMED_DIFFERENCES: usize = 4;
 
 /// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts.
-type Given = Vec<(String, String, Option<usize>)>;
+type FrameInputs = Vec<(String, String, Option<usize>)>;
 
 /// The inputs that differ, apart from the blocks.
 pub(super) struct Settings {
@@ -30,7 +30,7 @@ impl Settings {
             lines: Vec::new(),
             blocks: [Vec::new(), Vec::new()],
         };
-        let words = |list: &Given, name: &str| {
+        let words = |list: &FrameInputs, name: &str| {
             let found = list.iter().find(|g| g.0 == name);
             found.map_or("none".to_owned(), |g| g.1.clone())
         };
@@ -75,14 +75,14 @@ impl Settings {
     }
 }
 
-fn given(scene: &Scene, number: usize) -> Given {
+fn given(scene: &Scene, number: usize) -> FrameInputs {
     let frame = &scene.frames[number];
     let corners = if scene.corner_contacts {
         "carry force"
     } else {
         "carry none"
     };
-    let mut given: Given = vec![
+    let mut given: FrameInputs = vec![
         (
             "gravity".into(),
             vector(scene.gravity.x, scene.gravity.y, "m/s²"),
