@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::cost::{SolveReport, Stages};
 use super::decide::{self, Findings, Method, decide_component};
-use super::frame::settle;
-use super::gather::{add, gathered};
+use super::frame::complete_frame;
+use super::gather::{add_component, unloaded_frame};
 use super::key::{Key, key};
 use super::margin::{self, ComponentIntervals, Part};
 use super::sensitivity::{self, Sensitivity};
@@ -31,43 +31,43 @@ const MIN_PARALLEL_COMPONENTS: usize = 17;
 
 /// Results for the components of earlier frames.
 #[derive(Default)]
-pub(super) struct Known {
+pub(super) struct ResultCache {
     findings: BTreeMap<Key, Findings>,
     intervals: BTreeMap<Key, ComponentIntervals>,
 }
 
 /// A component of a frame with its findings.
-struct Solved<'a> {
+struct SolvedComponent<'a> {
     component: &'a Assembly,
     key: &'a Key,
-    found: &'a Findings,
+    findings: &'a Findings,
 }
 
 /// Finds the interfaces of a scene and analyses every frame. Gaps and overlaps between blocks stay as they are drawn.
 pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
-    let found = Interfaces::new(scene);
-    let frames = analyse_frames(scene, &found, options);
-    (found, frames)
+    let findings = Interfaces::new(scene);
+    let frames = analyse_frames(scene, &findings, options);
+    (findings, frames)
 }
 
 /// Analyses every frame of a scene, with interfaces that were found before.
 pub(super) fn analyse_frames(
     scene: &Scene,
-    found: &Interfaces,
+    interfaces: &Interfaces,
     options: &Options,
 ) -> Vec<FrameAnalysis> {
-    let mut known = Known::default();
+    let mut known = ResultCache::default();
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
-            let interfaces = found.in_frame(scene, frame);
+            let frame_interfaces = interfaces.in_frame(scene, frame);
             let context = FrameContext {
                 scene,
                 frame,
-                interfaces: &interfaces,
+                interfaces: &frame_interfaces,
             };
             let mut analysis = analyse_frame(&context, *options, &mut known);
-            analysis.notices.extend(found.notices.iter().cloned());
+            analysis.notices.extend(interfaces.notices.iter().cloned());
             analysis
         })
         .collect()
@@ -78,7 +78,7 @@ pub(super) fn analyse_frames(
 pub(super) fn analyse_frame(
     context: &FrameContext,
     options: Options,
-    known: &mut Known,
+    known: &mut ResultCache,
 ) -> FrameAnalysis {
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
@@ -93,19 +93,19 @@ pub(super) fn analyse_frame(
     // Decide each component.
     let (effort, fresh) = decide_fresh(&components, &keys, options, &mut known.findings);
     let solved = (components.iter().zip(&keys)).map(|(component, key)| {
-        let found = known.findings.get(key)?;
-        Some(Solved {
+        let findings = known.findings.get(key)?;
+        Some(SolvedComponent {
             component,
             key,
-            found,
+            findings,
         })
     });
-    let solved: Vec<Solved> = solved.flatten().collect();
+    let solved: Vec<SolvedComponent> = solved.flatten().collect();
     // Combine the verdicts and forces of the components.
     let mut analysis = combine(context, &assembly, reports, &solved, options);
     stages.solution = seconds() - stages.assembly;
     analysis.solve = SolveReport {
-        method: (solved.iter().map(|s| s.found.method).max()).unwrap_or(Method::ClosedForm),
+        method: (solved.iter().map(|s| s.findings.method).max()).unwrap_or(Method::ClosedForm),
         iterations: effort.iterations,
         programs: effort.programs,
         groups: components.len(),
@@ -121,18 +121,18 @@ pub(super) fn analyse_frame(
     if options.wedging {
         analysis.solve.stages.wedging = after - before;
     }
-    let judged = find_margins(
+    let decided_count = find_margins(
         context.scene,
         &mut analysis,
         &solved,
         options,
         &mut known.intervals,
     );
-    if judged.is_some() {
+    if decided_count.is_some() {
         analysis.solve.stages.margins = seconds() - after;
     }
     analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.intervals);
-    analysis.effects.push(effect::margin::report(judged));
+    analysis.effects.push(effect::margin::report(decided_count));
     analysis.effects.push(wedging::report(wedging));
     analysis.solve.seconds = seconds();
     analysis
@@ -149,7 +149,7 @@ fn decide_fresh(
     let fresh: Vec<usize> = (0..components.len())
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| {
+    let decide_one = |k: &usize| {
         // The guard works only on its own thread, so each task creates one.
         let _until = DeadlineGuard::new(options.deadline);
         decide_component(&components[*k], options)
@@ -157,17 +157,17 @@ fn decide_fresh(
     // The results keep the order of the components, even if several threads compute them.
     #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
-        fresh.par_iter().map(one).collect()
+        fresh.par_iter().map(decide_one).collect()
     } else {
-        fresh.iter().map(one).collect()
+        fresh.iter().map(decide_one).collect()
     };
     #[cfg(not(feature = "parallel"))]
-    let findings: Vec<Findings> = fresh.iter().map(one).collect();
+    let findings: Vec<Findings> = fresh.iter().map(decide_one).collect();
     let effort = findings
         .iter()
         .fold(Effort::default(), |sum, f| sum.plus(f.effort));
-    for (k, found) in fresh.iter().zip(findings) {
-        known.insert(keys[*k].clone(), found);
+    for (k, findings) in fresh.iter().zip(findings) {
+        known.insert(keys[*k].clone(), findings);
     }
     (effort, fresh.len())
 }
@@ -177,20 +177,22 @@ fn combine(
     context: &FrameContext,
     assembly: &Assembly,
     reports: Vec<EffectReport>,
-    solved: &[Solved],
+    solved: &[SolvedComponent],
     options: Options,
 ) -> FrameAnalysis {
-    let mut analysis = gathered(context, assembly, reports);
-    for Solved {
-        component, found, ..
+    let mut analysis = unloaded_frame(context, assembly, reports);
+    for SolvedComponent {
+        component,
+        findings,
+        ..
     } in solved
     {
-        add(&mut analysis, component, found, context.scene.kernel);
+        add_component(&mut analysis, component, findings, context.scene.kernel);
     }
-    let count = solved
-        .iter()
-        .fold(UnknownCounts::default(), |sum, s| sum.plus(&s.found.count));
-    settle(&mut analysis, context, &count, options.verdict_only);
+    let count = solved.iter().fold(UnknownCounts::default(), |sum, s| {
+        sum.plus(&s.findings.count)
+    });
+    complete_frame(&mut analysis, context, &count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubts.insert(0, UndecidedReason::Late);
     }
@@ -202,13 +204,13 @@ fn combine(
 fn find_wedging(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
-    solved: &[Solved],
+    solved: &[SolvedComponent],
     options: Options,
 ) -> Wedging {
     match (options.wedging, analysis.verdict) {
         (false, _) => Wedging::NotAsked,
         (true, Verdict::Stable) => {
-            let components = solved.iter().map(|s| (s.component, s.found));
+            let components = solved.iter().map(|s| (s.component, s.findings));
             let (only, shown, wedged) = decide::only_by_wedging(scene, components);
             (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
@@ -222,7 +224,7 @@ fn find_wedging(
 fn find_margins(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
-    solved: &[Solved],
+    solved: &[SolvedComponent],
     options: Options,
     known: &mut BTreeMap<Key, ComponentIntervals>,
 ) -> Option<usize> {
@@ -230,14 +232,14 @@ fn find_margins(
     let parts = solved.iter().map(|s| Part {
         component: s.component,
         key: s.key,
-        found: s.found,
+        findings: s.findings,
     });
     let parts: Vec<Part> = parts.collect();
-    let (margins, judged) = margin::find_margins(&parts, kinds, known);
+    let (margins, decided_count) = margin::find_margins(&parts, kinds, known);
     let name = |robot: RobotId| scene.robots[robot.0].id.clone();
     analysis.notices.extend(margins.intervals.withheld(name));
     analysis.margins = Some(margins);
-    Some(judged)
+    Some(decided_count)
 }
 
 /// Computes the sensitivity of one margin: its derivatives with respect to geometry, weights, friction and loads.
@@ -245,7 +247,7 @@ fn find_margins(
 fn find_sensitivity(
     context: &FrameContext,
     analysis: &FrameAnalysis,
-    solved: &[Solved],
+    solved: &[SolvedComponent],
     options: Options,
     known: &BTreeMap<Key, ComponentIntervals>,
 ) -> Option<Sensitivity> {
@@ -253,7 +255,9 @@ fn find_sensitivity(
     let intervals = &analysis.margins.as_ref()?.intervals;
     let parts = solved.iter().map(|s| sensitivity::Part {
         component: s.component,
-        interval: known.get(s.key).and_then(|found| found.of(kind)),
+        interval: known
+            .get(s.key)
+            .and_then(|findings| findings.interval(kind)),
     });
     let parts: Vec<sensitivity::Part> = parts.collect();
     Some(sensitivity::find(context, &parts, intervals, kind))

@@ -47,7 +47,9 @@ mod parallel_joints;
 pub(super) use candidate::Candidate;
 pub(super) use limit_proof::{decided_forces, proved_forces, proved_motion};
 pub(super) use proof_cache::ProofCache;
-pub(super) use verdict_only::{Ends, decide_verdict, remember_limit, verdict_from_cache};
+pub(super) use verdict_only::{
+    LimitResults, add_limit_to_cache, decide_verdict, verdict_from_cache,
+};
 pub(super) use wedging::only_by_wedging;
 
 use super::{Failure, Options, UndecidedReason, Verdict};
@@ -56,8 +58,8 @@ use crate::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
 use crate::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
 use crate::solve::{Amounts, Effort, SolverSettings, determinate};
 use programs::Decision;
+pub(super) use strategy::LimitDistance;
 pub use strategy::Method;
-pub(super) use strategy::Place;
 
 /// Bodies slower than this are left out of a reported mechanism; the fastest point has speed 1. Solver noise on
 /// resting bodies reaches 1e-9, so a value ten times smaller could list bodies at rest. Even a value ten times larger
@@ -96,11 +98,11 @@ struct Component<'a> {
     /// The solver's settings, in the order in which they are tried.
     settings: Vec<SolverSettings>,
     /// The thresholds that a proof must meet.
-    demand: ProofThreshold,
+    threshold: ProofThreshold,
     /// Whether forces of least sum and failures are computed after the verdict.
     complete_result: bool,
     /// What is known about its distance from the limit of stability.
-    place: Place,
+    limit_distance: LimitDistance,
 }
 
 /// Decides whether one component stands, and computes its forces, or its failures and its mechanism.
@@ -138,14 +140,14 @@ impl<'a> Component<'a> {
             assembly,
             scale: Scale::from_assembly(assembly),
             settings: options.solver_settings(),
-            demand: options.accuracy.demand(),
+            threshold: options.accuracy.demand(),
             complete_result: !options.verdict_only,
-            place: Place::Anywhere,
+            limit_distance: LimitDistance::Unknown,
         }
     }
 
-    fn believes(&self, proof: &Proof) -> bool {
-        proof.meets(self.demand)
+    fn accepts(&self, proof: &Proof) -> bool {
+        proof.meets(self.threshold)
     }
 
     /// Route 1: decides a component in closed form, without a solver. `None` if no closed form applies, or if its
@@ -164,28 +166,28 @@ impl<'a> Component<'a> {
             }
         } else {
             // The balance equations alone determine the forces, as in a stack.
-            let carried = self.prove_forces(&determinate(program)?);
-            if !self.believes(&carried.proof) {
+            let proved = self.prove_forces(&determinate(program)?);
+            if !self.accepts(&proved.proof) {
                 return None;
             }
-            self.stands(carried)
+            self.stands(proved)
         };
         Some(found)
     }
 
     /// Returns the findings of a stable component whose forces were computed in closed form.
-    fn stands(&self, carried: forces::ProvedForces) -> Findings {
+    fn stands(&self, proved: forces::ProvedForces) -> Findings {
         Findings {
             verdict: Verdict::Stable,
             doubt: None,
-            force_bound: Some(carried.forces.sum(self.assembly.length)),
-            forces: carried.forces,
+            force_bound: Some(proved.forces.sum(self.assembly.length)),
+            forces: proved.forces,
             least_force: true,
             failures: Vec::new(),
             total_sticking: 0.0,
             unsupported: false,
             mechanism: Vec::new(),
-            proof: carried.proof,
+            proof: proved.proof,
             method: Method::ClosedForm,
             effort: Effort::default(),
             count: UnknownCounts::default(),
@@ -234,7 +236,7 @@ impl<'a> Component<'a> {
             least_force: decision.least_force,
             failures,
             total_sticking,
-            unsupported: decision.beyond_adhesion && decision.verdict == Verdict::Unstable,
+            unsupported: decision.adhesion_cannot_hold && decision.verdict == Verdict::Unstable,
             mechanism,
             proof: decision.proof,
             method: decision.method,

@@ -8,7 +8,7 @@ use crate::proof::Proof;
 
 /// Returns the weaker of two proofs. If both are of the same kind, the result has the worse value of each error. If
 /// only one is a proof by a mechanism, the result is that proof.
-pub(super) fn worst(a: Proof, b: Proof) -> Proof {
+pub(super) fn weaker_proof(a: Proof, b: Proof) -> Proof {
     match (a, b) {
         (
             Proof::Forces {
@@ -49,9 +49,9 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
 
 /// Completes the analysis of a frame: adds the number of unknowns of each effect, the reports on adhesion and
 /// mechanism, and the notices.
-pub(super) fn settle(
+pub(super) fn complete_frame(
     analysis: &mut FrameAnalysis,
-    situation: &FrameContext,
+    context: &FrameContext,
     counts: &UnknownCounts,
     verdict_only: bool,
 ) {
@@ -63,7 +63,7 @@ pub(super) fn settle(
     for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
         report.unknowns = counts.get(report.effect);
     }
-    let blocks = situation.frame.placed.len();
+    let blocks = context.frame.placed.len();
     // Report whether adhesion was computed: only if the frame falls and its failures are requested.
     let sought = match verdict_only {
         true if unstable => Sought::NotAsked,
@@ -76,11 +76,11 @@ pub(super) fn settle(
         counts.get(EffectName::Sticking),
     ));
     analysis.effects.push(mechanism::report(unstable));
-    add_notices(analysis, situation, verdict_only);
+    add_notices(analysis, context, verdict_only);
 }
 
 /// Adds notices to the result: what was not computed or not proved, and which blocks no adhesion can hold.
-fn add_notices(analysis: &mut FrameAnalysis, situation: &FrameContext, verdict_only: bool) {
+fn add_notices(analysis: &mut FrameAnalysis, context: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(
             "only the verdict was asked for: where more than one set of forces balances, any of them is shown"
@@ -103,7 +103,7 @@ fn add_notices(analysis: &mut FrameAnalysis, situation: &FrameContext, verdict_o
             .unsupported
             .iter()
             .take(10)
-            .map(|b| situation.scene.blocks[b.0].id.as_str())
+            .map(|b| context.scene.blocks[b.0].id.as_str())
             .collect();
         let more = match analysis.unsupported.len() - names.len() {
             0 => String::new(),

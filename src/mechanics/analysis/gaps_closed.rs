@@ -19,16 +19,16 @@ const MAX_NAMED_PLACES: usize = 3;
 const MAX_NOTED_GAPS: usize = 10;
 /// All places are closed by the widest gap or overlap times this factor: one percent more than needed, so that
 /// rounding leaves none open.
-const ENOUGH: f64 = 1.01;
+const CLOSING_FACTOR: f64 = 1.01;
 /// A rounded corner is farther from its true position than from either of its edges, and gaps and overlaps are
 /// measured from the edges. Closing may therefore need the widest of them times this factor.
-const CORNERS: f64 = 2.5;
+const CORNER_CLOSING_FACTOR: f64 = 2.5;
 /// Bodies that are meant to touch are at most this fraction of the smallest block's size apart.
-const NARROW: f64 = 0.01;
+const MAX_SIZE_SHARE: f64 = 0.01;
 
 /// A place where two bodies may have been meant to touch.
 #[derive(Clone, Copy)]
-struct Place {
+struct AmbiguousPlace {
     bodies: [BodyId; 2],
     at: Point,
     /// The width of the gap or the depth of the overlap, metres.
@@ -36,9 +36,9 @@ struct Place {
     overlaps: bool,
 }
 
-impl From<&NearMiss> for Place {
-    fn from(gap: &NearMiss) -> Place {
-        Place {
+impl From<&NearMiss> for AmbiguousPlace {
+    fn from(gap: &NearMiss) -> AmbiguousPlace {
+        AmbiguousPlace {
             bodies: gap.bodies,
             at: gap.at,
             size: gap.distance,
@@ -47,9 +47,9 @@ impl From<&NearMiss> for Place {
     }
 }
 
-impl From<&Penetration> for Place {
-    fn from(overlap: &Penetration) -> Place {
-        Place {
+impl From<&Penetration> for AmbiguousPlace {
+    fn from(overlap: &Penetration) -> AmbiguousPlace {
+        AmbiguousPlace {
             bodies: overlap.bodies,
             at: overlap.at,
             size: overlap.depth,
@@ -62,7 +62,7 @@ impl From<&Penetration> for Place {
 /// differs from the first.
 pub(super) fn recheck(
     scene: &Scene,
-    found: &Interfaces,
+    interfaces: &Interfaces,
     frames: &mut [FrameAnalysis],
     options: &Options,
 ) {
@@ -77,11 +77,11 @@ pub(super) fn recheck(
         leave_overlaps_undecided(scene, frames);
         return;
     }
-    recheck_with_slivers(scene, found, frames, options);
-    if found.near_misses.is_empty() && scene.penetrations.is_empty() {
+    recheck_with_slivers(scene, interfaces, frames, options);
+    if interfaces.near_misses.is_empty() && scene.penetrations.is_empty() {
         return;
     }
-    let places = ambiguous_places(scene, found);
+    let places = ambiguous_places(scene, interfaces);
     // Close all gaps and overlaps of all frames by the same length, which depends on the widest of them.
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
@@ -99,8 +99,8 @@ pub(super) fn recheck(
 
 /// Returns, for each frame, the small gaps and overlaps where bodies may have been meant to touch. Gaps that a pinning
 /// stone keeps open are left out.
-fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
-    let touching = ContactsByBody::new(&found.all);
+fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<AmbiguousPlace>> {
+    let touching = ContactsByBody::new(&interfaces.all);
     let in_frame = |frame: &Frame| {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
@@ -111,12 +111,12 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
             BodyId::Block(id) => placed[id.0],
         };
         // A gap that a pinning stone between the two bodies keeps open is intended, so it is left out.
-        let gaps = (found.near_misses.iter())
+        let gaps = (interfaces.near_misses.iter())
             .filter(|gap| gap.bodies.iter().all(stands))
             .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
         let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
-        gaps.map(Place::from)
-            .chain(overlaps.map(Place::from))
+        gaps.map(AmbiguousPlace::from)
+            .chain(overlaps.map(AmbiguousPlace::from))
             .collect()
     };
     scene.frames.iter().map(in_frame).collect()
@@ -128,21 +128,22 @@ fn ambiguous_places(scene: &Scene, found: &Interfaces) -> Vec<Vec<Place>> {
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
-    places: &[Vec<Place>],
+    places: &[Vec<AmbiguousPlace>],
     widest: f64,
     options: &Options,
 ) -> Vec<(f64, Vec<FrameAnalysis>)> {
     let options = without_extras(options);
     let closed = |closing: f64| (closing, analyse(&scene.closed(closing), &options).1);
-    let mut all = vec![closed(ENOUGH * widest)];
-    let same = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<Place>)| {
-        !places.is_empty() && frame.verdict == other.verdict
-    };
-    if frames.iter().zip(&all[0].1).zip(places).any(same) {
+    let mut all = vec![closed(CLOSING_FACTOR * widest)];
+    let is_unchanged =
+        |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<AmbiguousPlace>)| {
+            !places.is_empty() && frame.verdict == other.verdict
+        };
+    if frames.iter().zip(&all[0].1).zip(places).any(is_unchanged) {
         let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
         let smallest = sizes.fold(f64::INFINITY, f64::min);
-        let wider = (CORNERS * widest).min(NARROW * smallest);
-        if wider > ENOUGH * widest {
+        let wider = (CORNER_CLOSING_FACTOR * widest).min(MAX_SIZE_SHARE * smallest);
+        if wider > CLOSING_FACTOR * widest {
             all.push(closed(wider));
         }
     }
@@ -154,25 +155,25 @@ fn closed_verdicts(
 fn compare_verdicts(
     scene: &Scene,
     frame: &mut FrameAnalysis,
-    places: &[Place],
+    places: &[AmbiguousPlace],
     closed: &[(f64, Verdict)],
 ) {
-    let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
+    let overlaps: Vec<AmbiguousPlace> = places.iter().copied().filter(|p| p.overlaps).collect();
     // Use the first closing length that changes the verdict. If none does, use the first.
     let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;
     };
     // If bodies overlap, the frame keeps its verdict only if the verdict with closed overlaps is known and the same.
-    let unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
-    if frame.verdict != other && !unsure {
-        frame.doubts = vec![gaps(scene, [frame.verdict, other], places, closing)];
+    let is_unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
+    if frame.verdict != other && !is_unsure {
+        frame.doubts = vec![gaps_reason(scene, [frame.verdict, other], places, closing)];
         frame.verdict = Verdict::Undecided;
     } else if !overlaps.is_empty() && !is_undecided(frame.verdict) {
         frame.notices.push(format!(
             "bodies overlap; the verdict is the same whether they touch there or not, the forces are those without \
              touching: {}",
-            listed(scene, &overlaps)
+            list_places(scene, &overlaps)
         ));
     }
 }
@@ -192,10 +193,10 @@ fn is_undecided(verdict: Verdict) -> bool {
 
 /// Makes every frame with overlapping bodies undecided: after the deadline, the second verdict cannot be computed.
 fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
-    for (frame, played) in frames.iter_mut().zip(&scene.frames) {
+    for (frame, scene_frame) in frames.iter_mut().zip(&scene.frames) {
         let placed = |body: &BodyId| match body {
             BodyId::Ground(_) => true,
-            BodyId::Block(id) => played.placed.contains(id),
+            BodyId::Block(id) => scene_frame.placed.contains(id),
         };
         let mut overlaps = scene.penetrations.iter();
         if !is_undecided(frame.verdict) && overlaps.any(|o| o.bodies.iter().all(placed)) {
@@ -209,31 +210,31 @@ fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
 /// these contacts and stands with them becomes undecided.
 fn recheck_with_slivers(
     scene: &Scene,
-    found: &Interfaces,
+    interfaces: &Interfaces,
     frames: &mut [FrameAnalysis],
     options: &Options,
 ) {
     let falls = frames.iter().any(|f| f.verdict == Verdict::Unstable);
-    if found.slivers.is_empty() || !falls {
+    if interfaces.slivers.is_empty() || !falls {
         return;
     }
     let options = without_extras(options);
-    let others = analyse_frames(scene, &found.with_slivers(), &options);
-    for ((frame, other), played) in frames.iter_mut().zip(&others).zip(&scene.frames) {
+    let others = analyse_frames(scene, &interfaces.with_slivers(), &options);
+    for ((frame, other), scene_frame) in frames.iter_mut().zip(&others).zip(&scene.frames) {
         if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {
             continue;
         }
         let placed = |body: &BodyId| match body {
             BodyId::Ground(_) => true,
-            BodyId::Block(id) => played.placed.contains(id),
+            BodyId::Block(id) => scene_frame.placed.contains(id),
         };
-        let slivers = (found.slivers.iter()).filter(|s| s.bodies.iter().all(placed));
-        frame.doubts = vec![slivers_of(scene, &slivers.collect::<Vec<&Interface>>())];
+        let slivers = (interfaces.slivers.iter()).filter(|s| s.bodies.iter().all(placed));
+        frame.doubts = vec![slivers_reason(scene, &slivers.collect::<Vec<&Interface>>())];
         frame.verdict = Verdict::Undecided;
     }
 }
 
-fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
+fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
     let named = slivers.iter().take(MAX_NAMED_PLACES).map(|sliver| {
@@ -252,7 +253,7 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let length = |sliver: Option<&&Interface>| sliver.map_or(0.0, |s| s.length());
     let (counting, ignoring) = (
         0.5 * length(slivers.last()),
-        ENOUGH * length(slivers.first()),
+        CLOSING_FACTOR * length(slivers.first()),
     );
     let words = format!(
         "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
@@ -267,14 +268,14 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
 }
 
 /// Returns the notes of the scene, and further notes for the first few gaps that are nearly contacts.
-pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
+pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
     let mut notes = scene.notes.clone();
     let code = NoteCode::NearMiss;
     if scene.healed.source == ToleranceSource::Given || scene.silences(code) {
         return notes;
     }
-    let touching = ContactsByBody::new(&found.all);
-    let gaps: Vec<&NearMiss> = (found.near_misses.iter())
+    let touching = ContactsByBody::new(&interfaces.all);
+    let gaps: Vec<&NearMiss> = (interfaces.near_misses.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {
                 let stands = |body: &BodyId| match body {
@@ -310,23 +311,36 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     notes
 }
 
-fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> UndecidedReason {
+fn gaps_reason(
+    scene: &Scene,
+    verdicts: [Verdict; 2],
+    places: &[AmbiguousPlace],
+    closing: f64,
+) -> UndecidedReason {
     UndecidedReason::Gaps {
         open: verdicts[0],
         closed: verdicts[1],
         closing,
-        words: words(scene, verdicts, places, closing),
+        words: gaps_explanation(scene, verdicts, places, closing),
     }
 }
 
-fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> String {
+fn gaps_explanation(
+    scene: &Scene,
+    verdicts: [Verdict; 2],
+    places: &[AmbiguousPlace],
+    closing: f64,
+) -> String {
     let [written, closed] = verdicts.map(|verdict| match verdict {
         Verdict::Stable => "stands",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "is undecided",
     });
     let enough = format!("a contact_tolerance of {closing:.2e} m closes them");
-    let (places, overlap) = (listed(scene, places), places.iter().any(|p| p.overlaps));
+    let (places, overlap) = (
+        list_places(scene, places),
+        places.iter().any(|p| p.overlaps),
+    );
     if overlap {
         return format!(
             "it {written} where overlaps and narrow gaps carry nothing and {closed} where bodies touch there: {places}; \
@@ -341,7 +355,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
 }
 
 /// Lists the first few gaps and overlaps with their sizes and bodies, and adds the number of the others.
-fn listed(scene: &Scene, places: &[Place]) -> String {
+fn list_places(scene: &Scene, places: &[AmbiguousPlace]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };
         format!(

@@ -1,24 +1,24 @@
 //! Collects the results of all components of a frame in one [`FrameAnalysis`].
 
 use super::decide::{Findings, Method};
-use super::frame::worst;
+use super::frame::weaker_proof;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::assembly::Assembly;
 use crate::effect::{EffectReport, FrameContext};
 use crate::geometry::Vector;
 use crate::interface::Interface;
-use crate::resultant::{friction_used, from_corner_forces};
+use crate::resultant::{friction_used, from_point_forces};
 use crate::scene::Hold;
 
 /// Creates the analysis of a frame with zero force at every contact and grip. The results of the components are added
 /// later.
-pub(super) fn gathered(
-    situation: &FrameContext,
+pub(super) fn unloaded_frame(
+    context: &FrameContext,
     assembly: &Assembly,
     effects: Vec<EffectReport>,
 ) -> FrameAnalysis {
-    let (scene, frame) = (situation.scene, situation.frame);
-    let contacts = situation.interfaces.iter();
+    let (scene, frame) = (context.scene, context.frame);
+    let contacts = context.interfaces.iter();
     let contacts = contacts.map(|interface| unloaded_contact(interface, scene.kernel));
     let robots = frame.holds.iter().map(unloaded_robot);
     FrameAnalysis {
@@ -67,7 +67,7 @@ fn unloaded_contact(interface: &Interface, kernel: f64) -> Contact {
         application_points: interface.application_points(kernel),
         normal_forces: [0.0; 2],
         friction_force: 0.0,
-        resultant: from_corner_forces(interface, kernel, [0.0; 2], 0.0),
+        resultant: from_point_forces(interface, kernel, [0.0; 2], 0.0),
         friction_used: 0.0,
     }
 }
@@ -85,52 +85,59 @@ fn unloaded_robot(hold: &Hold) -> RobotForce {
 }
 
 /// Adds the results of one component to the frame.
-pub(super) fn add(
+pub(super) fn add_component(
     analysis: &mut FrameAnalysis,
     component: &Assembly,
-    found: &Findings,
+    findings: &Findings,
     kernel: f64,
 ) {
-    add_forces(analysis, component, found, kernel);
+    add_forces(analysis, component, findings, kernel);
     // The bounds of the components add up, because no force acts between two components. If one bound is unknown, the
     // sum is unknown, too.
-    analysis.force_bound = match (analysis.force_bound, found.force_bound) {
-        (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
+    analysis.force_bound = match (analysis.force_bound, findings.force_bound) {
+        (Some(sum), Some(own)) if findings.verdict == Verdict::Stable => Some(sum + own),
         _ => None,
     };
-    analysis.least_force &= found.least_force;
-    analysis.total_sticking += found.total_sticking;
-    analysis.failures.extend(found.failures.iter().copied());
-    analysis.mechanism.extend(found.mechanism.iter().copied());
-    if found.unsupported {
+    analysis.least_force &= findings.least_force;
+    analysis.total_sticking += findings.total_sticking;
+    analysis.failures.extend(findings.failures.iter().copied());
+    analysis
+        .mechanism
+        .extend(findings.mechanism.iter().copied());
+    if findings.unsupported {
         let blocks = component.bodies.iter().map(|body| body.block);
         analysis.unsupported.extend(blocks);
     }
-    analysis.doubts.extend(found.doubt.clone());
-    analysis.proof = match (analysis.verdict, found.verdict) {
+    analysis.doubts.extend(findings.doubt.clone());
+    analysis.proof = match (analysis.verdict, findings.verdict) {
         // If both verdicts are the same, use the worse numbers of both proofs. Otherwise use the proof of the worse
         // verdict.
-        (a, b) if a == b => worst(analysis.proof, found.proof),
-        (a, b) if a < b => found.proof,
+        (a, b) if a == b => weaker_proof(analysis.proof, findings.proof),
+        (a, b) if a < b => findings.proof,
         _ => analysis.proof,
     };
-    analysis.verdict = analysis.verdict.max(found.verdict);
+    analysis.verdict = analysis.verdict.max(findings.verdict);
 }
 
 /// Sets the forces of one component at its contacts and robots, and adds their magnitudes to `total_force`.
-fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
+fn add_forces(
+    analysis: &mut FrameAnalysis,
+    component: &Assembly,
+    findings: &Findings,
+    kernel: f64,
+) {
     // Set the normal forces, the friction and the resultant of each contact.
-    for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
+    for (at, pressed) in component.contacts.iter().zip(&findings.forces.contacts) {
         let contact = &mut analysis.contacts[at.interface];
         let (normal, friction) = (pressed.normal, pressed.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
-        contact.resultant = from_corner_forces(&contact.interface, kernel, normal, friction);
+        contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
     // Set the force and the torque of each robot, and the largest fraction of its limits that they use.
-    for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
+    for (grip, held) in component.grips.iter().zip(&findings.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {
                 amount.abs() / limit

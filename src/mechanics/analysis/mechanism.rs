@@ -19,13 +19,13 @@ use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::extreme_ray::{self, Row};
 
 /// A part with more blocks keeps the motion of its proof: to close its contacts one by one would take too long.
-const MOST_BLOCKS: usize = 300;
+const MAX_BLOCKS: usize = 300;
 /// How far gravity is rotated beyond the limit to find the mechanism there, degrees.
-const BEYOND: f64 = 0.05;
+const DEGREES_BEYOND_LIMIT: f64 = 0.05;
 /// A contact counts as closed, or as not sliding, up to this fraction of the largest velocity.
-const CLOSED: f64 = 1e-5;
+const CLOSED_TOL: f64 = 1e-5;
 /// A motion along the joints is drawn if its norm is at least this fraction of the norm of the rising motion.
-const KEPT: f64 = 0.5;
+const MIN_KEPT_NORM: f64 = 0.5;
 
 /// The parameter that is changed until the frame falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,8 +73,8 @@ impl Analysis {
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
-        let found = self.frames.get(frame)?;
-        let margins = found.margins.as_ref()?;
+        let analysis = self.frames.get(frame)?;
+        let margins = analysis.margins.as_ref()?;
         let side = |margin: &Margin, sign: f64| match margin {
             Margin::Value { at, mechanism } if !mechanism.is_empty() => {
                 Some((sign * at, mechanism.clone()))
@@ -97,45 +97,45 @@ impl Analysis {
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         match toward {
             Toward::Tilt => {
-                let (sin, cos) = sin_cos_degrees(at + BEYOND * at.signum());
+                let (sin, cos) = sin_cos_degrees(at + DEGREES_BEYOND_LIMIT * at.signum());
                 scene.gravity = Vector::new(
                     cos * gravity.x - sin * gravity.y,
                     sin * gravity.x + cos * gravity.y,
                 );
             }
             Toward::HorizontalLoad => {
-                let share = at + BEYOND.to_radians() * at.signum();
+                let share = at + DEGREES_BEYOND_LIMIT.to_radians() * at.signum();
                 scene.gravity = gravity + quarter_turn(gravity) * share;
             }
             Toward::LoadFactor => {
                 let outward = margins.least_factor().map_or(1.0, |_| -1.0);
-                let factor = at * (1.0 + outward * BEYOND.to_radians());
+                let factor = at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians());
                 for load in &mut scene.loads {
                     load.force *= factor;
                     load.torque *= factor;
                 }
             }
         }
-        Some((at, self.mechanisms_of(&scene, found, &motions)))
+        Some((at, self.elementary_mechanisms(&scene, analysis, &motions)))
     }
 
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
-        let found = &self.frames[number];
-        self.mechanisms_of(&self.scene, found, &found.mechanism)
+        let analysis = &self.frames[number];
+        self.elementary_mechanisms(&self.scene, analysis, &analysis.mechanism)
     }
 
     /// Replaces `motions`, by which a frame falls under the loads of `scene`, by one elementary mechanism for each
     /// falling part. The fastest point has speed 1.
-    pub(super) fn mechanisms_of(
+    pub(super) fn elementary_mechanisms(
         &self,
         scene: &Scene,
-        found: &FrameAnalysis,
+        analysis: &FrameAnalysis,
         motions: &[Motion],
     ) -> Vec<Motion> {
         let mut all = Vec::new();
         // Each connected part has a mechanism of its own. A part that is too large keeps the motion of its proof.
-        for part in parts(found, motions) {
-            let fall = Fall::new(scene, found, part, found.length);
+        for part in connected_parts(analysis, motions) {
+            let fall = FallingPart::new(scene, analysis, part, analysis.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         // Scale all parts by one factor, so that the fastest point has speed 1.
@@ -156,21 +156,21 @@ impl Analysis {
 
 /// Splits the moving blocks into parts that are connected by contacts between moving blocks. A block at rest does not
 /// connect two parts.
-fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
+fn connected_parts(analysis: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
-    let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
-    for contact in &found.contacts {
+    let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    for contact in &analysis.contacts {
         if let [BodyId::Block(a), BodyId::Block(b)] = contact.interface.bodies {
-            next.entry(a).or_default().push(b);
-            next.entry(b).or_default().push(a);
+            neighbours.entry(a).or_default().push(b);
+            neighbours.entry(b).or_default().push(a);
         }
     }
     // Find the parts by depth-first search along the contacts between moving blocks.
     let mut seen: BTreeSet<BlockId> = BTreeSet::new();
     let mut parts = Vec::new();
     for first in motions.keys() {
-        let (mut part, mut left) = (Vec::new(), vec![*first]);
-        while let Some(block) = left.pop() {
+        let (mut part, mut stack) = (Vec::new(), vec![*first]);
+        while let Some(block) = stack.pop() {
             let Some(motion) = motions.get(&block) else {
                 continue;
             };
@@ -178,7 +178,7 @@ fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
                 continue;
             }
             part.push(*motion);
-            left.extend(next.get(&block).into_iter().flatten());
+            stack.extend(neighbours.get(&block).into_iter().flatten());
         }
         if !part.is_empty() {
             part.sort_by_key(|m| m.block);
@@ -189,33 +189,33 @@ fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
 }
 
 /// A connected part of a frame that falls.
-struct Fall<'a> {
+struct FallingPart<'a> {
     scene: &'a Scene,
-    found: &'a FrameAnalysis,
+    analysis: &'a FrameAnalysis,
     motions: Vec<Motion>,
     /// The index of each block in `motions`.
-    places: BTreeMap<BlockId, usize>,
+    index_of_block: BTreeMap<BlockId, usize>,
     /// The length L in metres. A rotation enters as a speed at this distance.
     length: f64,
 }
 
-impl<'a> Fall<'a> {
+impl<'a> FallingPart<'a> {
     fn new(
         scene: &'a Scene,
-        found: &'a FrameAnalysis,
+        analysis: &'a FrameAnalysis,
         motions: Vec<Motion>,
         length: f64,
-    ) -> Fall<'a> {
-        let places = motions
+    ) -> FallingPart<'a> {
+        let index_of_block = motions
             .iter()
             .enumerate()
             .map(|(k, m)| (m.block, k))
             .collect();
-        Fall {
+        FallingPart {
             scene,
-            found,
+            analysis,
             motions,
-            places,
+            index_of_block,
             length,
         }
     }
@@ -223,7 +223,7 @@ impl<'a> Fall<'a> {
     /// Returns an elementary mechanism of this part, in which blocks slide along their joints if possible. `None` if it
     /// was not found.
     fn elementary(&self) -> Option<Vec<Motion>> {
-        if self.motions.len() > MOST_BLOCKS {
+        if self.motions.len() > MAX_BLOCKS {
             return None;
         }
         let start: Vec<f64> = self
@@ -235,17 +235,17 @@ impl<'a> Fall<'a> {
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
         // In the extreme ray, sliding joints also open. If a motion along the joints exists, use it instead.
         let sliding = self.along_joints(&y);
-        let motions = self.motions_of(&sliding.unwrap_or(y));
+        let motions = self.to_motions(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)
     }
 
     /// Returns `sign` times the velocity of a point of a body in the direction `along`, as a row of coefficients of the
     /// block velocities. The row is empty for a body at rest.
-    fn speed(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
+    fn velocity_row(&self, body: BodyId, at: Point, along: Vector, sign: f64) -> Row {
         let BodyId::Block(block) = body else {
             return Row::new();
         };
-        let Some(place) = self.places.get(&block) else {
+        let Some(place) = self.index_of_block.get(&block) else {
             return Row::new();
         };
         let arm = at - self.scene.blocks[block.0].centroid;
@@ -258,9 +258,9 @@ impl<'a> Fall<'a> {
 
     /// Returns the relative velocity of two bodies at a point in the direction `along`, positive if they separate, as a
     /// row of coefficients of the block velocities.
-    fn parting(&self, bodies: [BodyId; 2], at: Point, along: Vector) -> Row {
-        let mut row = self.speed(bodies[0], at, along, 1.0);
-        row.extend(self.speed(bodies[1], at, along, -1.0));
+    fn separation_row(&self, bodies: [BodyId; 2], at: Point, along: Vector) -> Row {
+        let mut row = self.velocity_row(bodies[0], at, along, 1.0);
+        row.extend(self.velocity_row(bodies[1], at, along, -1.0));
         row
     }
 
@@ -268,10 +268,10 @@ impl<'a> Fall<'a> {
     /// yield in the directions in which `start` moves them.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
-        for contact in &self.found.contacts {
+        for contact in &self.analysis.contacts {
             let interface = &contact.interface;
             for at in contact.application_points {
-                let opening = self.parting(interface.bodies, at, interface.normal);
+                let opening = self.separation_row(interface.bodies, at, interface.normal);
                 if opening.is_empty() {
                     continue;
                 }
@@ -283,22 +283,22 @@ impl<'a> Fall<'a> {
                 // With friction there are two conditions: neither of the two extreme forces of the friction cone
                 // opposes the motion.
                 for side in [1.0, -1.0] {
-                    let rubbing = interface.tangent() * (side * interface.friction);
+                    let sliding = interface.tangent() * (side * interface.friction);
                     let mut row = opening.clone();
-                    row.extend(self.parting(interface.bodies, at, rubbing));
+                    row.extend(self.separation_row(interface.bodies, at, sliding));
                     rows.push(row);
                 }
             }
         }
         for (row, limit) in self.grips() {
-            let now: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
-            let turned: Row = row.iter().map(|(k, v)| (*k, -v)).collect();
+            let current: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
+            let negated: Row = row.iter().map(|(k, v)| (*k, -v)).collect();
             // A robot without limits keeps its block at rest. A robot at its limit yields in the direction of `start`.
             if limit.is_finite() {
-                rows.push(if now < 0.0 { turned } else { row });
+                rows.push(if current < 0.0 { negated } else { row });
             } else {
                 rows.push(row);
-                rows.push(turned);
+                rows.push(negated);
             }
         }
         rows
@@ -308,8 +308,8 @@ impl<'a> Fall<'a> {
     /// force, N. The limit of the torque is divided by L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
-        for robot in &self.found.robots {
-            let Some(place) = self.places.get(&robot.block) else {
+        for robot in &self.analysis.robots {
+            let Some(place) = self.index_of_block.get(&robot.block) else {
                 continue;
             };
             let limits = &self.scene.robots[robot.robot.0].limits;
@@ -319,7 +319,7 @@ impl<'a> Fall<'a> {
                 (Vector::new(0.0, 1.0), limits.fy),
             ];
             for (axis, limit) in axes {
-                grips.push((self.speed(body, robot.at, axis, 1.0), limit));
+                grips.push((self.velocity_row(body, robot.at, axis, 1.0), limit));
             }
             if limits.torque > 0.0 {
                 grips.push((vec![(3 * place + 2, 1.0)], limits.torque / self.length));
@@ -337,18 +337,18 @@ impl<'a> Fall<'a> {
             let body = BodyId::Block(motion.block);
             // Add the power of the weight and of the listed loads.
             let weight = self.scene.down() * block.weight;
-            power.extend(self.speed(body, block.centroid, weight, 1.0));
+            power.extend(self.velocity_row(body, block.centroid, weight, 1.0));
             let loads = self.scene.loads.iter().filter(|l| l.block == motion.block);
             for load in loads {
-                power.extend(self.speed(body, load.at, load.force, 1.0));
-                let place = self.places[&motion.block];
+                power.extend(self.velocity_row(body, load.at, load.force, 1.0));
+                let place = self.index_of_block[&motion.block];
                 power.push((3 * place + 2, load.torque / self.length));
             }
         }
         for (row, limit) in self.grips() {
             if limit.is_finite() {
-                let now: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
-                let side = if now < 0.0 { limit } else { -limit };
+                let current: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
+                let side = if current < 0.0 { limit } else { -limit };
                 power.extend(row.iter().map(|(k, v)| (*k, side * v)));
             }
         }
@@ -360,21 +360,21 @@ impl<'a> Fall<'a> {
     fn along_joints(&self, y: &[f64]) -> Option<Vec<f64>> {
         let value = |row: &Row, y: &[f64]| row.iter().map(|(k, v)| v * y[*k]).sum::<f64>();
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
-        let (mut kept, mut normals, mut slides) = (Vec::new(), Vec::new(), false);
-        for contact in &self.found.contacts {
+        let (mut closed_rows, mut normals, mut slides) = (Vec::new(), Vec::new(), false);
+        for contact in &self.analysis.contacts {
             let interface = &contact.interface;
             for at in contact.application_points {
-                let opening = self.parting(interface.bodies, at, interface.normal);
+                let opening = self.separation_row(interface.bodies, at, interface.normal);
                 if opening.is_empty() {
                     continue;
                 }
-                let rubbing = self.parting(interface.bodies, at, interface.tangent());
-                let slide = value(&rubbing, y).abs();
+                let sliding = self.separation_row(interface.bodies, at, interface.tangent());
+                let slide = value(&sliding, y).abs();
                 let free = value(&opening, y) - interface.friction * slide;
-                if free <= CLOSED * largest {
-                    kept.push(opening.clone());
-                    if slide <= CLOSED * largest {
-                        kept.push(rubbing);
+                if free <= CLOSED_TOL * largest {
+                    closed_rows.push(opening.clone());
+                    if slide <= CLOSED_TOL * largest {
+                        closed_rows.push(sliding);
                     } else {
                         slides = true;
                     }
@@ -386,24 +386,27 @@ impl<'a> Fall<'a> {
             return None;
         }
         for (row, limit) in self.grips() {
-            if !limit.is_finite() || value(&row, y).abs() <= CLOSED * largest {
-                kept.push(row);
+            if !limit.is_finite() || value(&row, y).abs() <= CLOSED_TOL * largest {
+                closed_rows.push(row);
             }
         }
-        let flat = extreme_ray::project_onto_null_space(&kept, y);
-        let size = |y: &[f64]| y.iter().map(|v| v * v).sum::<f64>();
-        let like = size(&flat) >= KEPT * KEPT * size(y);
-        let falls = value(&self.power(y), &flat) > 0.0;
-        let clear = normals.iter().all(|n| value(n, &flat) >= -CLOSED * largest);
-        (like && falls && clear).then_some(flat)
+        let along_joints = extreme_ray::project_onto_null_space(&closed_rows, y);
+        let square_norm = |y: &[f64]| y.iter().map(|v| v * v).sum::<f64>();
+        let is_similar =
+            square_norm(&along_joints) >= MIN_KEPT_NORM * MIN_KEPT_NORM * square_norm(y);
+        let falls = value(&self.power(y), &along_joints) > 0.0;
+        let closes_no_contact = normals
+            .iter()
+            .all(|n| value(n, &along_joints) >= -CLOSED_TOL * largest);
+        (is_similar && falls && closes_no_contact).then_some(along_joints)
     }
 
     /// Converts the velocities `y` to motions. Blocks at rest are left out.
-    fn motions_of(&self, y: &[f64]) -> Vec<Motion> {
+    fn to_motions(&self, y: &[f64]) -> Vec<Motion> {
         let largest = y.iter().map(|v| v.abs()).fold(0.0, f64::max);
         let motion = |(place, motion): (usize, &Motion)| {
             let at = |k: usize| y[3 * place + k];
-            let moves = (0..3).any(|k| at(k).abs() > CLOSED * largest);
+            let moves = (0..3).any(|k| at(k).abs() > CLOSED_TOL * largest);
             moves.then(|| Motion {
                 block: motion.block,
                 velocity: Vector::new(at(0), at(1)),

@@ -15,7 +15,7 @@ use crate::geometry::{Vector, quarter_turn};
 use crate::interface::Interfaces;
 use crate::program::{Column, Force, Program, Scale, columns};
 use crate::proof::{self, ContactForces, Forces, GripForces, Proof};
-use crate::resultant::{friction_used, from_corner_forces};
+use crate::resultant::{friction_used, from_point_forces};
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
 
@@ -244,7 +244,7 @@ fn enter(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kerne
         let (normal, friction) = (pressed.normal, pressed.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
-        contact.resultant = from_corner_forces(&contact.interface, kernel, normal, friction);
+        contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);
         contact.friction_used = friction_used(&contact.interface, normal, friction);
     }
     for (grip, held) in component.grips.iter().zip(&forces.grips) {

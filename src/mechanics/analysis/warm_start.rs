@@ -6,7 +6,7 @@
 //! a proof the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves time, but cannot
 //! change a verdict.
 
-use super::analyse::{Known, analyse_frame};
+use super::analyse::{ResultCache, analyse_frame};
 use super::decide::Candidate;
 use super::{Analysis, Options, Verdict};
 use crate::assembly::Assembly;
@@ -110,7 +110,7 @@ impl WarmStart {
             }
         }
         let alone = options.verdict_only(true);
-        let verdict = analyse_frame(&situation, alone, &mut Known::default()).verdict;
+        let verdict = analyse_frame(&situation, alone, &mut ResultCache::default()).verdict;
         (verdict, Source::Examined)
     }
 

@@ -17,7 +17,7 @@ mod request;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 mod typed;
 
-use super::decide::{Place, ProofCache, decide_verdict};
+use super::decide::{LimitDistance, ProofCache, decide_verdict};
 use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::effect::{self, FrameContext};
@@ -266,7 +266,7 @@ impl Analysis {
             capacity.at[0],
             middle + edge.normal * (1e-3 * size),
         );
-        self.mechanisms_of(&scene, found, &edge.mechanism)
+        self.elementary_mechanisms(&scene, found, &edge.mechanism)
     }
 }
 
@@ -369,7 +369,11 @@ fn capacity_of_assembly(
             continue;
         }
         // The component does not contain the block. It must stand by itself.
-        match decide_verdict(&component, Place::Anywhere, &mut ProofCache::default()) {
+        match decide_verdict(
+            &component,
+            LimitDistance::Unknown,
+            &mut ProofCache::default(),
+        ) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => falls = Some(motion),
             (Verdict::Undecided, _) => return Err(undecided()),
@@ -390,7 +394,11 @@ fn capacity_of_assembly(
         }
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
         // The component with a free force decides: if it falls, the set is empty.
-        None => match decide_verdict(&probe.held, Place::Anywhere, &mut ProofCache::default()) {
+        None => match decide_verdict(
+            &probe.held,
+            LimitDistance::Unknown,
+            &mut ProofCache::default(),
+        ) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided()),
         },

@@ -29,16 +29,16 @@ impl<'a> Candidate<'a> {
     }
 
     /// Returns *stable* if the forces `amounts` balance every body. Returns *unstable* if the motion along the
-    /// unbalanced load is a mechanism that no admissible forces can stop. Otherwise `None`. `left` is minus the
+    /// unbalanced load is a mechanism that no admissible forces can stop. Otherwise `None`. `negated_residual` is minus the
     /// unbalanced load: three rows for each body, in program units.
-    pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
+    pub fn verdict(&self, amounts: &Amounts, negated_residual: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
-        if self.component.believes(&forces) {
+        if self.component.accepts(&forces) {
             return Some(Verdict::Stable);
         }
         // The blocks move in the direction of the unbalanced load.
-        let motion: Vec<f64> = left.iter().map(|v| -v).collect();
-        let (speed, motions) = self.component.moved(&motion);
+        let motion: Vec<f64> = negated_residual.iter().map(|v| -v).collect();
+        let (speed, motions) = self.component.to_motions(&motion);
         if speed == 0.0 {
             return None;
         }
@@ -48,11 +48,16 @@ impl<'a> Candidate<'a> {
                 scale: self.component.scale,
                 ..Component::new(&assembly, self.options)
             };
-            let own = assembly.bodies.iter();
-            let own: Vec<Motion> = own.map(|b| of_block(&motions, b.block)).collect();
-            let proof = part.mechanism(&own);
+            let part_motion = assembly.bodies.iter();
+            let part_motion: Vec<Motion> = part_motion
+                .map(|b| motion_of_block(&motions, b.block))
+                .collect();
+            let proof = part.check_mechanism(&part_motion);
             let moves = matches!(proof, Proof::Mechanism { power, .. } if power > 0.0);
-            if moves && part.convinces(&own, &proof) && part.exceeds_force_tolerance(&own, &proof) {
+            if moves
+                && part.accepts_motion(&part_motion, &proof)
+                && part.exceeds_force_tolerance(&part_motion, &proof)
+            {
                 return Some(Verdict::Unstable);
             }
         }
@@ -61,9 +66,9 @@ impl<'a> Candidate<'a> {
 }
 
 /// Returns the motion of a block from `motions`, which are sorted by block. A block that is not in the list is at rest.
-fn of_block(motions: &[Motion], block: BlockId) -> Motion {
+fn motion_of_block(motions: &[Motion], block: BlockId) -> Motion {
     match motions.binary_search_by_key(&block, |motion| motion.block) {
-        Ok(place) => motions[place],
+        Ok(index) => motions[index],
         Err(_) => Motion {
             block,
             velocity: Vector::zeros(),

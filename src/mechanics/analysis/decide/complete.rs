@@ -4,7 +4,7 @@
 use super::Component;
 use super::Method;
 use super::programs::Decision;
-use super::rebalance::Outcome;
+use super::rebalance::RebalanceOutcome;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
 use crate::analysis::Verdict;
 use crate::program::Program;
@@ -19,7 +19,7 @@ impl Component<'_> {
         }
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
-            Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
+            Verdict::Unstable if !decision.only_some_fall => self.with_failures(program, decision),
             // Only some bodies fall. If other bodies may move too, the structure may need less adhesion than these
             // bodies alone.
             Verdict::Unstable if program.blocks < LARGE_PROGRAM_BLOCKS => {
@@ -34,35 +34,35 @@ impl Component<'_> {
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
         // Do not solve the program of least force if it ended without a result before, or if any balancing forces are
         // enough.
-        if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
+        if decision.least_force_failed || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;
         }
         // The first solver settings were tried before, so they are skipped. They were not tried to the end if a large
         // component was decided by least residual.
-        let sought = usize::from(
+        let skipped = usize::from(
             program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
         );
-        for settings in self.settings.iter().skip(sought) {
+        for settings in self.settings.iter().skip(skipped) {
             if is_late() {
                 break;
             }
             let solved = balance_in(program, *settings);
             decision.effort = decision.effort.plus(solved.effort);
-            if sought == 0 && solved.forces.is_none() {
+            if skipped == 0 && solved.forces.is_none() {
                 break;
             }
             if let Some(amounts) = solved.forces {
                 let proof = self.prove_forces(&amounts).proof;
-                let good = match self.believes(&proof) {
-                    true => Outcome::Stands(amounts.clone(), proof),
+                let outcome = match self.accepts(&proof) {
+                    true => RebalanceOutcome::Stands(amounts.clone(), proof),
                     false => self.rebalance_locally(program, &amounts, &mut decision.effort),
                 };
-                if let Outcome::Stands(good, proof) = good {
+                if let RebalanceOutcome::Stands(outcome, proof) = outcome {
                     let (force_bound, least_force) =
-                        self.bound_force_sum(solved.witness.as_deref(), &good);
+                        self.bound_force_sum(solved.witness.as_deref(), &outcome);
                     if least_force {
                         return Decision {
-                            amounts: good,
+                            amounts: outcome,
                             force_bound,
                             least_force,
                             proof,
@@ -100,18 +100,18 @@ impl Component<'_> {
     /// Adds the least adhesion and its mechanism to a decision. Tries the solver settings in order. If the program
     /// finds forces that balance every body without adhesion, the verdict becomes stable.
     fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
-        let mut ready = decision
+        let mut solved_before = decision
             .least_adhesion
             .take()
             .filter(|s| s.balanced.is_some());
         for settings in &self.settings {
-            let least_adhesion = ready.take().unwrap_or_else(|| {
+            let least_adhesion = solved_before.take().unwrap_or_else(|| {
                 let least_adhesion = least_adhesion_in(program, *settings);
                 decision.effort = decision.effort.plus(least_adhesion.effort);
                 least_adhesion
             });
             let forces = self.prove_forces(&least_adhesion.forces).proof;
-            if least_adhesion.balanced == Some(true) && self.believes(&forces) {
+            if least_adhesion.balanced == Some(true) && self.accepts(&forces) {
                 // These forces balance every body without adhesion. They decide, even if a motion is proved, too.
                 return Decision {
                     verdict: Verdict::Stable,
@@ -122,27 +122,29 @@ impl Component<'_> {
             }
             // A large component keeps the motion that proved the verdict: correcting another motion takes a third of
             // the total time.
-            let shown = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
-            let motion = least_adhesion.motion.filter(|_| !shown);
-            let own = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
+            let keeps_motion =
+                program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
+            let motion = least_adhesion.motion.filter(|_| !keeps_motion);
+            let proved_motion =
+                motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
             // If the program gives the forces a cost, its motion violates contacts slightly. The earlier motion is then
             // kept.
-            if let (Some((mechanism, proof)), false) = (own, least_adhesion.priced) {
+            if let (Some((mechanism, proof)), false) = (proved_motion, least_adhesion.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }
             // Use this result if it balances every body, or if no earlier result gave an adhesion.
-            let found = least_adhesion.balanced == Some(true);
-            let holds = found
+            let has_adhesion = least_adhesion.balanced == Some(true);
+            let holds = has_adhesion
                 && self
                     .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
                     .1;
             if holds || decision.adhesion.is_none() {
-                decision.beyond_adhesion = least_adhesion.balanced == Some(false);
+                decision.adhesion_cannot_hold = least_adhesion.balanced == Some(false);
                 decision.amounts = least_adhesion.forces;
-                decision.adhesion = found.then_some(least_adhesion.adhesion);
+                decision.adhesion = has_adhesion.then_some(least_adhesion.adhesion);
             }
-            let many = program.blocks >= LARGE_PROGRAM_BLOCKS;
-            if holds || least_adhesion.balanced == Some(false) || (found && many) {
+            let is_large = program.blocks >= LARGE_PROGRAM_BLOCKS;
+            if holds || least_adhesion.balanced == Some(false) || (has_adhesion && is_large) {
                 break;
             }
         }

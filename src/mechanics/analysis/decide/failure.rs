@@ -8,69 +8,69 @@ use crate::proof::{Forces, gross_load};
 use crate::solve::Amounts;
 
 /// A failure is listed if it exceeds this fraction of the load of the lighter of its two bodies.
-const SHARE_OF_WEIGHT: f64 = 1e-6;
+const MIN_SHARE_OF_LOAD: f64 = 1e-6;
 
 /// A failure is also listed if it exceeds this fraction of the largest failure of its component. Less is solver
 /// noise.
-const SHARE_OF_LARGEST: f64 = 1e-9;
+const MIN_SHARE_OF_LARGEST: f64 = 1e-9;
 
 impl Component<'_> {
     /// Returns the failures in newtons and newton metres, in the order of contacts and grips. `adhesion` is in program
     /// units.
     pub(super) fn failures(&self, adhesion: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
-        let most = adhesion
+        let largest = adhesion
             .normal
             .iter()
             .flatten()
             .chain(&adhesion.friction)
             .chain(adhesion.grip.iter().flatten());
         // Compute the largest adhesion in the component, N.
-        let most = unit * most.fold(0.0, |m: f64, v| m.max(v.abs()));
+        let largest = unit * largest.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
         // The amount, in program units, above which a failure between two bodies is listed. It is a fraction of the
-        // lighter body's load or of `most`, whichever is less. Bodies without a load are left out.
-        let least = |on: usize, from: Option<usize>| {
+        // lighter body's load or of `largest`, whichever is less. Bodies without a load are left out.
+        let min_amount = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
             let loaded = both
                 .map(|body| weights[body])
                 .filter(|weight| *weight > 0.0);
             let lighter = loaded.fold(f64::INFINITY, f64::min);
-            (SHARE_OF_WEIGHT * lighter).min(SHARE_OF_LARGEST * most) / unit
+            (MIN_SHARE_OF_LOAD * lighter).min(MIN_SHARE_OF_LARGEST * largest) / unit
         };
         let mut failures = Vec::new();
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
-            let least = least(contact.on, contact.from);
+            let min_amount = min_amount(contact.on, contact.from);
             let amounts = (adhesion.normal[k], adhesion.friction[k]);
-            self.add_contact_failures(&mut failures, contact, amounts, least);
+            self.add_contact_failures(&mut failures, contact, amounts, min_amount);
         }
         for (grip, missing) in self.assembly.grips.iter().zip(&adhesion.grip) {
-            let least = least(grip.body, None);
-            self.add_grip_failures(&mut failures, grip, *missing, least);
+            let min_amount = min_amount(grip.body, None);
+            self.add_grip_failures(&mut failures, grip, *missing, min_amount);
         }
         failures
     }
 
-    /// Appends the missing tension and the missing friction of a contact to `failures`, if they exceed `least`. Inputs
+    /// Appends the missing tension and the missing friction of a contact to `failures`, if they exceed `min_amount`. Inputs
     /// are in the program's unit of force.
     fn add_contact_failures(
         &self,
         failures: &mut Vec<Failure>,
         contact: &AssemblyContact,
         (pulls, friction): ([f64; 2], f64),
-        least: f64,
+        min_amount: f64,
     ) {
         let (unit, bodies) = (self.scale.force, contact.bodies);
         let pulls = contact.points.into_iter().zip(pulls);
-        for (at, pull) in pulls.filter(|p| p.1.abs() > least) {
+        for (at, pull) in pulls.filter(|p| p.1.abs() > min_amount) {
             failures.push(Failure::Tension {
                 bodies,
                 at,
                 force: contact.normal * (-pull * unit),
             });
         }
-        if friction.abs() > least {
+        if friction.abs() > min_amount {
             failures.push(Failure::Friction {
                 bodies,
                 at: nalgebra::center(&contact.ends[0], &contact.ends[1]),
@@ -79,18 +79,18 @@ impl Component<'_> {
         }
     }
 
-    /// Appends the missing force and the missing torque of a robot to `failures`, if they exceed `least`. `[x, y, m]`
-    /// and `least` are in program units.
+    /// Appends the missing force and the missing torque of a robot to `failures`, if they exceed `min_amount`. `[x, y, m]`
+    /// and `min_amount` are in program units.
     fn add_grip_failures(
         &self,
         failures: &mut Vec<Failure>,
         grip: &AssemblyGrip,
         [x, y, m]: [f64; 3],
-        least: f64,
+        min_amount: f64,
     ) {
         let unit = self.scale.force;
         let (robot, block, at) = (grip.robot, self.assembly.bodies[grip.body].block, grip.at);
-        if x.abs() > least || y.abs() > least {
+        if x.abs() > min_amount || y.abs() > min_amount {
             failures.push(Failure::RobotForce {
                 robot,
                 block,
@@ -98,7 +98,7 @@ impl Component<'_> {
                 force: Vector::new(x, y) * unit,
             });
         }
-        if m.abs() > least {
+        if m.abs() > min_amount {
             failures.push(Failure::RobotTorque {
                 robot,
                 block,
@@ -127,11 +127,11 @@ impl Component<'_> {
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
             let pulls = contact.points.into_iter().zip(adhesion.normal[k]);
             let pulls = pulls.map(|(at, pull)| (at, contact.normal * (-pull * unit)));
-            let rub = (
+            let friction = (
                 contact.ends[0],
                 contact.tangent() * (adhesion.friction[k] * unit),
             );
-            for (at, force) in pulls.chain([rub]) {
+            for (at, force) in pulls.chain([friction]) {
                 act(contact.on, at, force, 0.0);
                 if let Some(from) = contact.from {
                     act(from, at, -force, 0.0);
@@ -158,9 +158,9 @@ impl Component<'_> {
             settings: self.settings.clone(),
             ..*self
         };
-        let carried = component.prove_forces(amounts);
-        let balanced = component.believes(&carried.proof);
-        (carried.forces, balanced)
+        let proved = component.prove_forces(amounts);
+        let balanced = component.accepts(&proved.proof);
+        (proved.forces, balanced)
     }
 }
 

@@ -18,7 +18,7 @@ enum Noise {
 }
 
 /// A sum of forces counts as the least if it exceeds its lower bound by at most this fraction.
-const SAME_SUM: f64 = 1e-6;
+const SUM_TOL: f64 = 1e-6;
 
 /// Forces in newtons with their proof.
 pub(super) struct ProvedForces {
@@ -40,20 +40,22 @@ impl Component<'_> {
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
             let proof = proof::check_forces(self.assembly, &forces);
-            let carried = ProvedForces { forces, proof };
+            let proved = ProvedForces { forces, proof };
             // After the deadline return the first result.
-            if self.believes(&proof) || is_late() {
-                return carried;
+            if self.accepts(&proof) || is_late() {
+                return proved;
             }
-            let off = proof::imbalances(self.assembly, &carried.forces);
-            let fail = off.iter().filter(|off| **off > self.demand.imbalance);
-            let fail = fail.count();
-            if best.as_ref().is_none_or(|best| fail < best.0) {
-                best = Some((fail, carried));
+            let imbalances = proof::imbalances(self.assembly, &proved.forces);
+            let unbalanced_count = imbalances
+                .iter()
+                .filter(|imbalances| **imbalances > self.threshold.imbalance);
+            let unbalanced_count = unbalanced_count.count();
+            if best.as_ref().is_none_or(|best| unbalanced_count < best.0) {
+                best = Some((unbalanced_count, proved));
             }
         }
         match best {
-            Some((_, carried)) => carried,
+            Some((_, proved)) => proved,
             None => {
                 let forces = Forces::none(self.assembly);
                 let proof = proof::check_forces(self.assembly, &forces);
@@ -82,7 +84,7 @@ impl Component<'_> {
             .collect();
         let bound = proof::force_sum_lower_bound(self.assembly, &motion);
         let sum = self.prove_forces(amounts).forces.sum(self.assembly.length);
-        (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
+        (Some(bound), sum <= (1.0 + SUM_TOL) * bound)
     }
 
     /// Converts forces to newtons, without setting small forces to 0, and computes their proof.
@@ -95,13 +97,13 @@ impl Component<'_> {
     /// them to 0 changes the balance by at most a tenth of the accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
-        let demand = 0.1 * self.demand.imbalance;
+        let demand = 0.1 * self.threshold.imbalance;
         let heaviest = match self.assembly.heaviest_load() {
             0.0 => 1.0,
             heaviest => heaviest,
         };
-        let acting = match noise {
-            Noise::OfEachBody => self.acting(amounts),
+        let gross_forces = match noise {
+            Noise::OfEachBody => self.gross_forces(amounts),
             _ => Vec::new(),
         };
         // For each body: the size below which a normal or robot force is noise, and the same for friction, in newtons.
@@ -109,13 +111,16 @@ impl Component<'_> {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {
                 let load = gross_load(self.assembly, &self.assembly.bodies[body]);
-                let missed = demand
+                let rounding_limit = demand
                     * if load > 0.0 {
                         load
                     } else {
-                        1e-7 * acting[body]
+                        1e-7 * gross_forces[body]
                     };
-                ((1e-13 * acting[body]).min(missed), missed)
+                (
+                    (1e-13 * gross_forces[body]).min(rounding_limit),
+                    rounding_limit,
+                )
             }
             Noise::None => (0.0, 0.0),
         };
@@ -124,28 +129,31 @@ impl Component<'_> {
         let contacts = contacts.map(|(k, contact)| {
             let (on, from) = (limits(contact.on), contact.from.map(limits));
             let from = from.unwrap_or((f64::INFINITY, f64::INFINITY));
-            let (least, still) = (on.0.min(from.0), on.1.min(from.1));
-            let normal = amounts.normal[k].map(|v| clean(v * unit, least).max(0.0));
+            let (normal_noise, friction_noise) = (on.0.min(from.0), on.1.min(from.1));
+            let normal = amounts.normal[k].map(|v| clean(v * unit, normal_noise).max(0.0));
             let pressed = normal[0] + normal[1];
-            let most = contact.friction * pressed;
-            let friction = (amounts.friction[k] * unit).clamp(-most, most);
-            let still = still.min(1e-10 * most.min(pressed));
+            let friction_limit = contact.friction * pressed;
+            let friction = (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit);
+            let friction_noise = friction_noise.min(1e-10 * friction_limit.min(pressed));
             ContactForces {
                 normal,
-                friction: clean(friction, still),
+                friction: clean(friction, friction_noise),
             }
         });
         let grips = self.assembly.grips.iter().zip(&amounts.grip);
         let grips = grips.map(|(grip, [x, y, m])| {
             let length = self.scale.length;
             let (noise, _) = limits(grip.body);
-            let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
+            let clean_and_limit = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
             // The division and the multiplication by L may round the torque above its limit, so clamp it again.
-            let most = grip.limits.torque;
-            let torque = cut(m * unit, most / length) * length;
+            let torque_limit = grip.limits.torque;
+            let torque = clean_and_limit(m * unit, torque_limit / length) * length;
             GripForces {
-                force: Vector::new(cut(x * unit, grip.limits.fx), cut(y * unit, grip.limits.fy)),
-                torque: torque.clamp(-most, most),
+                force: Vector::new(
+                    clean_and_limit(x * unit, grip.limits.fx),
+                    clean_and_limit(y * unit, grip.limits.fy),
+                ),
+                torque: torque.clamp(-torque_limit, torque_limit),
             }
         });
         Forces {
@@ -155,20 +163,20 @@ impl Component<'_> {
     }
 
     /// Returns the sum of the magnitudes of all forces on each body, N: its load, contact forces and robot forces.
-    fn acting(&self, amounts: &Amounts) -> Vec<f64> {
+    fn gross_forces(&self, amounts: &Amounts) -> Vec<f64> {
         let bodies = self.assembly.bodies.iter();
         let mut sums: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
         let contacts = amounts.normal.iter().zip(&amounts.friction);
         for (contact, (normal, friction)) in self.assembly.contacts.iter().zip(contacts) {
-            let own = (normal[0].abs() + normal[1].abs() + friction.abs()) * self.scale.force;
-            sums[contact.on] += own;
+            let magnitude = (normal[0].abs() + normal[1].abs() + friction.abs()) * self.scale.force;
+            sums[contact.on] += magnitude;
             if let Some(from) = contact.from {
-                sums[from] += own;
+                sums[from] += magnitude;
             }
         }
         for (grip, given) in self.assembly.grips.iter().zip(&amounts.grip) {
-            let own = given.iter().map(|v| v.abs()).sum::<f64>();
-            sums[grip.body] += own * self.scale.force;
+            let magnitude = given.iter().map(|v| v.abs()).sum::<f64>();
+            sums[grip.body] += magnitude * self.scale.force;
         }
         sums
     }

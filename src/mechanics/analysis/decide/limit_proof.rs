@@ -20,7 +20,7 @@ pub(in crate::mechanics::analysis) fn proved_forces(
     let component = in_scale_of(assembly, program);
     let found = component.prove_forces(amounts);
     component
-        .believes(&found.proof)
+        .accepts(&found.proof)
         .then_some((found.forces, found.proof))
 }
 
@@ -37,7 +37,7 @@ pub(in crate::mechanics::analysis) fn decided_forces(
     }
     let found = component.prove_forces(&decision.amounts);
     component
-        .believes(&found.proof)
+        .accepts(&found.proof)
         .then_some((found.forces, found.proof))
 }
 

@@ -26,8 +26,8 @@ impl Component<'_> {
         y: &[f64],
         effort: &mut Effort,
     ) -> Option<(Vec<Motion>, Proof)> {
-        let (speed, mut motion) = self.moved(y);
-        let mut proof = self.mechanism(&motion);
+        let (speed, mut motion) = self.to_motions(y);
+        let mut proof = self.check_mechanism(&motion);
         if speed == 0.0 {
             return None;
         }
@@ -40,33 +40,34 @@ impl Component<'_> {
                 return Some(found);
             }
             let unit: Vec<f64> = y.iter().map(|v| v / speed).collect();
-            (_, motion) = self.moved(&repair_motion(program, &unit, effort)?);
-            proof = self.mechanism(&motion);
+            (_, motion) = self.to_motions(&repair_motion(program, &unit, effort)?);
+            proof = self.check_mechanism(&motion);
         }
-        self.convinces(&motion, &proof).then_some((motion, proof))
+        self.accepts_motion(&motion, &proof)
+            .then_some((motion, proof))
     }
 
     /// True if a proof shows that no forces can stop a motion. It must also exclude the large forces that the loads of
     /// all bodies may cause: the thrust of heavy bodies could otherwise make up for a small violation at a light body.
-    pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
+    pub(super) fn accepts_motion(&self, motion: &[Motion], proof: &Proof) -> bool {
         // Forces whose sum is at most `MIN_EXCLUDED_LOADS` times the sum of all loads must not be able to stop the
         // motion.
         let bodies = self.assembly.bodies.iter();
         let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
         let load = proof::moving_load(self.assembly, motion);
-        self.believes(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
+        self.accepts(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
     /// True if the power of the loads along a motion exceeds the largest power that an accepted imbalance of forces
     /// could have. Then no proof by forces can contradict the motion.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
-        let ways: f64 = motion
+        let speed_sum: f64 = motion
             .iter()
             .map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length)
             .sum();
         let heaviest = self.assembly.heaviest_load();
         let load = proof::moving_load(self.assembly, motion);
-        matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
+        matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * speed_sum)
     }
 
     /// Returns the translation by which an unsupported component falls, and its proof: all bodies move in the direction
@@ -89,17 +90,17 @@ impl Component<'_> {
             spin: 0.0,
         });
         let mechanism: Vec<Motion> = mechanism.collect();
-        let proof = self.mechanism(&mechanism);
+        let proof = self.check_mechanism(&mechanism);
         Some((mechanism, proof))
     }
 
-    pub(super) fn mechanism(&self, motion: &[Motion]) -> Proof {
+    pub(super) fn check_mechanism(&self, motion: &[Motion]) -> Proof {
         proof::check_mechanism(self.assembly, motion)
     }
 
     /// Converts velocities in program units to motions in metres, scaled so that the fastest point has speed 1. Also
     /// returns the speed of this point before scaling.
-    pub(super) fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
+    pub(super) fn to_motions(&self, y: &[f64]) -> (f64, Vec<Motion>) {
         let bodies = self.assembly.bodies.iter();
         let mut all: Vec<Motion> = bodies
             .enumerate()

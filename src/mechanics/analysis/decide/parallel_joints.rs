@@ -43,7 +43,7 @@ impl Component<'_> {
         *effort = effort.plus(attempt.effort);
         let amounts = rebalance_absolute(program, attempt.forces.as_ref()?, effort)?;
         let proof = self.prove_forces(&amounts).proof;
-        if !self.believes(&proof) {
+        if !self.accepts(&proof) {
             return None;
         }
         let (force_bound, least_force) = self.bound_force_sum(attempt.witness.as_deref(), &amounts);

@@ -31,33 +31,34 @@ impl Component<'_> {
     ) -> Option<(Vec<Motion>, Proof)> {
         SAME_PIECE_SPEED.into_iter().find_map(|tolerance| {
             // 1. Join bodies that move nearly as one rigid body.
-            let piece = pieces(self.assembly, motion, tolerance);
-            let joined = self.assembly.merged(&piece);
-            if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len()
+            let piece = rigid_pieces(self.assembly, motion, tolerance);
+            let merged = self.assembly.merged(&piece);
+            if merged.bodies.is_empty() || MIN_BODIES_PER_PIECE * merged.bodies.len() > motion.len()
             {
                 return None;
             }
             // 2. Correct the mean motion of each piece, in a smaller program.
-            let program = Program::new(&joined, self.scale);
-            let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
+            let program = Program::new(&merged, self.scale);
+            let mean = mean_velocities(&piece, motion, merged.bodies.len(), self.scale.length);
             let y = repair_motion(&program, &mean, effort)?;
             // 3. Convert the result to a motion of every body, and prove it.
-            let parted = self.parted(&joined, &piece, &y);
-            let proof = self.mechanism(&parted);
-            self.convinces(&parted, &proof).then_some((parted, proof))
+            let body_motions = self.body_motions(&merged, &piece, &y);
+            let proof = self.check_mechanism(&body_motions);
+            self.accepts_motion(&body_motions, &proof)
+                .then_some((body_motions, proof))
         })
     }
 
     /// Converts the velocities `y` of the pieces (program units) to the motion of every body in metres, with the
     /// fastest point at speed 1.
-    fn parted(&self, joined: &Assembly, piece: &[Option<usize>], y: &[f64]) -> Vec<Motion> {
+    fn body_motions(&self, merged: &Assembly, piece: &[Option<usize>], y: &[f64]) -> Vec<Motion> {
         let bodies = self.assembly.bodies.iter().zip(piece);
         let mut motion: Vec<Motion> = bodies
             .map(|(body, piece)| {
                 let (mut velocity, mut spin) = (Vector::zeros(), 0.0);
                 if let Some(k) = *piece {
                     spin = y[3 * k + 2] / self.scale.length;
-                    let arm = body.centroid - joined.bodies[k].centroid;
+                    let arm = body.centroid - merged.bodies[k].centroid;
                     velocity = Vector::new(y[3 * k], y[3 * k + 1]) + quarter_turn(arm) * spin;
                 }
                 Motion {
@@ -74,7 +75,7 @@ impl Component<'_> {
 
 /// Returns the index of the rigid piece that each body belongs to; `None` for bodies that are at rest like the ground.
 /// Two bodies in contact belong to one piece if their velocities differ by at most `tolerance`.
-fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
+fn rigid_pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();
     let mut sets = DisjointSets::new(bodies.len() + 1);
@@ -83,14 +84,14 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
         let (on, at) = (contact.on, contact.points[0]);
         // Compare the two bodies: their relative velocity at the contact, and their relative spin times the larger
         // radius.
-        let mut apart = motion[on].about(bodies[on].centroid, at);
-        let (mut turn, mut reach) = (motion[on].spin, radii[on]);
+        let mut relative_velocity = motion[on].about(bodies[on].centroid, at);
+        let (mut relative_spin, mut radius) = (motion[on].spin, radii[on]);
         if let Some(from) = contact.from {
-            apart -= motion[from].about(bodies[from].centroid, at);
-            turn -= motion[from].spin;
-            reach = reach.max(radii[from]);
+            relative_velocity -= motion[from].about(bodies[from].centroid, at);
+            relative_spin -= motion[from].spin;
+            radius = radius.max(radii[from]);
         }
-        if apart.norm() + turn.abs() * reach <= tolerance {
+        if relative_velocity.norm() + relative_spin.abs() * radius <= tolerance {
             sets.union(on, contact.from.unwrap_or(ground));
         }
     }

@@ -5,7 +5,7 @@
 //! program has shown that no forces balance: that of least residual, or that of least adhesion.
 
 use super::parallel_joints::LeastForce;
-use super::rebalance::Outcome;
+use super::rebalance::RebalanceOutcome;
 use super::strategy::{Attempt, Strategy};
 use super::{Component, Method};
 use crate::analysis::{UndecidedReason, Verdict};
@@ -27,17 +27,17 @@ pub(super) struct Decision {
     /// The adhesion that would have to act for a balance.
     pub adhesion: Option<Amounts>,
     /// Whether no adhesion at the application points could hold it.
-    pub beyond_adhesion: bool,
+    pub adhesion_cannot_hold: bool,
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
     /// The strategy that decided.
     pub method: Method,
     /// Whether a program of least force ended without a result.
-    pub no_status: bool,
+    pub least_force_failed: bool,
     /// The answer of the program of least adhesion, if it was solved.
     pub least_adhesion: Option<LeastAdhesion>,
     /// Whether only some bodies fall, and the adhesion that these lack is known.
-    pub in_part: bool,
+    pub only_some_fall: bool,
     pub effort: Effort,
 }
 
@@ -46,9 +46,9 @@ pub(super) struct Decision {
 struct Progress {
     effort: Effort,
     /// Whether a program of least force ended without a result.
-    no_status: bool,
+    least_force_failed: bool,
     /// A proved motion that does little work.
-    weak: Option<(Vec<Motion>, Proof)>,
+    weak_motion: Option<(Vec<Motion>, Proof)>,
     least_adhesion: Option<LeastAdhesion>,
     last: Option<(Strategy, Attempt)>,
 }
@@ -57,7 +57,7 @@ impl Progress {
     /// Creates a decision without forces and proof, for the method of `strategy`, with the solver effort so far.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
-            no_status: self.no_status,
+            least_force_failed: self.least_force_failed,
             effort: self.effort,
             ..Decision::new(program, strategy.method())
         }
@@ -69,8 +69,12 @@ impl Component<'_> {
     /// decision is undecided.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
-        let strategies =
-            Strategy::in_order(program, &self.settings, self.place, self.complete_result);
+        let strategies = Strategy::in_order(
+            program,
+            &self.settings,
+            self.limit_distance,
+            self.complete_result,
+        );
         for strategy in strategies {
             // After the deadline, report the last attempt: even setting up the next program takes time.
             if progress.last.is_some() && is_late() {
@@ -79,8 +83,9 @@ impl Component<'_> {
             // Solve one program, then try to prove its forces, then its motion.
             let attempt = strategy.attempt(program);
             progress.effort = progress.effort.plus(attempt.effort);
-            progress.no_status |=
-                strategy.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
+            progress.least_force_failed |= strategy.is_full_least_force()
+                && attempt.forces.is_none()
+                && attempt.motion.is_none();
             let decided = self
                 .decide_by_forces(program, strategy, &attempt, &mut progress)
                 .or_else(|| self.decide_by_motion(program, strategy, &attempt, &mut progress));
@@ -105,12 +110,12 @@ impl Component<'_> {
         let amounts = attempt.forces.as_ref()?;
         // The solver's accuracy is relative to the heaviest load, so its forces may not balance a light body.
         let proof = self.prove_forces(amounts).proof;
-        let outcome = match self.believes(&proof) {
-            true => Outcome::Stands(amounts.clone(), proof),
+        let outcome = match self.accepts(&proof) {
+            true => RebalanceOutcome::Stands(amounts.clone(), proof),
             false => self.rebalance_locally(program, amounts, &mut progress.effort),
         };
         match outcome {
-            Outcome::Stands(amounts, proof) => {
+            RebalanceOutcome::Stands(amounts, proof) => {
                 // Check how close the sum of the forces is to the least sum.
                 let witness = attempt.witness.as_deref();
                 let (force_bound, least_force) = self.bound_force_sum(witness, &amounts);
@@ -121,7 +126,7 @@ impl Component<'_> {
                     least_force,
                 };
                 // If joints are nearly parallel, the program of least force may end without a result.
-                if !least_force && progress.no_status {
+                if !least_force && progress.least_force_failed {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }
                 Some(Decision {
@@ -132,23 +137,23 @@ impl Component<'_> {
                     ..progress.decision(program, strategy)
                 })
             }
-            Outcome::Falls(part) => Some(Decision {
+            RebalanceOutcome::Falls(part) => Some(Decision {
                 verdict: Verdict::Unstable,
                 amounts: part.amounts,
                 // If the missing adhesion of these bodies is unknown, `complete` computes the failures of the whole
                 // component.
-                in_part: part.adhesion.is_some(),
+                only_some_fall: part.adhesion.is_some(),
                 adhesion: part.adhesion,
                 mechanism: part.mechanism,
                 proof: part.proof,
                 ..progress.decision(program, strategy)
             }),
-            Outcome::Open => None,
+            RebalanceOutcome::Undecided => None,
         }
     }
 
     /// Decides that a component falls, by the motion of an attempt or by an earlier motion. Returns `None` if balancing
-    /// forces may still exist; the motion is then kept as `progress.weak`.
+    /// forces may still exist; the motion is then kept as `progress.weak_motion`.
     fn decide_by_motion(
         &self,
         program: &Program,
@@ -162,10 +167,10 @@ impl Component<'_> {
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
-        let (mechanism, proof) = proved.or(progress.weak.take())?;
+        let (mechanism, proof) = proved.or(progress.weak_motion.take())?;
         // Otherwise the motion is weak. It decides only if a program shows that no forces balance the loads.
         if !is_strong && !strategy.excludes_balance(attempt) {
-            progress.weak = Some((mechanism, proof));
+            progress.weak_motion = Some((mechanism, proof));
             return None;
         }
         Some(Decision {
@@ -189,7 +194,7 @@ impl Component<'_> {
         };
         let attempt = progress.last.map(|(_, attempt)| attempt);
         // There is a motion, even if weak, and no strategy found balancing forces. The motion decides.
-        if let Some((mechanism, proof)) = progress.weak {
+        if let Some((mechanism, proof)) = progress.weak_motion {
             return Decision {
                 verdict: Verdict::Unstable,
                 mechanism,
@@ -203,7 +208,7 @@ impl Component<'_> {
         let proof = self.prove_forces(&amounts).proof;
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
         // Neither forces nor a motion are proved. The reason reports the errors of both.
-        let unproved_motion = motion.map(|y| self.mechanism(&self.moved(y).1));
+        let unproved_motion = motion.map(|y| self.check_mechanism(&self.to_motions(y).1));
         Decision {
             verdict: Verdict::Undecided,
             doubt: Some(UndecidedReason::Unproved {
@@ -227,16 +232,16 @@ impl Decision {
             force_bound: None,
             least_force: false,
             adhesion: None,
-            beyond_adhesion: false,
+            adhesion_cannot_hold: false,
             mechanism: Vec::new(),
             proof: Proof::Mechanism {
                 power: 0.0,
                 worst_violation: 0.0,
             },
             method,
-            no_status: false,
+            least_force_failed: false,
             least_adhesion: None,
-            in_part: false,
+            only_some_fall: false,
             effort: Effort::default(),
         }
     }

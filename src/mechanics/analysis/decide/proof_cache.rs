@@ -11,18 +11,18 @@ use crate::proof::{self, ContactForces, Forces, Motion};
 
 /// The number of sets of forces, and of motions, that are kept. A search alternates between few values, and each
 /// trial costs a proof.
-const MAX_KEPT: usize = 4;
+const MAX_CACHED: usize = 4;
 
 /// Forces and motions of similar components, the latest last.
 #[derive(Debug, Default)]
 pub(in crate::mechanics::analysis) struct ProofCache {
-    forces: Vec<Acting>,
+    forces: Vec<CachedForces>,
     motions: Vec<Vec<Motion>>,
 }
 
 /// Forces with the application points at which they act.
 #[derive(Debug)]
-struct Acting {
+struct CachedForces {
     forces: Forces,
     points: Vec<[Point; 2]>,
 }
@@ -31,11 +31,11 @@ impl ProofCache {
     /// Stores forces that balance an assembly, and the points at which they act. The oldest forces are removed if the
     /// cache is full.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
-        if self.forces.len() == MAX_KEPT {
+        if self.forces.len() == MAX_CACHED {
             self.forces.remove(0);
         }
         let points = assembly.contacts.iter().map(|contact| contact.points);
-        self.forces.push(Acting {
+        self.forces.push(CachedForces {
             forces,
             points: points.collect(),
         });
@@ -43,7 +43,7 @@ impl ProofCache {
 
     /// Stores a motion, which has one entry for each body. The oldest motion is removed if the cache is full.
     pub fn add_motion(&mut self, motion: Vec<Motion>) {
-        if self.motions.len() == MAX_KEPT {
+        if self.motions.len() == MAX_CACHED {
             self.motions.remove(0);
         }
         self.motions.push(motion);
@@ -52,11 +52,11 @@ impl ProofCache {
     /// True if some forces in the cache balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
         // The latest forces are tried first, because a search changes the component in small steps.
-        let mut latest = self.forces.iter().rev();
-        latest.any(|acting| {
-            let forces = acting.moved_to(component.assembly);
+        let mut latest_first = self.forces.iter().rev();
+        latest_first.any(|cached| {
+            let forces = cached.transfer_to(component.assembly);
             forces.is_some_and(|forces| {
-                component.believes(&proof::check_forces(component.assembly, &forces))
+                component.accepts(&proof::check_forces(component.assembly, &forces))
             })
         })
     }
@@ -64,24 +64,26 @@ impl ProofCache {
     /// Returns a motion from the cache that proves that a component falls. `None` if no motion in the cache proves
     /// this.
     pub(super) fn falls(&self, component: &Component) -> Option<Vec<Motion>> {
-        let mut latest = self.motions.iter().rev();
+        let mut latest_first = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
-            let proof = component.mechanism(motion);
-            component.convinces(motion, &proof) && component.exceeds_force_tolerance(motion, &proof)
+            let proof = component.check_mechanism(motion);
+            component.accepts_motion(motion, &proof)
+                && component.exceeds_force_tolerance(motion, &proof)
         };
-        latest.find(proves).cloned()
+        latest_first.find(proves).cloned()
     }
 }
 
-impl Acting {
+impl CachedForces {
     /// Returns the forces that have the same resultants but act at the application points of another component. `None`
     /// if a resultant passes outside these points.
-    fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
+    fn transfer_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
-        for (pressed, (contact, points)) in forces.contacts.iter_mut().zip(contacts) {
+        for (contact_forces, (contact, points)) in forces.contacts.iter_mut().zip(contacts) {
             if contact.points != *points {
-                pressed.normal = moved(pressed, points, &contact.points)?;
+                contact_forces.normal =
+                    transfer_normal_forces(contact_forces, points, &contact.points)?;
             }
         }
         Some(forces)
@@ -90,8 +92,12 @@ impl Acting {
 
 /// Returns the two normal forces at the points `to` that have the same resultant as those at the points `from`. `None`
 /// if one of them would be tension.
-fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
-    let [first, second] = pressed.normal;
+fn transfer_normal_forces(
+    contact_forces: &ContactForces,
+    from: &[Point; 2],
+    to: &[Point; 2],
+) -> Option<[f64; 2]> {
+    let [first, second] = contact_forces.normal;
     let sum = first + second;
     let along = to[1] - to[0];
     let square = along.norm_squared();
@@ -102,17 +108,17 @@ fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<
     let moment = (from[0] - middle) * first + (from[1] - middle) * second;
     if square == 0.0 {
         // Both points coincide, so the resultant must pass through them.
-        let off = moment.norm() / sum;
+        let offset = moment.norm() / sum;
         let size = (from[1] - from[0]).norm();
-        return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
+        return (offset <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
     }
     // The sum of the two forces stays the same. Their moment about the middle also stays the same, and determines their
     // difference.
     let difference = 2.0 * moment.dot(&along) / square;
     let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
     // A force that is negative only by rounding becomes 0.
-    let least = -4.0 * f64::EPSILON * sum;
-    (normal[0] >= least && normal[1] >= least).then(|| normal.map(|n| n.max(0.0)))
+    let min_normal = -4.0 * f64::EPSILON * sum;
+    (normal[0] >= min_normal && normal[1] >= min_normal).then(|| normal.map(|n| n.max(0.0)))
 }
 
 #[cfg(test)]
@@ -122,24 +128,34 @@ mod tests {
     /// 2 N and 6 N at 0 and 4 m have their resultant at 3 m.
     #[test]
     fn a_resultant_is_carried_by_other_points() {
-        let pressed = ContactForces {
+        let contact_forces = ContactForces {
             normal: [2.0, 6.0],
             friction: 1.0,
         };
         let stretch = |from: f64, to: f64| [Point::new(from, 1.0), Point::new(to, 1.0)];
         let given = stretch(0.0, 4.0);
-        let found = moved(&pressed, &given, &stretch(0.5, 3.5)).expect("between the points");
+        let found = transfer_normal_forces(&contact_forces, &given, &stretch(0.5, 3.5))
+            .expect("between the points");
         assert!((found[0] - 4.0 / 3.0).abs() < 1e-14 && (found[1] - 20.0 / 3.0).abs() < 1e-14);
         assert_eq!(
-            moved(&pressed, &given, &stretch(1.0, 3.0)),
+            transfer_normal_forces(&contact_forces, &given, &stretch(1.0, 3.0)),
             Some([0.0, 8.0])
         );
-        assert_eq!(moved(&pressed, &given, &stretch(1.5, 2.5)), None);
-        assert_eq!(moved(&pressed, &given, &stretch(2.0, 2.0)), None);
+        assert_eq!(
+            transfer_normal_forces(&contact_forces, &given, &stretch(1.5, 2.5)),
+            None
+        );
+        assert_eq!(
+            transfer_normal_forces(&contact_forces, &given, &stretch(2.0, 2.0)),
+            None
+        );
         let middle = ContactForces {
             normal: [4.0, 4.0],
-            ..pressed
+            ..contact_forces
         };
-        assert_eq!(moved(&middle, &given, &stretch(2.0, 2.0)), Some([4.0, 4.0]));
+        assert_eq!(
+            transfer_normal_forces(&middle, &given, &stretch(2.0, 2.0)),
+            Some([4.0, 4.0])
+        );
     }
 }

@@ -15,7 +15,7 @@
 //! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
 use super::forces::ProvedForces;
-use super::{Component, Place};
+use super::{Component, LimitDistance};
 use crate::analysis::Verdict;
 use crate::assembly::Substructure;
 use crate::geometry::Vector;
@@ -35,13 +35,13 @@ const MAX_SMALL_SET: usize = 12;
 const MAX_WHOLE_IMBALANCE: f64 = 1e-6;
 
 /// The result of correcting forces that balance the whole.
-pub(super) enum Outcome {
+pub(super) enum RebalanceOutcome {
     /// The forces balance each body.
     Stands(Amounts, Proof),
     /// Some bodies fall by themselves.
     Falls(FallingPart),
     /// Neither is proved.
-    Open,
+    Undecided,
 }
 
 /// Bodies that fall while all others rest.
@@ -57,48 +57,51 @@ pub(super) struct FallingPart {
 }
 
 impl Component<'_> {
-    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns [`Outcome::Open`] if
+    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns [`RebalanceOutcome::Undecided`] if
     /// neither succeeds.
     pub fn rebalance_locally(
         &self,
         program: &Program,
         amounts: &Amounts,
         effort: &mut Effort,
-    ) -> Outcome {
-        let most = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * most {
-            return Outcome::Open;
+    ) -> RebalanceOutcome {
+        let largest_load = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * largest_load {
+            return RebalanceOutcome::Undecided;
         }
         let mut amounts = amounts.clone();
-        let failing = |carried: &ProvedForces| -> Vec<bool> {
-            let off = proof::imbalances(self.assembly, &carried.forces);
-            off.iter().map(|off| *off > self.demand.imbalance).collect()
+        let failing = |proved: &ProvedForces| -> Vec<bool> {
+            let imbalance = proof::imbalances(self.assembly, &proved.forces);
+            imbalance
+                .iter()
+                .map(|imbalance| *imbalance > self.threshold.imbalance)
+                .collect()
         };
         let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
         let mut all_at_once = true;
         for _ in 0..MAX_ROUNDS {
-            let carried = self.prove_forces(&amounts);
-            if self.believes(&carried.proof) {
-                return Outcome::Stands(amounts, carried.proof);
+            let proved = self.prove_forces(&amounts);
+            if self.accepts(&proved.proof) {
+                return RebalanceOutcome::Stands(amounts, proved.proof);
             }
             if is_late() {
                 break;
             }
-            let fails = failing(&carried);
+            let fails = failing(&proved);
             // Step 1: change each force by a small fraction of itself.
-            if let Some(better) = rebalance_relative(program, &amounts, effort)
-                && count(&failing(&self.prove_forces(&better))) < count(&fails)
+            if let Some(improved) = rebalance_relative(program, &amounts, effort)
+                && count(&failing(&self.prove_forces(&improved))) < count(&fails)
             {
-                amounts = better;
+                amounts = improved;
                 continue;
             }
             // Step 2: change all forces as little as possible. If this fails once, do not try it again.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
-                    Some(better)
-                        if count(&failing(&self.prove_forces(&better))) < count(&fails) =>
+                    Some(improved)
+                        if count(&failing(&self.prove_forces(&improved))) < count(&fails) =>
                     {
-                        amounts = better;
+                        amounts = improved;
                         continue;
                     }
                     _ => all_at_once = false,
@@ -114,7 +117,7 @@ impl Component<'_> {
                 break;
             }
         }
-        Outcome::Open
+        RebalanceOutcome::Undecided
     }
 
     /// Corrects the forces on each set of bodies, while all other bodies are fixed. Returns the sets that fall, and
@@ -135,7 +138,7 @@ impl Component<'_> {
                     is_better = true;
                 }
                 PartOutcome::Falls(found) => falling.push((part, found)),
-                PartOutcome::Open => {}
+                PartOutcome::Undecided => {}
             }
         }
         (falling, is_better)
@@ -153,31 +156,32 @@ impl Component<'_> {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
             settings: self.settings.clone(),
-            demand: self.demand,
+            threshold: self.threshold,
             complete_result: self.complete_result,
-            place: Place::Anywhere,
+            limit_distance: LimitDistance::Unknown,
         };
         // Loads near the smallest floating-point numbers cannot be scaled, so leave this set undecided.
         let ratio = self.scale.force / component.scale.force;
         if !component.scale.force.is_normal() || !ratio.is_normal() {
-            return PartOutcome::Open;
+            return PartOutcome::Undecided;
         }
         let program = Program::new(&part.assembly, component.scale);
-        let given = self.part_amounts(amounts, part, component.scale);
-        let off = |amounts: &Amounts| {
-            let off = proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
-            off.into_iter().fold(0.0, f64::max)
+        let part_amounts_before = self.part_amounts(amounts, part, component.scale);
+        let imbalance = |amounts: &Amounts| {
+            let imbalance =
+                proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
+            imbalance.into_iter().fold(0.0, f64::max)
         };
-        if let Some(better) = rebalance_absolute(&program, &given, effort)
-            && off(&better) < 0.5 * off(&given)
+        if let Some(improved) = rebalance_absolute(&program, &part_amounts_before, effort)
+            && imbalance(&improved) < 0.5 * imbalance(&part_amounts_before)
         {
-            return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
+            return PartOutcome::Changed(in_units(&improved, component.scale, self.scale));
         }
         // Do not decide a part that contains nearly all bodies: it would take as long as the whole component, which is
         // already being decided.
-        let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
-        if own == all || (own > MAX_SMALL_SET && 2 * own > all) {
-            return PartOutcome::Open;
+        let (part_count, body_count) = (part.bodies.len(), self.assembly.bodies.len());
+        if part_count == body_count || (part_count > MAX_SMALL_SET && 2 * part_count > body_count) {
+            return PartOutcome::Undecided;
         }
         if let Some(found) = component.in_closed_form(&program) {
             return match found.verdict {
@@ -186,31 +190,31 @@ impl Component<'_> {
                     amounts: None,
                     adhesion: None,
                 }),
-                _ => PartOutcome::Open,
+                _ => PartOutcome::Undecided,
             };
         }
         let decision = component.complete(&program, component.decide_by_programs(&program));
         *effort = effort.plus(decision.effort);
-        let whole = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
+        let in_own_units = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
         match decision.verdict {
-            Verdict::Stable => PartOutcome::Changed(whole(&decision.amounts)),
+            Verdict::Stable => PartOutcome::Changed(in_own_units(&decision.amounts)),
             Verdict::Unstable => PartOutcome::Falls(PartFall {
-                amounts: Some(whole(&decision.amounts)),
-                adhesion: decision.adhesion.as_ref().map(whole),
+                amounts: Some(in_own_units(&decision.amounts)),
+                adhesion: decision.adhesion.as_ref().map(in_own_units),
                 mechanism: decision.mechanism,
             }),
-            Verdict::Undecided => PartOutcome::Open,
+            Verdict::Undecided => PartOutcome::Undecided,
         }
     }
 
     /// Combines the motions of the falling parts into one motion, in which all other bodies are at rest, and proves it
-    /// for the whole component. Returns [`Outcome::Open`] if the proof is too weak.
+    /// for the whole component. Returns [`RebalanceOutcome::Undecided`] if the proof is too weak.
     fn combine_falling_parts(
         &self,
         program: &Program,
         mut amounts: Amounts,
         falling: &[(Substructure, PartFall)],
-    ) -> Outcome {
+    ) -> RebalanceOutcome {
         let mut mechanism: Vec<Motion> = self
             .assembly
             .bodies
@@ -230,15 +234,15 @@ impl Component<'_> {
                 self.insert_part(&mut amounts, part, held);
             }
             match (&mut adhesion, &fall.adhesion) {
-                (Some(adhesion), Some(own)) => self.insert_part(adhesion, part, own),
+                (Some(adhesion), Some(part_count)) => self.insert_part(adhesion, part, part_count),
                 _ => adhesion = None,
             }
         }
-        let proof = self.mechanism(&mechanism);
-        if !self.convinces(&mechanism, &proof) {
-            return Outcome::Open;
+        let proof = self.check_mechanism(&mechanism);
+        if !self.accepts_motion(&mechanism, &proof) {
+            return RebalanceOutcome::Undecided;
         }
-        Outcome::Falls(FallingPart {
+        RebalanceOutcome::Falls(FallingPart {
             mechanism,
             proof,
             amounts,
@@ -248,22 +252,22 @@ impl Component<'_> {
 
     /// Selects the forces that act on a part, and converts them to the units of `scale`.
     fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
-        let own = Amounts {
+        let part_amounts = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
             friction: part.contacts.iter().map(|k| amounts.friction[*k]).collect(),
             grip: part.grips.iter().map(|k| amounts.grip[*k]).collect(),
         };
-        in_units(&own, self.scale, scale)
+        in_units(&part_amounts, self.scale, scale)
     }
 
-    /// Replaces the forces on a part by `own`. All forces are in the units of the whole component.
-    fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
-        for (place, number) in part.contacts.iter().enumerate() {
-            amounts.normal[*number] = own.normal[place];
-            amounts.friction[*number] = own.friction[place];
+    /// Replaces the forces on a part by `part_amounts`. All forces are in the units of the whole component.
+    fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, part_amounts: &Amounts) {
+        for (position, number) in part.contacts.iter().enumerate() {
+            amounts.normal[*number] = part_amounts.normal[position];
+            amounts.friction[*number] = part_amounts.friction[position];
         }
-        for (place, number) in part.grips.iter().enumerate() {
-            amounts.grip[*number] = own.grip[place];
+        for (position, number) in part.grips.iter().enumerate() {
+            amounts.grip[*number] = part_amounts.grip[position];
         }
     }
 }
@@ -272,7 +276,7 @@ impl Component<'_> {
 enum PartOutcome {
     Changed(Amounts),
     Falls(PartFall),
-    Open,
+    Undecided,
 }
 
 struct PartFall {

@@ -2,7 +2,7 @@
 //! of them near the limit of stability.
 
 use super::programs::Decision;
-use super::{Component, Place, ProofCache};
+use super::{Component, LimitDistance, ProofCache};
 use crate::analysis::{Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::Program;
@@ -15,7 +15,7 @@ use crate::solve::{Amounts, Effort, is_late};
 /// [`decide_component`](super::decide_component). Forces or a motion that a program then finds are added to the cache.
 pub(in crate::mechanics::analysis) fn decide_verdict(
     assembly: &Assembly,
-    place: Place,
+    limit_distance: LimitDistance,
     cache: &mut ProofCache,
 ) -> (Verdict, Vec<Motion>) {
     let cached = verdict_from_cache(assembly, cache);
@@ -23,7 +23,7 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
         return cached;
     }
     let component = Component {
-        place,
+        limit_distance,
         ..Component::new(assembly, VERDICT_ONLY)
     };
     let program = Program::new(assembly, component.scale);
@@ -83,7 +83,7 @@ pub(super) fn decide_without_idle_limits(component: &Component, program: &Progra
 
 /// The results of a program exactly at the limit of stability, in program units.
 #[derive(Debug)]
-pub(in crate::mechanics::analysis) struct Ends<'a> {
+pub(in crate::mechanics::analysis) struct LimitResults<'a> {
     /// The program.
     pub program: &'a Program,
     /// Forces that balance at the limit, and the component there.
@@ -94,22 +94,22 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
 
 /// Adds the forces and the motion of a program at the limit of stability to the cache. Returns its forces in newtons;
 /// `None` if the program gave no forces.
-pub(in crate::mechanics::analysis) fn remember_limit(
-    ends: &Ends,
+pub(in crate::mechanics::analysis) fn add_limit_to_cache(
+    results: &LimitResults,
     cache: &mut ProofCache,
 ) -> Option<Forces> {
     let component = |assembly| Component {
-        scale: ends.program.scale,
+        scale: results.program.scale,
         ..Component::new(assembly, VERDICT_ONLY)
     };
-    if let Some((y, assembly)) = ends.motion {
+    if let Some((y, assembly)) = results.motion {
         let mut effort = Effort::default();
-        let found = component(assembly).prove_motion(ends.program, y, &mut effort);
+        let found = component(assembly).prove_motion(results.program, y, &mut effort);
         if let Some((motion, _)) = found {
             cache.add_motion(motion);
         }
     }
-    let (amounts, assembly) = ends.forces?;
+    let (amounts, assembly) = results.forces?;
     let forces = component(assembly).prove_forces(amounts).forces;
     cache.add_forces(assembly, forces.clone());
     Some(forces)

@@ -37,7 +37,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
         match check_self_stress(&program, &given) {
             SelfStressCheck::FromRest => {}
             SelfStressCheck::OnlyWedged(self_stress) => {
-                let shown = shown(&self_stress, component.scale.force, body, face);
+                let shown = describe(&self_stress, component.scale.force, body, face);
                 let wedged = Wedged::new(assembly, component.scale, &self_stress);
                 return (Some(true), Wedging::Only(shown), Some(wedged));
             }
@@ -51,7 +51,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
 
 /// Describes the proof of wedging in words: which blocks move if the contacts are springs without initial stress, and
 /// which self-stress a balance needs.
-fn shown<'n>(
+fn describe<'n>(
     self_stress: &SelfStress,
     unit: f64,
     body: impl Fn(usize) -> &'n str,
@@ -60,11 +60,11 @@ fn shown<'n>(
     let moving = self_stress
         .moving_blocks()
         .map(|block| body(block).to_string());
-    let mut words = format!("as they give way, {} moves", several(moving));
+    let mut words = format!("as they give way, {} moves", first_names(moving));
     if self_stress.presses_nothing {
         words.push_str(" and presses nothing");
     }
-    let faces = several(self_stress.contacts.iter().map(|contact| face(*contact)));
+    let faces = first_names(self_stress.contacts.iter().map(|contact| face(*contact)));
     if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
         let newtons = least * unit;
         words.push_str(&format!(
@@ -79,7 +79,7 @@ fn shown<'n>(
 }
 
 /// Returns the first four names and the number of the other names, such as `a, b, c, d and 2 more`.
-fn several(names: impl Iterator<Item = String>) -> String {
+fn first_names(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.collect();
     match names.len() {
         0..=4 => names.join(", "),

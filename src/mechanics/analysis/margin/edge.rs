@@ -9,16 +9,16 @@ use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::decide::Place;
+use crate::analysis::decide::LimitDistance;
 use crate::proof::Motion;
 
 /// The side of the threshold on which the component stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum StableSide {
     /// It stands below: the threshold is the largest admissible value.
-    Most,
+    Below,
     /// It stands above: the threshold is the least sufficient value.
-    Least,
+    Above,
 }
 
 /// The search for the threshold of a parameter: the value, at least 0, at which a component begins or ceases to
@@ -26,41 +26,41 @@ pub(super) enum Way {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold {
     /// The side on which the component stands.
-    pub way: Way,
+    pub stable_side: StableSide,
     /// A typical value of the parameter.
-    pub natural: f64,
+    pub typical: f64,
     /// The largest value that is tried.
-    pub most: f64,
+    pub max_value: f64,
 }
 
 impl Threshold {
-    /// Creates the search for the smallest value from 0 to `most` at which the component stands, such as its least
+    /// Creates the search for the smallest value from 0 to `max_value` at which the component stands, such as its least
     /// friction.
-    pub fn least(most: f64) -> Threshold {
+    pub fn smallest_stable(max_value: f64) -> Threshold {
         Threshold {
-            way: Way::Least,
-            natural: 1.0,
-            most,
+            stable_side: StableSide::Above,
+            typical: 1.0,
+            max_value,
         }
     }
 
-    /// Creates the search for the largest value from 0 to `most` at which the component stands, such as its largest
+    /// Creates the search for the largest value from 0 to `max_value` at which the component stands, such as its largest
     /// kernel.
-    pub fn most(most: f64) -> Threshold {
+    pub fn largest_stable(max_value: f64) -> Threshold {
         Threshold {
-            way: Way::Most,
-            ..Threshold::least(most)
+            stable_side: StableSide::Below,
+            ..Threshold::smallest_stable(max_value)
         }
     }
 
     /// Returns the interval of values at which the component stands: from 0 to `end`, or from `end` upwards.
     fn interval(&self, end: End) -> Interval {
-        match self.way {
-            Way::Most => Interval::Between {
+        match self.stable_side {
+            StableSide::Below => Interval::Between {
                 low: End::natural(0.0),
                 high: end,
             },
-            Way::Least => Interval::Between {
+            StableSide::Above => Interval::Between {
                 low: end,
                 high: End::Unbounded,
             },
@@ -68,55 +68,55 @@ impl Threshold {
     }
 
     /// The smallest relative distance from the threshold at which verdicts are computed, on both sides.
-    pub(super) const NEAR: f64 = 1e-6;
+    pub(super) const MIN_OFFSET: f64 = 1e-6;
     /// Newton's root is accepted if a stable and an unstable value on both sides of it are at most this far apart,
     /// relative.
-    pub(super) const SURE: f64 = 512e-6;
-    /// Distances from the threshold grow by this factor up to [`Threshold::FAR`], until a proof is strong enough.
-    const WIDER: f64 = 16.0;
+    pub(super) const BRACKET_TOL: f64 = 512e-6;
+    /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong enough.
+    const OFFSET_GROWTH: f64 = 16.0;
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
-    const FAR: f64 = 256e-6;
+    const MAX_OFFSET: f64 = 256e-6;
 
     /// Below this fraction of its typical value, distances on the falling side are relative to this fraction: a verdict
     /// may be stable beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
-    const SMALL: f64 = 0.1;
+    const MIN_TYPICAL_SHARE: f64 = 0.1;
 
-    /// Searches for the threshold between 0 and `most`, by Newton's method and bisection. Returns the interval of
+    /// Searches for the threshold between 0 and `max_value`, by Newton's method and bisection. Returns the interval of
     /// values at which the component stands.
     ///
     /// If the verdict at a value is undecided, the search ends there, because it cannot find the threshold more
     /// exactly.
-    pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
-        let (at_zero, motion) = trial.judge(&setting(0.0));
-        let at_none = match (at_zero, self.way) {
-            (Verdict::Unstable, Way::Most) => return Interval::excluded_by(motion),
-            (Verdict::Undecided, Way::Most) => return Interval::Undecided,
-            (Verdict::Stable, Way::Least) => return self.interval(End::natural(0.0)),
+    pub fn search(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
+        let (at_zero, motion) = trial.decide(&setting(0.0));
+        let stands_at_zero = match (at_zero, self.stable_side) {
+            (Verdict::Unstable, StableSide::Below) => return Interval::excluded_by(motion),
+            (Verdict::Undecided, StableSide::Below) => return Interval::Undecided,
+            (Verdict::Stable, StableSide::Above) => return self.interval(End::natural(0.0)),
             (verdict, _) => verdict == Verdict::Stable,
         };
-        let (mut near, mut far) = (0.0, self.natural.min(self.most));
+        let (mut stepped_from, mut stepped_to) = (0.0, self.typical.min(self.max_value));
         // Take larger and larger steps away from 0, until the component no longer stands, or begins to stand.
-        let (mut verdict, mut motion) = trial.judge(&setting(far));
-        while (verdict == Verdict::Stable) == at_none {
-            if far >= self.most {
-                return match (self.way, verdict) {
-                    (Way::Most, _) => self.interval(End::Unbounded),
-                    (Way::Least, Verdict::Unstable) => {
-                        Interval::Empty(vec![Exclusion::below(far, motion)])
+        let (mut verdict, mut motion) = trial.decide(&setting(stepped_to));
+        while (verdict == Verdict::Stable) == stands_at_zero {
+            if stepped_to >= self.max_value {
+                return match (self.stable_side, verdict) {
+                    (StableSide::Below, _) => self.interval(End::Unbounded),
+                    (StableSide::Above, Verdict::Unstable) => {
+                        Interval::Empty(vec![Exclusion::below(stepped_to, motion)])
                     }
-                    (Way::Least, _) => Interval::Undecided,
+                    (StableSide::Above, _) => Interval::Undecided,
                 };
             }
-            (near, far) = (far, (far * 10.0).min(self.most));
-            (verdict, motion) = trial.judge(&setting(far));
+            (stepped_from, stepped_to) = (stepped_to, (stepped_to * 10.0).min(self.max_value));
+            (verdict, motion) = trial.decide(&setting(stepped_to));
         }
         // In the bracket, the component stands at `inside` and does not stand at `outside`.
-        let (inside, outside) = match self.way {
-            Way::Most => (near, far),
-            Way::Least => (far, near),
+        let (inside, outside) = match self.stable_side {
+            StableSide::Below => (stepped_from, stepped_to),
+            StableSide::Above => (stepped_to, stepped_from),
         };
         // Find the threshold with Newton's method. Then compute verdicts at values just below and just above it.
-        let root = self.stepped(trial, setting, [inside, outside]);
+        let root = self.newton_root(trial, setting, [inside, outside]);
         let mut bracket = Bracket {
             inside,
             outside,
@@ -125,7 +125,7 @@ impl Threshold {
         if let Some(root) = root {
             self.enclose(trial, setting, &mut bracket, root);
         }
-        self.interval(self.closed_in(trial, setting, bracket, root))
+        self.interval(self.bisect(trial, setting, bracket, root))
     }
 
     /// Computes verdicts on both sides of `root`, the threshold according to Newton's method, as near to it as
@@ -140,18 +140,18 @@ impl Threshold {
         let within = |value: &f64, bracket: &Bracket| {
             (value - bracket.inside) * (value - bracket.outside) < 0.0
         };
-        for value in self.steps(root, Side::Inside) {
-            if within(&value, bracket) && bracket.take(trial, setting, value) == Verdict::Stable {
+        for value in self.test_values(root, Side::Inside) {
+            if within(&value, bracket) && bracket.test(trial, setting, value) == Verdict::Stable {
                 break;
             }
         }
         // Just beyond the threshold, the verdict may still be stable within the tolerance of the proofs. Therefore use
         // only an unstable verdict there.
-        for value in self.steps(root, Side::Beyond) {
+        for value in self.test_values(root, Side::Beyond) {
             if !within(&value, bracket) {
                 continue;
             }
-            let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
+            let (verdict, motion) = trial.decide_at(&setting(value), LimitDistance::AtLimit);
             if verdict == Verdict::Unstable {
                 (bracket.outside, bracket.mechanism) = (value, Some(motion));
                 break;
@@ -160,55 +160,62 @@ impl Threshold {
     }
 
     /// Bisects a bracket until its two values are close enough, and returns the end of the interval. A bracket that
-    /// contains `root` may be wider (`SURE`). The end is unconfirmed if the values stay too far apart.
-    fn closed_in(
+    /// contains `root` may be wider (`BRACKET_TOL`). The end is unconfirmed if the values stay too far apart.
+    fn bisect(
         &self,
         trial: &mut Trial,
         setting: &dyn Fn(f64) -> Setting,
         mut bracket: Bracket,
         root: Option<f64>,
     ) -> End {
-        let is_none = |value: f64| value < Self::NEAR * self.natural;
+        let is_zero = |value: f64| value < Self::MIN_OFFSET * self.typical;
         let width = |bracket: &Bracket| {
             let size = bracket.inside.max(bracket.outside);
-            (bracket.inside - bracket.outside).abs() / size.max(Self::SMALL * self.natural)
+            (bracket.inside - bracket.outside).abs()
+                / size.max(Self::MIN_TYPICAL_SHARE * self.typical)
         };
         let is_around = |bracket: &Bracket, root: &f64| {
             (root - bracket.inside) * (root - bracket.outside) <= 0.0
         };
-        let is_enough = |bracket: &Bracket| match root.filter(|root| is_around(bracket, root)) {
-            Some(_) => width(bracket) <= Self::SURE,
-            None => width(bracket) <= Self::NEAR,
-        };
+        let is_narrow_enough =
+            |bracket: &Bracket| match root.filter(|root| is_around(bracket, root)) {
+                Some(_) => width(bracket) <= Self::BRACKET_TOL,
+                None => width(bracket) <= Self::MIN_OFFSET,
+            };
         let mut is_decided = true;
-        while is_decided && !is_enough(&bracket) && !is_none(bracket.inside.max(bracket.outside)) {
+        while is_decided
+            && !is_narrow_enough(&bracket)
+            && !is_zero(bracket.inside.max(bracket.outside))
+        {
             let middle = 0.5 * (bracket.inside + bracket.outside);
-            is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
+            is_decided = bracket.test(trial, setting, middle) != Verdict::Undecided;
         }
         // The component stands at a value that differs from 0 by less than the tolerance, so it stands from 0 on.
-        if self.way == Way::Least && is_none(bracket.inside) {
+        if self.stable_side == StableSide::Above && is_zero(bracket.inside) {
             return End::natural(0.0);
         }
         let root = root.filter(|root| is_around(&bracket, root));
         let is_close = width(&bracket)
             <= if root.is_some() {
-                Self::SURE
+                Self::BRACKET_TOL
             } else {
-                2.0 * Self::NEAR
+                2.0 * Self::MIN_OFFSET
             };
-        let is_confirmed = is_close || is_none(bracket.inside.max(bracket.outside));
-        let is_last = self.is_last(&bracket);
+        let is_confirmed = is_close || is_zero(bracket.inside.max(bracket.outside));
+        let reaches_max = self.reaches_max(&bracket);
         match bracket.mechanism.filter(|_| is_confirmed) {
             Some(mechanism) => {
                 let value = root.unwrap_or(bracket.inside);
                 End::At {
-                    value: if is_none(value) { 0.0 } else { value },
+                    value: if is_zero(value) { 0.0 } else { value },
                     mechanism,
                 }
             }
             // The verdict is undecided only within 1e-6 of the largest value, so the interval ends at the largest
             // value.
-            None if is_last && self.stands_at_the_last(trial, setting) => End::natural(self.most),
+            None if reaches_max && self.stands_just_below_max(trial, setting) => {
+                End::natural(self.max_value)
+            }
             None => End::Unconfirmed {
                 stands: bracket.inside,
                 beyond: bracket.outside,
@@ -217,42 +224,52 @@ impl Threshold {
     }
 
     /// True if no fall was found up to the largest value: the search is for the largest admissible value, and the
-    /// bracket ends at `most` without a mechanism.
-    fn is_last(&self, bracket: &Bracket) -> bool {
-        self.way == Way::Most && bracket.outside == self.most && bracket.mechanism.is_none()
+    /// bracket ends at `max_value` without a mechanism.
+    fn reaches_max(&self, bracket: &Bracket) -> bool {
+        self.stable_side == StableSide::Below
+            && bracket.outside == self.max_value
+            && bracket.mechanism.is_none()
     }
 
     /// True if the component stands at a value that is 1e-6 (relative) below the largest value.
-    fn stands_at_the_last(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> bool {
-        let last = self.most * (1.0 - Self::NEAR);
-        trial.judge_at(&setting(last), Place::AtEdge).0 == Verdict::Stable
+    fn stands_just_below_max(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> bool {
+        let last = self.max_value * (1.0 - Self::MIN_OFFSET);
+        trial.decide_at(&setting(last), LimitDistance::AtLimit).0 == Verdict::Stable
     }
 
-    /// Returns values at growing distances from the threshold `at`, on the side where the component stands (`Inside`)
+    /// Returns values at growing distances from `threshold`, on the side where the component stands (`Inside`)
     /// or falls (`Beyond`).
-    pub(super) fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
-        let size = if at > 0.0 { at } else { self.natural };
-        let sign = match (self.way, side) {
-            (Way::Most, Side::Beyond) | (Way::Least, Side::Inside) => size,
-            _ => -size,
+    pub(super) fn test_values(&self, threshold: f64, side: Side) -> impl Iterator<Item = f64> {
+        let scale = if threshold > 0.0 {
+            threshold
+        } else {
+            self.typical
         };
-        let far = match side {
-            Side::Inside => Self::FAR,
-            Side::Beyond => Self::FAR * (Self::SMALL * self.natural / size).max(1.0),
+        let sign = match (self.stable_side, side) {
+            (StableSide::Below, Side::Beyond) | (StableSide::Above, Side::Inside) => scale,
+            _ => -scale,
         };
-        let most = match self.way {
-            Way::Most => self.most,
-            Way::Least => f64::INFINITY,
+        let max_offset = match side {
+            Side::Inside => Self::MAX_OFFSET,
+            Side::Beyond => {
+                Self::MAX_OFFSET * (Self::MIN_TYPICAL_SHARE * self.typical / scale).max(1.0)
+            }
         };
-        let mut ended = false;
-        std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
-            .take_while(move |step| *step <= far)
-            .map(move |step| (at + sign * step).clamp(0.0, most))
-            // Steps that pass 0 or `most` are clamped to this limit. Return the limit once, then stop.
-            .take_while(move |value| {
-                let last = *value == 0.0 || *value == most;
-                !std::mem::replace(&mut ended, last)
-            })
+        let max_value = match self.stable_side {
+            StableSide::Below => self.max_value,
+            StableSide::Above => f64::INFINITY,
+        };
+        let mut is_clamped = false;
+        std::iter::successors(Some(Self::MIN_OFFSET), |step| {
+            Some(step * Self::OFFSET_GROWTH)
+        })
+        .take_while(move |step| *step <= max_offset)
+        .map(move |step| (threshold + sign * step).clamp(0.0, max_value))
+        // Steps that pass 0 or `max_value` are clamped to this limit. Return the limit once, then stop.
+        .take_while(move |value| {
+            let last = *value == 0.0 || *value == max_value;
+            !std::mem::replace(&mut is_clamped, last)
+        })
     }
 }
 
@@ -269,8 +286,8 @@ struct Bracket {
 impl Bracket {
     /// Decides the component at a value inside the bracket, and moves one end of the bracket to this value. The bracket
     /// stays if the verdict is undecided.
-    fn take(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
-        let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
+    fn test(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
+        let (verdict, motion) = trial.decide_at(&setting(value), LimitDistance::AtLimit);
         match verdict {
             Verdict::Stable => self.inside = value,
             Verdict::Unstable => (self.outside, self.mechanism) = (value, Some(motion)),

@@ -10,7 +10,7 @@ use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::decide::Place;
+use crate::analysis::decide::LimitDistance;
 use crate::proof::Motion;
 
 /// A parameter, and how a component changes with it.
@@ -18,11 +18,11 @@ pub(super) struct Line<'a> {
     /// The changed component at a value.
     pub setting: &'a dyn Fn(f64) -> Setting,
     /// The least meaningful value; −∞ if all values are meaningful.
-    pub least: f64,
+    pub min_value: f64,
     /// A typical small size of the parameter. Distances from smaller values are relative to it.
-    pub natural: f64,
+    pub typical_small: f64,
     /// A typical large size of the parameter: a load of 10⁻⁵ N equals a weight of 1 N at the factor 10⁵.
-    pub reach: f64,
+    pub typical_large: f64,
 }
 
 /// Two values between which an end lies.
@@ -34,45 +34,46 @@ struct Bracket {
 }
 
 /// The values at which a mechanism proves a fall: all above one value, all below it, or all values.
-enum Cut {
+enum ExcludedRange {
     Above(f64),
     Below(f64),
     All,
 }
 
 /// An end is found if the component stands and falls within this distance, relative to the value.
-const NEAR: f64 = 1e-6;
+const END_TOL: f64 = 1e-6;
 /// The end from a linear program is accepted if verdicts within this relative distance, on both sides, agree with it.
-const AGREES: f64 = 256e-6;
+const CONFIRMATION_TOL: f64 = 256e-6;
 /// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.
 const STABLE_BEYOND: f64 = 4e-6;
 /// Distances from an end grow by this factor while verdicts stay undecided.
-const WIDER: f64 = 16.0;
+const OFFSET_GROWTH: f64 = 16.0;
 /// The largest number of steps of one search.
 const MAX_STEPS: usize = 60;
-/// The largest value that is tried, as a multiple of [`Line::reach`].
+/// The largest value that is tried, as a multiple of [`Line::typical_large`].
 const MAX_VALUE: f64 = 1e6;
-/// If the power of a mechanism vanishes only beyond this multiple of [`Line::reach`], the component counts as falling
+/// If the power of a mechanism vanishes only beyond this multiple of [`Line::typical_large`], the component counts as falling
 /// at every value.
-const MAX_REACH: f64 = 1e6;
+const MAX_VANISHING_VALUE: f64 = 1e6;
 
 impl Line<'_> {
-    /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `from`, at which the
+    /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `finite_start`, at which the
     /// component stands.
     ///
     /// `hint` is the end that a linear program found. The forces and the motion of this program are already in the
     /// cache of `trial`.
     pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
         let hint = hint
-            .map(|hint| self.rounded(hint))
+            .map(|hint| self.without_rounding(hint))
             .filter(|hint| (hint - from) * outward >= -STABLE_BEYOND * self.size(*hint));
         // The interval may end at the smallest possible value of the parameter, such as 0.
-        let is_natural = outward < 0.0 && self.least.is_finite();
+        let is_natural = outward < 0.0 && self.min_value.is_finite();
         if is_natural
-            && hint.is_none_or(|hint| hint <= self.least)
-            && (from <= self.least || self.judge(trial, self.least).0 == Verdict::Stable)
+            && hint.is_none_or(|hint| hint <= self.min_value)
+            && (from <= self.min_value
+                || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
         {
-            return End::natural(self.least);
+            return End::natural(self.min_value);
         }
         let mut bracket = Bracket {
             inside: from,
@@ -80,45 +81,45 @@ impl Line<'_> {
         };
         // Compute verdicts on both sides of the hint. They often confirm the end at once.
         if let Some(hint) = hint {
-            self.enclose(trial, &mut bracket, hint, outward);
+            self.test_near_hint(trial, &mut bracket, hint, outward);
         }
         // Step outward until the component falls. Then narrow the bracket by cutting planes and bisection.
         for _ in 0..MAX_STEPS {
             let Some((beyond, mechanism)) = &bracket.beyond else {
-                match self.farther(trial, &mut bracket, outward) {
+                match self.step_outward(trial, &mut bracket, outward) {
                     Some(end) => return end,
                     None => continue,
                 }
             };
-            if (beyond - bracket.inside) * outward <= NEAR * self.size(*beyond) {
+            if (beyond - bracket.inside) * outward <= END_TOL * self.size(*beyond) {
                 // The stable value may lie slightly beyond the end, within the tolerance of the proofs.
                 let within = hint.filter(|hint| {
-                    (hint - bracket.inside) * outward >= -NEAR * self.size(*hint)
+                    (hint - bracket.inside) * outward >= -END_TOL * self.size(*hint)
                         && (beyond - hint) * outward >= 0.0
                 });
                 return End::At {
-                    value: self.rounded(within.unwrap_or(*beyond)),
+                    value: self.without_rounding(within.unwrap_or(*beyond)),
                     mechanism: mechanism.clone(),
                 };
             }
             // `beyond` is where the mechanism ceases to prove a fall. Try a value just inside it. If the verdict there
             // is undecided, try the middle of the bracket.
             let (beyond, inside) = (*beyond, bracket.inside);
-            let just = beyond - 0.5 * outward * NEAR * self.size(beyond);
-            let found = [just, 0.5 * (inside + beyond)]
+            let just_inside = beyond - 0.5 * outward * END_TOL * self.size(beyond);
+            let end_moved = [just_inside, 0.5 * (inside + beyond)]
                 .into_iter()
                 .filter(|value| (value - inside) * outward > 0.0)
                 .any(|value| {
-                    match self.judge(trial, value) {
+                    match self.decide_at_limit(trial, value) {
                         (Verdict::Stable, _) => bracket.inside = value,
                         (Verdict::Unstable, motion) => {
-                            self.cut(trial, &mut bracket, value, motion, outward)
+                            self.narrow(trial, &mut bracket, value, motion, outward)
                         }
                         (Verdict::Undecided, _) => return false,
                     }
                     true
                 });
-            if !found {
+            if !end_moved {
                 break;
             }
         }
@@ -126,18 +127,18 @@ impl Line<'_> {
     }
 
     /// Returns three values for an end of the interval: the end, a value just inside it, and a value clearly beyond it.
-    pub fn around(&self, end: f64, outward: f64) -> [f64; 3] {
+    pub fn test_values(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
         [
             end,
-            end - 0.5 * NEAR * size,
-            (end + 16.0 * AGREES * size).max(self.least),
+            end - 0.5 * END_TOL * size,
+            (end + 16.0 * CONFIRMATION_TOL * size).max(self.min_value),
         ]
     }
 
     /// Returns `value`, limited to a large finite number, so that an inward search can start there.
-    pub fn from(&self, value: f64) -> f64 {
-        value.min(MAX_VALUE * self.reach)
+    pub fn finite_start(&self, value: f64) -> f64 {
+        value.min(MAX_VALUE * self.typical_large)
     }
 
     /// Returns the end if the bracket could not be narrowed enough. This is the hint if the verdicts on both sides
@@ -151,13 +152,13 @@ impl Line<'_> {
             };
         };
         // The hint is confirmed if the verdicts on both sides are close enough to it.
-        let agrees = |hint: &f64| {
-            let [from_inside, to_beyond] =
-                [hint - inside, beyond - hint].map(|apart| apart * outward / self.size(*hint));
-            (-STABLE_BEYOND..=AGREES).contains(&from_inside)
-                && (-NEAR..=AGREES).contains(&to_beyond)
+        let is_confirmed = |hint: &f64| {
+            let [from_inside, to_beyond] = [hint - inside, beyond - hint]
+                .map(|distance| distance * outward / self.size(*hint));
+            (-STABLE_BEYOND..=CONFIRMATION_TOL).contains(&from_inside)
+                && (-END_TOL..=CONFIRMATION_TOL).contains(&to_beyond)
         };
-        match hint.filter(agrees) {
+        match hint.filter(is_confirmed) {
             Some(value) => End::At { value, mechanism },
             None => End::Unconfirmed {
                 stands: inside,
@@ -168,10 +169,10 @@ impl Line<'_> {
 
     /// Computes verdicts on both sides of `hint`, the expected end, and narrows the bracket to these values. Tries
     /// cached proofs first, because they need no program.
-    fn enclose(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
+    fn test_near_hint(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
         let size = self.size(hint);
         let steps = || {
-            std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
+            std::iter::successors(Some(0.5 * END_TOL), |step| Some(step * OFFSET_GROWTH))
                 .take_while(|step| *step <= 1.0)
         };
         let inside = |step: f64| {
@@ -180,25 +181,26 @@ impl Line<'_> {
         };
         let near = || {
             steps()
-                .take_while(|step| *step <= AGREES)
+                .take_while(|step| *step <= CONFIRMATION_TOL)
                 .filter_map(inside)
         };
-        let remembered =
-            near().find(|value| trial.guess(&(self.setting)(*value)).0 == Verdict::Stable);
-        let stands = remembered
-            .or_else(|| near().find(|value| self.judge(trial, *value).0 == Verdict::Stable));
+        let cached =
+            near().find(|value| trial.cached_verdict(&(self.setting)(*value)).0 == Verdict::Stable);
+        let stands = cached.or_else(|| {
+            near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable)
+        });
         let outside =
-            |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.least);
+            |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.min_value);
         let mut falls = steps().filter_map(outside).find_map(|value| {
-            let (verdict, motion) = trial.guess(&(self.setting)(value));
+            let (verdict, motion) = trial.cached_verdict(&(self.setting)(value));
             (verdict == Verdict::Unstable).then_some((value, motion))
         });
         if falls.is_none() {
             falls = steps()
-                .take_while(|step| *step <= AGREES)
+                .take_while(|step| *step <= CONFIRMATION_TOL)
                 .filter_map(outside)
                 .find_map(|value| {
-                    let (verdict, motion) = self.judge(trial, value);
+                    let (verdict, motion) = self.decide_at_limit(trial, value);
                     (verdict == Verdict::Unstable).then_some((value, motion))
                 });
         }
@@ -206,12 +208,12 @@ impl Line<'_> {
             bracket.inside = value;
         }
         if let Some((value, motion)) = falls {
-            self.cut(trial, bracket, value, motion, outward);
+            self.narrow(trial, bracket, value, motion, outward);
         }
     }
 
     /// Narrows a bracket with the mechanism by which the component falls at `value`.
-    fn cut(
+    fn narrow(
         &self,
         trial: &Trial,
         bracket: &mut Bracket,
@@ -219,9 +221,9 @@ impl Line<'_> {
         motion: Vec<Motion>,
         outward: f64,
     ) {
-        let reached = match self.reach(trial, value, &motion) {
-            Cut::Above(bound) if outward > 0.0 => bound,
-            Cut::Below(bound) if outward < 0.0 => bound,
+        let reached = match self.excluded_range(trial, value, &motion) {
+            ExcludedRange::Above(bound) if outward > 0.0 => bound,
+            ExcludedRange::Below(bound) if outward < 0.0 => bound,
             // The mechanism excludes even values at which the verdict was stable: that verdict holds only within its
             // tolerance. Use `value` itself as the outer end.
             _ => value,
@@ -242,20 +244,20 @@ impl Line<'_> {
 
     /// Searches farther outward while no value is known at which the component falls: decides it at a larger distance.
     /// Returns the end of the interval if the search must stop, otherwise `None`.
-    fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
-        let most = MAX_VALUE * self.reach;
-        let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
-        let next = next.clamp(self.least.max(-most), most);
+    fn step_outward(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
+        let max_value = MAX_VALUE * self.typical_large;
+        let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.typical_small);
+        let next = next.clamp(self.min_value.max(-max_value), max_value);
         if next == bracket.inside {
-            return Some(if next == self.least {
+            return Some(if next == self.min_value {
                 End::natural(next)
             } else {
                 End::Unbounded
             });
         }
-        match self.judge(trial, next) {
+        match self.decide_at_limit(trial, next) {
             (Verdict::Stable, _) => bracket.inside = next,
-            (Verdict::Unstable, motion) => self.cut(trial, bracket, next, motion, outward),
+            (Verdict::Unstable, motion) => self.narrow(trial, bracket, next, motion, outward),
             (Verdict::Undecided, _) => {
                 return Some(End::Unconfirmed {
                     stands: bracket.inside,
@@ -275,10 +277,10 @@ impl Line<'_> {
         present: f64,
         hint: Option<f64>,
     ) -> Result<f64, Interval> {
-        let (mut low, mut high) = (self.least, f64::INFINITY);
+        let (mut low, mut high) = (self.min_value, f64::INFINITY);
         // `below` and `above` are the exclusions of all values below `low` and above `high`.
         let [mut below, mut above] = [None, None];
-        let limit = MAX_REACH * self.reach;
+        let limit = MAX_VANISHING_VALUE * self.typical_large;
         let mut next = Some(present);
         let mut hinted = hint;
         for _ in 0..MAX_STEPS {
@@ -292,21 +294,21 @@ impl Line<'_> {
                         .unwrap_or(present.clamp(low, high))
                 }
             };
-            let found = self.beside(trial, value, [low, high]);
+            let found = self.decide_near(trial, value, [low, high]);
             match found {
                 (Verdict::Stable, at, _) => return Ok(at),
                 (Verdict::Undecided, ..) => return Err(Interval::Undecided),
-                (Verdict::Unstable, at, motion) => match self.reach(trial, at, &motion) {
-                    Cut::All => return Err(Interval::excluded_by(motion)),
-                    Cut::Above(bound) if bound.min(at) < high => {
+                (Verdict::Unstable, at, motion) => match self.excluded_range(trial, at, &motion) {
+                    ExcludedRange::All => return Err(Interval::excluded_by(motion)),
+                    ExcludedRange::Above(bound) if bound.min(at) < high => {
                         high = bound.min(at);
                         above = Some(Exclusion::above(high, motion));
                     }
-                    Cut::Below(bound) if bound.max(at) > low => {
+                    ExcludedRange::Below(bound) if bound.max(at) > low => {
                         low = bound.max(at);
                         below = Some(Exclusion::below(low, motion));
                     }
-                    Cut::Above(_) | Cut::Below(_) => {}
+                    ExcludedRange::Above(_) | ExcludedRange::Below(_) => {}
                 },
             }
             if low > high || low > limit || high < -limit {
@@ -319,20 +321,20 @@ impl Line<'_> {
 
     /// Returns the verdict at `value`. If it is undecided, tries values near it, between `low` and `high`. Also returns
     /// the value that the verdict belongs to, and the mechanism if the component falls there.
-    fn beside(
+    fn decide_near(
         &self,
         trial: &mut Trial,
         value: f64,
         [low, high]: [f64; 2],
     ) -> (Verdict, f64, Vec<Motion>) {
-        let steps = std::iter::successors(Some(NEAR), |step| Some(step * WIDER))
-            .take_while(|step| *step <= AGREES);
+        let steps = std::iter::successors(Some(END_TOL), |step| Some(step * OFFSET_GROWTH))
+            .take_while(|step| *step <= CONFIRMATION_TOL);
         let away = steps
             .flat_map(|step| [step, -step])
             .map(|step| value + step * self.size(value));
         let mut last = Vec::new();
         for at in std::iter::once(value).chain(away.filter(|at| (low..=high).contains(at))) {
-            let (verdict, motion) = self.judge(trial, at);
+            let (verdict, motion) = self.decide_at_limit(trial, at);
             if verdict != Verdict::Undecided {
                 return (verdict, at, motion);
             }
@@ -342,38 +344,39 @@ impl Line<'_> {
     }
 
     /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
-    fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
-        let [without, with] = [0.0, self.reach].map(|at| trial.power(&(self.setting)(at), motion));
+    fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
+        let [without, with] =
+            [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
-        let slope = (with - without) / self.reach;
+        let slope = (with - without) / self.typical_large;
         let bound = -without / slope;
-        if !bound.is_finite() || bound.abs() > MAX_REACH * self.reach {
-            return Cut::All;
+        if !bound.is_finite() || bound.abs() > MAX_VANISHING_VALUE * self.typical_large {
+            return ExcludedRange::All;
         }
         // The mechanism was found at `value`, so the excluded range must contain `value`.
         if slope > 0.0 {
-            Cut::Above(bound.min(value))
+            ExcludedRange::Above(bound.min(value))
         } else {
-            Cut::Below(bound.max(value))
+            ExcludedRange::Below(bound.max(value))
         }
     }
 
-    fn judge(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
-        trial.judge_at(&(self.setting)(value), Place::AtEdge)
+    fn decide_at_limit(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
+        trial.decide_at(&(self.setting)(value), LimitDistance::AtLimit)
     }
 
-    /// Returns the magnitude of `value`, to which distances are relative; `natural` if `value` is nearly 0.
+    /// Returns the magnitude of `value`, to which distances are relative; `typical_small` if `value` is nearly 0.
     fn size(&self, value: f64) -> f64 {
-        if value.abs() < 1e-3 * self.natural {
-            self.natural
+        if value.abs() < 1e-3 * self.typical_small {
+            self.typical_small
         } else {
             value.abs()
         }
     }
 
     /// Returns `value`, or 0 if `value` differs from 0 only by rounding.
-    fn rounded(&self, value: f64) -> f64 {
-        if value.abs() < 1e-9 * self.natural {
+    fn without_rounding(&self, value: f64) -> f64 {
+        if value.abs() < 1e-9 * self.typical_small {
             0.0
         } else {
             value

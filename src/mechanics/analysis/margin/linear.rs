@@ -60,11 +60,11 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     // A linear program predicts the nearest value.
     let (program, toward) = trial.direction(
         &(line.setting)(present),
-        &(line.setting)(present + line.reach),
+        &(line.setting)(present + line.typical_large),
     );
     let found = nearest_factor(&program, &toward);
     let at = match found.limit {
-        Limit::At(change) => (present + change * line.reach).max(line.least),
+        Limit::At(change) => (present + change * line.typical_large).max(line.min_value),
         _ => present,
     };
     // Add the forces and the motion of this program to the cache: they often prove later verdicts. If the component
@@ -72,9 +72,9 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
         Limit::Infeasible => [present; 3],
-        _ => line.around(at, toward_present),
+        _ => line.test_values(at, toward_present),
     };
-    trial.learn_edge(&program, &found, beyond, line.setting, None);
+    trial.cache_extreme(&program, &found, beyond, line.setting, None);
     // Verdicts confirm it.
     let facing_end = matches!(found.limit, Limit::At(_)).then_some(at);
     Ok(Start {
@@ -95,20 +95,20 @@ fn end(
 ) -> End {
     // If the component stands at the smallest possible value, the interval ends there. This needs no linear program.
     if outward < 0.0
-        && line.least.is_finite()
-        && trial.judge(&(line.setting)(line.least)).0 == Verdict::Stable
+        && line.min_value.is_finite()
+        && trial.decide(&(line.setting)(line.min_value)).0 == Verdict::Stable
     {
-        return End::natural(line.least);
+        return End::natural(line.min_value);
     }
-    let step = outward * line.reach;
+    let step = outward * line.typical_large;
     let (program, toward) = trial.direction(&(line.setting)(start), &(line.setting)(start + step));
     let found = largest_factor(&program, &toward);
     match found.limit {
-        Limit::Unbounded if trial.judge(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
+        Limit::Unbounded if trial.decide(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
         Limit::At(change) => {
-            let at = (start + step * change).max(line.least);
-            let around = line.around(at, outward);
-            trial.learn_edge(&program, &found, around, line.setting, base);
+            let at = (start + step * change).max(line.min_value);
+            let around = line.test_values(at, outward);
+            trial.cache_extreme(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))
         }
         // The program finds no balancing forces at the start. The component stands there only within the tolerance of

@@ -7,7 +7,7 @@
 //! components stand: its interval is the intersection of theirs.
 //!
 //! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
-//! [`edge`] and [`newton`] search the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] those for the
+//! [`edge`] and [`newton`] search the results for friction and kernel, [`tilt`] and [`nearest_tilt`] those for the
 //! rotation of gravity. An end is accepted only if the changed frame stands just inside it and falls just beyond it,
 //! with the same proofs as every verdict. The mechanism of an end is that of the fall just beyond it. [`Margins`]
 //! follow from the intervals.
@@ -47,25 +47,25 @@ pub use trial::trials;
 pub(super) struct Part<'a> {
     pub component: &'a Assembly,
     pub key: &'a Key,
-    pub found: &'a Findings,
+    pub findings: &'a Findings,
 }
 
 impl Part<'_> {
     fn stands(&self) -> bool {
-        self.found.verdict == Verdict::Stable
+        self.findings.verdict == Verdict::Stable
     }
 
     fn trial(&self) -> Trial<'_> {
-        let forces = self.stands().then_some(&self.found.forces);
+        let forces = self.stands().then_some(&self.findings.forces);
         Trial::new(self.component, forces)
     }
 
     /// Returns the interval for a parameter that does not affect this component: `all` if the component stands, the
     /// empty interval if it falls, otherwise undecided.
     fn at_present(&self, all: Interval) -> Interval {
-        match self.found.verdict {
+        match self.findings.verdict {
             Verdict::Stable => all,
-            Verdict::Unstable => Interval::excluded_by(self.found.mechanism.clone()),
+            Verdict::Unstable => Interval::excluded_by(self.findings.mechanism.clone()),
             Verdict::Undecided => Interval::Undecided,
         }
     }
@@ -85,7 +85,7 @@ pub(super) struct ComponentIntervals {
 impl ComponentIntervals {
     /// Returns the interval of values at which the component stands, for the parameter of a margin. `None` if it was
     /// not computed, or if the margin is [`MarginKind::Robots`].
-    pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
+    pub fn interval(&self, kind: MarginKind) -> Option<&Interval> {
         match kind {
             MarginKind::Friction => self.friction.as_ref(),
             MarginKind::Tilt => self.tilt.as_ref(),
@@ -110,7 +110,7 @@ pub(super) fn find_margins(
     let all_stand = parts.iter().all(Part::stands);
     let has_tilt = kinds.has(MarginKind::Tilt);
     // Step 1.
-    let mut judged = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
+    let mut decided_count = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
     let components: Vec<(&Part, &ComponentIntervals)> = parts
         .iter()
         .filter_map(|part| Some((part, known.get(part.key)?)))
@@ -120,8 +120,11 @@ pub(super) fn find_margins(
     // Step 3.
     if has_tilt && !all_stand {
         let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
-        intervals.tilt = Some(nearest_tilt::nearest(&mut trials));
-        judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
+        intervals.tilt = Some(nearest_tilt::nearest_stable_tilts(&mut trials));
+        decided_count += trials
+            .iter()
+            .map(|trial| trial.decided_count)
+            .sum::<usize>();
     }
     // The tilts at which a frame stands surely form a single arc only if no loads are listed and no robot has a finite
     // limit.
@@ -132,7 +135,7 @@ pub(super) fn find_margins(
     {
         intervals.notes.push(ONE_ARC.into());
     }
-    (Margins::new(intervals, kinds), judged)
+    (Margins::new(intervals, kinds), decided_count)
 }
 
 /// Computes the intervals of components that are missing in `known`, and adds them to it. Returns how many changed
@@ -155,28 +158,32 @@ fn find_fresh_intervals(
     let each = fresh.iter();
     // A deadline guard works only on its own thread, so each worker thread creates one.
     let deadline = deadline();
-    let found: Vec<(Key, ComponentIntervals, usize)> = each
+    let fresh_intervals: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
             let _guard = DeadlineGuard::new(deadline);
             let mut trial = part.trial();
             let intervals = parameter::intervals(&mut trial, part.stands(), kinds, with_tilt);
-            (part.key.clone(), intervals, trial.judged)
+            (part.key.clone(), intervals, trial.decided_count)
         })
         .collect();
-    let mut judged = 0;
-    for (key, intervals, tries) in found {
+    let mut decided_count = 0;
+    for (key, intervals, tries) in fresh_intervals {
         known.insert(key, intervals);
-        judged += tries;
+        decided_count += tries;
     }
-    judged
+    decided_count
 }
 
 /// Returns the intervals of a frame, which are the intersections of the intervals of its components.
 fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
-    let whole =
-        |kind: MarginKind, all: Interval, of: fn(&ComponentIntervals) -> &Option<Interval>| {
+    let intersection =
+        |kind: MarginKind,
+         all: Interval,
+         interval: fn(&ComponentIntervals) -> &Option<Interval>| {
             kinds.has(kind).then(|| {
-                let each = components.iter().filter_map(|(_, found)| of(found).clone());
+                let each = components
+                    .iter()
+                    .filter_map(|(_, intervals)| interval(intervals).clone());
                 each.fold(all, Interval::intersection)
             })
         };
@@ -185,27 +192,35 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
         high: End::Unbounded,
     };
     let mut intervals = Intervals {
-        friction: whole(MarginKind::Friction, from_zero(), |found| &found.friction),
-        tilt: whole(MarginKind::Tilt, Interval::UNBOUNDED, |found| &found.tilt),
-        horizontal_load: whole(MarginKind::HorizontalLoad, Interval::UNBOUNDED, |found| {
-            &found.horizontal_load
+        friction: intersection(MarginKind::Friction, from_zero(), |intervals| {
+            &intervals.friction
         }),
-        kernel: whole(MarginKind::Kernel, from_zero(), |found| &found.kernel),
+        tilt: intersection(MarginKind::Tilt, Interval::UNBOUNDED, |intervals| {
+            &intervals.tilt
+        }),
+        horizontal_load: intersection(
+            MarginKind::HorizontalLoad,
+            Interval::UNBOUNDED,
+            |intervals| &intervals.horizontal_load,
+        ),
+        kernel: intersection(MarginKind::Kernel, from_zero(), |intervals| {
+            &intervals.kernel
+        }),
         load_factor: None,
         robots: robots(components),
         notes: Vec::new(),
     };
     // The load factor has a meaning only if some component is loaded. A component without loads stands at every factor
     // or at none.
-    let is_loaded = |(_, found): &(&Part, &ComponentIntervals)| found.load_factor.is_some();
+    let is_loaded = |(_, intervals): &(&Part, &ComponentIntervals)| intervals.load_factor.is_some();
     if components.iter().any(is_loaded) {
-        let loaded = whole(MarginKind::LoadFactor, from_zero(), |found| {
-            &found.load_factor
+        let loaded = intersection(MarginKind::LoadFactor, from_zero(), |intervals| {
+            &intervals.load_factor
         });
         let unloaded = components.iter().filter(|component| !is_loaded(component));
         intervals.load_factor = loaded.map(|loaded| {
-            unloaded.fold(loaded, |whole, (part, _)| {
-                whole.intersection(part.at_present(from_zero()))
+            unloaded.fold(loaded, |frame, (part, _)| {
+                frame.intersection(part.at_present(from_zero()))
             })
         });
     }
@@ -219,12 +234,12 @@ const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gr
 /// Returns the intervals of the limits of all robots. They are empty if a component falls that the robot does not hold.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
-    for (number, (_, found)) in components.iter().enumerate() {
+    for (number, (_, intervals)) in components.iter().enumerate() {
         let others = || components.iter().enumerate().filter(|(k, _)| *k != number);
-        for robot in &found.robots {
+        for robot in &intervals.robots {
             let with_others = |own: &Interval| {
-                others().fold(own.clone(), |whole, (_, (part, _))| {
-                    whole.intersection(part.at_present(Interval::UNBOUNDED))
+                others().fold(own.clone(), |frame, (_, (part, _))| {
+                    frame.intersection(part.at_present(Interval::UNBOUNDED))
                 })
             };
             robots.push(RobotIntervals {

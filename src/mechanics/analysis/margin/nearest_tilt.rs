@@ -5,24 +5,26 @@
 
 use super::exclusion::{Exclusion, fewest_arcs};
 use super::interval::Interval;
-use super::tilt::{FAR, MAX_CUTS, MIN_GAP, around, cut, size, steps, turned};
+use super::tilt::{
+    MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted,
+};
 use super::trial::Trial;
 use crate::analysis::Verdict;
-use crate::analysis::decide::Place;
+use crate::analysis::decide::LimitDistance;
 
-/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`AHEAD`] times the gain. Cuts
+/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`LOOKAHEAD_FACTOR`] times the gain. Cuts
 /// whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that a
 /// load pulls off its posts.
-const SLOW: f64 = 1e-2;
+const SLOW_GAIN: f64 = 1e-2;
 /// How far the search looks ahead, as a multiple of the gain.
-const AHEAD: f64 = 16.0;
+const LOOKAHEAD_FACTOR: f64 = 16.0;
 /// Returns the interval of tilts at which a frame stands, in degrees, for a frame that falls without tilt. If there are
 /// several such intervals, it returns the interval nearest to 0.
-pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
+pub(super) fn nearest_stable_tilts(trials: &mut [Trial]) -> Interval {
     match first_standing(trials) {
         Err(interval) => interval,
-        Ok(turn) => {
-            let each = trials.iter_mut().map(|trial| around(trial, turn));
+        Ok(tilt) => {
+            let each = trials.iter_mut().map(|trial| around(trial, tilt));
             each.fold(Interval::UNBOUNDED, Interval::intersection)
         }
     }
@@ -33,40 +35,40 @@ pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
 /// interval: empty or undecided.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let mut excluded = Excluded::default();
-    let mut turn = 0.0;
+    let mut tilt = 0.0;
     'cuts: for _ in 0..MAX_CUTS {
-        let outward = if turn < 0.0 { -1.0 } else { 1.0 };
+        let outward = if tilt < 0.0 { -1.0 } else { 1.0 };
         // The verdict may be undecided exactly at the end of the excluded range, so also try tilts slightly beyond it.
         let far = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
         let steps = std::iter::once(0.0)
-            .chain(steps())
+            .chain(offsets())
             .chain(far.take_while(|step| *step < 1.0))
-            .map(|step| turn + outward * step * size(turn));
+            .map(|step| tilt + outward * step * tilt_scale(tilt));
         for at in steps {
-            match judged_together(trials, at) {
-                Together::Stands => return Ok(at),
-                Together::Undecided => {}
-                Together::Falls(arc) => {
+            match decide_frame(trials, at) {
+                FrameVerdict::Stands => return Ok(at),
+                FrameVerdict::Undecided => {}
+                FrameVerdict::Falls(arc) => {
                     excluded.add(arc);
                     // Enlarge the excluded range by a small step, in case the arc does not enlarge it.
                     if outward > 0.0 {
-                        excluded.high = excluded.high.max(at + MIN_GAP);
+                        excluded.high = excluded.high.max(at + MIN_ARC);
                     } else {
-                        excluded.low = excluded.low.min(at - MIN_GAP);
+                        excluded.low = excluded.low.min(at - MIN_ARC);
                     }
                     if excluded.is_full_turn() {
                         return Err(excluded.interval());
                     }
                     let next = excluded.nearest_end();
-                    let gain = (next - turn) * outward;
-                    turn = next;
-                    if (0.0..SLOW * size(turn)).contains(&gain) {
-                        let ahead = turn + AHEAD * outward * gain;
-                        match judged_together(trials, ahead) {
-                            Together::Stands => return Ok(ahead),
-                            Together::Falls(arc) if excluded.meets(&arc) => {
+                    let gain = (next - tilt) * outward;
+                    tilt = next;
+                    if (0.0..SLOW_GAIN * tilt_scale(tilt)).contains(&gain) {
+                        let ahead = tilt + LOOKAHEAD_FACTOR * outward * gain;
+                        match decide_frame(trials, ahead) {
+                            FrameVerdict::Stands => return Ok(ahead),
+                            FrameVerdict::Falls(arc) if excluded.meets(&arc) => {
                                 excluded.add(arc);
-                                turn = excluded.nearest_end();
+                                tilt = excluded.nearest_end();
                             }
                             _ => {}
                         }
@@ -96,7 +98,8 @@ impl Excluded {
     fn add(&mut self, arc: Exclusion) {
         let from = arc.from.unwrap_or(f64::NEG_INFINITY);
         let to = arc.to.unwrap_or(f64::INFINITY);
-        self.has_gaps |= from > self.high + gap(self.high) || to < self.low - gap(self.low);
+        self.has_gaps |= from > self.high + max_joined_gap(self.high)
+            || to < self.low - max_joined_gap(self.low);
         (self.low, self.high) = (self.low.min(from), self.high.max(to));
         self.arcs.push(arc);
     }
@@ -128,36 +131,36 @@ impl Excluded {
         if self.has_gaps {
             return Interval::Undecided;
         }
-        Interval::Empty(fewest_arcs(&self.arcs, gap))
+        Interval::Empty(fewest_arcs(&self.arcs, max_joined_gap))
     }
 }
 
-/// Returns the largest gap, in degrees, between two arcs near the tilt `turn` that still count as joined. Verdicts
+/// Returns the largest gap, in degrees, between two arcs near `tilt` that still count as joined. Verdicts
 /// cannot resolve smaller gaps.
-fn gap(turn: f64) -> f64 {
-    FAR * size(turn)
+fn max_joined_gap(tilt: f64) -> f64 {
+    MAX_OFFSET * tilt_scale(tilt)
 }
 
 /// The verdict of a whole frame at a tilt.
-enum Together {
+enum FrameVerdict {
     Stands,
     Undecided,
     /// It falls at these tilts by one mechanism.
     Falls(Exclusion),
 }
 
-/// Returns the verdict of the whole frame with gravity tilted by `turn` degrees. If the frame falls, also returns the
+/// Returns the verdict of the whole frame with gravity tilted by `tilt` degrees. If the frame falls, also returns the
 /// tilts at which its mechanism proves the fall.
-fn judged_together(trials: &mut [Trial], turn: f64) -> Together {
-    let mut together = Together::Stands;
+fn decide_frame(trials: &mut [Trial], tilt: f64) -> FrameVerdict {
+    let mut verdict = FrameVerdict::Stands;
     for trial in trials {
-        let (found, motion) = trial.judge_at(&turned(turn, 1.0), Place::AtEdge);
+        let (found, motion) = trial.decide_at(&tilted(tilt, 1.0), LimitDistance::AtLimit);
         match found {
             Verdict::Stable => {}
-            Verdict::Undecided => together = Together::Undecided,
+            Verdict::Undecided => verdict = FrameVerdict::Undecided,
             Verdict::Unstable => {
-                let arc = cut(trial, turn, &motion);
-                return Together::Falls(Exclusion {
+                let arc = excluded_arc(trial, tilt, &motion);
+                return FrameVerdict::Falls(Exclusion {
                     from: arc.map(|[from, _]| from),
                     to: arc.map(|[_, to]| to),
                     mechanism: motion,
@@ -165,5 +168,5 @@ fn judged_together(trials: &mut [Trial], turn: f64) -> Together {
             }
         }
     }
-    together
+    verdict
 }

@@ -7,28 +7,28 @@ use crate::analysis::Verdict;
 use crate::solve::Tangent;
 
 /// The largest number of Newton steps for one threshold, midpoint steps included.
-const STEPS: usize = 24;
+const MAX_STEPS: usize = 24;
 
 /// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
-const CLOSE: f64 = 1e-6;
+const BRACKET_TOL: f64 = 1e-6;
 
 /// It has also converged if the roots of two tangents, one of them much closer to the threshold, differ by this at
 /// most, relative to their size.
-const AGREES: f64 = 1e-7;
+const ROOT_TOL: f64 = 1e-7;
 
 /// The error of a least residual, relative to the largest load: a few times the solver's tolerance.
-const NOISE: f64 = 2e-9;
+const RESIDUAL_NOISE: f64 = 2e-9;
 
 /// Where the root of a tangent lies beyond the threshold, the next tangent is this much closer to the threshold. The
 /// error of its root falls with the square of that.
-const CLOSER: f64 = 1.0 / 16.0;
+const APPROACH_SHARE: f64 = 1.0 / 16.0;
 
 /// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
 /// load.
-const LEFT: f64 = 1e-8;
+const MAX_STABLE_RESIDUAL: f64 = 1e-8;
 
 /// The bracket of Newton's method.
-struct Steps {
+struct NewtonBracket {
     /// Here the component stands.
     inside: f64,
     /// Here it falls.
@@ -39,21 +39,21 @@ struct Steps {
     standing: Option<(f64, Tangent)>,
 }
 
-impl Steps {
+impl NewtonBracket {
     /// Solves for the least residual at `value`, and moves one end of the bracket there. Returns true if the component
     /// falls at `value`; `None` if the program could not be solved.
-    fn take(
+    fn test(
         &mut self,
         trial: &mut Trial,
         setting: &dyn Fn(f64) -> Setting,
         value: f64,
     ) -> Option<bool> {
-        let found = trial.tangent(&setting(value))?;
-        let falls = found.residual_sum > LEFT;
+        let tangent = trial.tangent(&setting(value))?;
+        let falls = tangent.residual_sum > MAX_STABLE_RESIDUAL;
         if falls {
-            (self.outside, self.tangent) = (value, found);
+            (self.outside, self.tangent) = (value, tangent);
         } else {
-            (self.inside, self.standing) = (value, Some((value, found)));
+            (self.inside, self.standing) = (value, Some((value, tangent)));
         }
         Some(falls)
     }
@@ -69,13 +69,13 @@ impl Threshold {
     ///
     /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds
     /// the forces and the motion that confirm the threshold to the cache of `trial`.
-    pub(super) fn stepped(
+    pub(super) fn newton_root(
         &self,
         trial: &mut Trial,
         setting: &dyn Fn(f64) -> Setting,
         [inside, outside]: [f64; 2],
     ) -> Option<f64> {
-        let mut at = Steps {
+        let mut bracket = NewtonBracket {
             inside,
             outside,
             tangent: trial.tangent(&setting(outside))?,
@@ -85,45 +85,49 @@ impl Threshold {
         // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
         // computed. `share`: the length of the next step from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
-        for _ in 0..STEPS {
-            if at.tangent.residual_sum <= LEFT {
+        for _ in 0..MAX_STEPS {
+            if bracket.tangent.residual_sum <= MAX_STABLE_RESIDUAL {
                 return None;
             }
-            let (inside, outside) = (at.inside, at.outside);
+            let (inside, outside) = (bracket.inside, bracket.outside);
             let size = inside.max(outside);
-            let root = trial.root(&at.tangent, setting, [outside, inside]);
+            let root = trial.root(&bracket.tangent, setting, [outside, inside]);
             // Compute by how much the parameter must change to change the least residual by 1.
-            let run = (root - outside).abs() / at.tangent.residual_sum;
-            let is_within = at.contains(root);
-            let is_near = is_within || (root - inside).abs() <= 4.0 * LEFT * run;
+            let change_per_residual = (root - outside).abs() / bracket.tangent.residual_sum;
+            let is_within = bracket.contains(root);
+            let is_near = is_within
+                || (root - inside).abs() <= 4.0 * MAX_STABLE_RESIDUAL * change_per_residual;
             let agrees = |[other, tangent_at]: [f64; 2]| {
-                tangent_at != outside && (root - other).abs() <= (AGREES * size).max(NOISE * run)
+                tangent_at != outside
+                    && (root - other).abs()
+                        <= (ROOT_TOL * size).max(RESIDUAL_NOISE * change_per_residual)
             };
-            falling.push((outside, at.tangent.clone()));
+            falling.push((outside, bracket.tangent.clone()));
             // The method has converged in two cases: the bracket is narrow, or the root of the tangent agrees with the
             // falling end of the bracket or with the root of another tangent.
-            let is_bracketed = (inside - outside).abs() <= CLOSE * size;
-            let is_root = (root - outside).abs() <= CLOSE * size || reached.is_some_and(agrees);
+            let is_bracketed = (inside - outside).abs() <= BRACKET_TOL * size;
+            let is_root =
+                (root - outside).abs() <= BRACKET_TOL * size || reached.is_some_and(agrees);
             if is_bracketed || (is_near && is_root) {
                 let edge = if is_near { root } else { inside };
-                self.learn_sides(trial, setting, edge, falling, at.standing);
+                self.cache_both_sides(trial, setting, edge, falling, bracket.standing);
                 return Some(edge);
             }
             // Go to the root of the tangent (Newton's step). If the root lies outside the bracket, go to a value inside
             // the bracket.
             if !is_within {
-                let falls = at.take(trial, setting, inside + share * (outside - inside))?;
+                let falls = bracket.test(trial, setting, inside + share * (outside - inside))?;
                 share = if falls && reached.is_some() {
-                    CLOSER
+                    APPROACH_SHARE
                 } else {
                     0.5
                 };
-            } else if !at.take(trial, setting, root)? {
-                (reached, share) = (Some([root, outside]), CLOSER);
+            } else if !bracket.test(trial, setting, root)? {
+                (reached, share) = (Some([root, outside]), APPROACH_SHARE);
                 // The component stands at the root. Test whether it falls just beyond the root.
-                let beside = root + 0.4 * CLOSE * size * (outside - root).signum();
-                if at.contains(beside) {
-                    at.take(trial, setting, beside)?;
+                let just_beyond = root + 0.4 * BRACKET_TOL * size * (outside - root).signum();
+                if bracket.contains(just_beyond) {
+                    bracket.test(trial, setting, just_beyond)?;
                 }
             }
         }
@@ -132,7 +136,7 @@ impl Threshold {
 
     /// Adds the motion of a value just beyond the threshold, and the forces of a value just inside it, to the cache of
     /// `trial`. They come from earlier Newton steps or from new tangents.
-    fn learn_sides(
+    fn cache_both_sides(
         &self,
         trial: &mut Trial,
         setting: &dyn Fn(f64) -> Setting,
@@ -140,25 +144,24 @@ impl Threshold {
         falling: Vec<(f64, Tangent)>,
         standing: Option<(f64, Tangent)>,
     ) {
-        let away = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
+        let distance = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
         // Choose a falling value that is close enough to confirm the threshold, but far enough from it for a strong
         // proof.
-        let near = falling
-            .into_iter()
-            .rev()
-            .find(|(value, _)| (2.0 * Self::NEAR..0.45 * Self::SURE).contains(&away(*value)));
+        let near = falling.into_iter().rev().find(|(value, _)| {
+            (2.0 * Self::MIN_OFFSET..0.45 * Self::BRACKET_TOL).contains(&distance(*value))
+        });
         let falls = near.or_else(|| {
-            let value = self.steps(edge, Side::Beyond).nth(1)?;
+            let value = self.test_values(edge, Side::Beyond).nth(1)?;
             Some((value, trial.tangent(&setting(value))?))
         });
-        let standing = standing.filter(|(value, _)| away(*value) <= Self::NEAR);
+        let standing = standing.filter(|(value, _)| distance(*value) <= Self::MIN_OFFSET);
         let stands = standing.or_else(|| {
-            let value = self.steps(edge, Side::Inside).next()?;
+            let value = self.test_values(edge, Side::Inside).next()?;
             Some((value, trial.tangent(&setting(value))?))
         });
-        for (found, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
-            if let Some((value, tangent)) = found {
-                trial.learn_tangent(&tangent, &setting(value), verdict);
+        for (tangent, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
+            if let Some((value, tangent)) = tangent {
+                trial.cache_tangent(&tangent, &setting(value), verdict);
             }
         }
     }

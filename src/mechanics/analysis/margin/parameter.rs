@@ -7,7 +7,7 @@ use super::kind::{MarginKind, MarginKinds};
 use super::line::Line;
 use super::linear::linear;
 use super::margins::Margins;
-use super::trial::{Limited, Setting, Trial};
+use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
 use crate::analysis::Verdict;
 use crate::program::Scale;
@@ -59,7 +59,7 @@ fn friction(trial: &mut Trial) -> Interval {
         friction: Some(mu),
         ..Setting::default()
     };
-    Threshold::least(Margins::MOST_FRICTION).searched(trial, &setting)
+    Threshold::smallest_stable(Margins::MOST_FRICTION).search(trial, &setting)
 }
 
 fn kernel(trial: &mut Trial) -> Interval {
@@ -67,7 +67,7 @@ fn kernel(trial: &mut Trial) -> Interval {
         kernel: Some(kernel),
         ..Setting::default()
     };
-    Threshold::most(1.0).searched(trial, &setting)
+    Threshold::largest_stable(1.0).search(trial, &setting)
 }
 
 fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
@@ -76,15 +76,15 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
             across: share,
             ..Setting::default()
         },
-        least: f64::NEG_INFINITY,
-        natural: 1.0,
-        reach: (1.0 / trial.weights_to_loads()).max(1.0),
+        min_value: f64::NEG_INFINITY,
+        typical_small: 1.0,
+        typical_large: (1.0 / trial.weights_to_loads()).max(1.0),
     };
     let alone = |side: f64| Setting {
         along: 0.0,
         across: side,
         loads: 0.0,
-        limits: Limited::Unlimited,
+        limits: LimitChange::FiniteToZero,
         ..Setting::default()
     };
     linear(trial, &line, 0.0, stands, &alone)
@@ -96,14 +96,14 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
             loads: factor,
             ..Setting::default()
         },
-        least: 0.0,
-        natural: trial.weights_to_loads().min(1.0),
-        reach: trial.weights_to_loads().max(1.0),
+        min_value: 0.0,
+        typical_small: trial.weights_to_loads().min(1.0),
+        typical_large: trial.weights_to_loads().max(1.0),
     };
     let alone = |side: f64| Setting {
         along: 0.0,
         loads: side,
-        limits: Limited::Unlimited,
+        limits: LimitChange::FiniteToZero,
         ..Setting::default()
     };
     linear(trial, &line, 1.0, stands, &alone)
@@ -112,11 +112,11 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
 /// Returns the values of one robot limit at which the component stands, in N or N·m. `component` selects the limit: 0
 /// is force x, 1 is force y, 2 is the torque. `stands` is true if the component stands with the limits of the scene.
 fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
-    let setting = |most: f64| Setting {
-        limits: Limited::One {
+    let setting = |value: f64| Setting {
+        limits: LimitChange::Replace {
             grip,
             component,
-            most,
+            value,
         },
         ..Setting::default()
     };
@@ -127,14 +127,14 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
     }
     let line = Line {
         setting: &setting,
-        least: 0.0,
-        natural: unit * Scale::HEAVIEST,
-        reach: unit * Scale::HEAVIEST,
+        min_value: 0.0,
+        typical_small: unit * Scale::HEAVIEST,
+        typical_large: unit * Scale::HEAVIEST,
     };
     // If the component stands, the limit in the scene is sufficient, and the search starts there.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
-        match trial.judge(&setting(f64::INFINITY)) {
+        match trial.decide(&setting(f64::INFINITY)) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => return Interval::excluded_by(motion),
             (Verdict::Undecided, _) => return Interval::Undecided,
@@ -146,13 +146,13 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
     let hint = match found.limit {
         Limit::At(at) => {
             let at = at * unit;
-            trial.learn_edge(&program, &found, line.around(at, -1.0), &setting, None);
+            trial.cache_extreme(&program, &found, line.test_values(at, -1.0), &setting, None);
             Some(at)
         }
         _ => None,
     };
     Interval::Between {
-        low: line.end(trial, line.from(enough), -1.0, hint),
+        low: line.end(trial, line.finite_start(enough), -1.0, hint),
         high: End::Unbounded,
     }
 }

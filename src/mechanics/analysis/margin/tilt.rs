@@ -11,20 +11,20 @@ use super::line::Line;
 use super::linear::linear;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::decide::Place;
+use crate::analysis::decide::LimitDistance;
 use crate::proof::Motion;
 
 /// The smallest distance from an end at which verdicts are computed, relative to the tilt.
-const NEAR: f64 = 1e-6;
+const MIN_OFFSET: f64 = 1e-6;
 /// Distances from an end grow by this factor while verdicts stay undecided.
-const WIDER: f64 = 16.0;
+const OFFSET_GROWTH: f64 = 16.0;
 /// The largest of these distances, relative to the tilt.
-pub(super) const FAR: f64 = 256e-6;
+pub(super) const MAX_OFFSET: f64 = 256e-6;
 /// A range between two stable tilts is not searched further if it is narrower than this, degrees.
-pub(super) const MIN_GAP: f64 = 1e-6;
+pub(super) const MIN_ARC: f64 = 1e-6;
 /// The step of the first search, degrees. A right angle is no multiple of it, because many structures are exactly at
 /// their limit of stability at right angles.
-const STRIDE: f64 = 77.7;
+const SEARCH_STEP: f64 = 77.7;
 /// The largest number of cuts of one search.
 pub(super) const MAX_CUTS: usize = 200;
 
@@ -33,8 +33,8 @@ pub(super) const MAX_CUTS: usize = 200;
 pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
     match horizontal {
         Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
-            let low = of_weights(trial, -1.0, low);
-            let high = of_weights(trial, 1.0, high);
+            let low = limit_of_weights(trial, -1.0, low);
+            let high = limit_of_weights(trial, 1.0, high);
             Interval::Between { low, high }
         }
         _ => around(trial, 0.0),
@@ -45,126 +45,128 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
 /// `from`.
 pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
-        let mut arc = Arc {
+        let mut search = TiltSearch {
             trial: &mut *trial,
             from,
             outward,
         };
-        arc.end()
+        search.end()
     });
     Interval::Between { low, high }
 }
 
-/// The tilts in one direction from a tilt at which a component stands. A *way* is the distance of a tilt from there,
+/// The tilts in one direction from a tilt at which a component stands. A *distance* of a tilt is measured from there,
 /// 0 to 360 degrees.
-struct Arc<'t, 'a> {
+struct TiltSearch<'t, 'a> {
     trial: &'t mut Trial<'a>,
     from: f64,
     outward: f64,
 }
 
 /// The first end of the stable tilts in one direction.
-enum Exit {
+enum StableEnd {
     At(f64, Vec<Motion>),
-    /// The component stands at the first way; at the second it falls or is undecided.
+    /// The component stands at the first distance; at the second it falls or is undecided.
     Unconfirmed(f64, f64),
 }
 
-impl Arc<'_, '_> {
+impl TiltSearch<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
         // If the search does not start at tilt 0, the frame falls at tilt 0. The first step towards 0 then ends at 0.
         let to_zero = -self.outward * self.from;
-        let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
+        let mut next = if to_zero > 0.0 { to_zero } else { SEARCH_STEP };
         loop {
-            let exit = match self.judge(next) {
+            let stable_end = match self.decide(next) {
                 (Verdict::Unstable, motion) => Some(self.edge(reached, next, motion)),
-                (Verdict::Stable, _) => self.gap(reached, next),
+                (Verdict::Stable, _) => self.fall_between(reached, next),
                 (Verdict::Undecided, _) => {
                     // The verdict is undecided, so try a tilt between the last stable tilt and this tilt.
                     let other = 0.5 * (reached + next) + 0.137 * (next - reached);
-                    match self.judge(other) {
+                    match self.decide(other) {
                         (Verdict::Unstable, motion) => Some(self.edge(reached, other, motion)),
                         (Verdict::Stable, _) => {
-                            let exit = self.gap(reached, other);
-                            exit.or(Some(Exit::Unconfirmed(other, next)))
+                            let stable_end = self.fall_between(reached, other);
+                            stable_end.or(Some(StableEnd::Unconfirmed(other, next)))
                         }
-                        (Verdict::Undecided, _) => Some(Exit::Unconfirmed(reached, other)),
+                        (Verdict::Undecided, _) => Some(StableEnd::Unconfirmed(reached, other)),
                     }
                 }
             };
-            match exit {
-                Some(exit) => return self.reported(exit),
+            match stable_end {
+                Some(stable_end) => return self.to_end(stable_end),
                 None if next >= 360.0 => return End::Unbounded,
-                None => (reached, next) = (next, (next + STRIDE).min(360.0)),
+                None => (reached, next) = (next, (next + SEARCH_STEP).min(360.0)),
             }
         }
     }
 
-    fn reported(&self, exit: Exit) -> End {
-        let turn = |way: f64| {
-            let turn = self.from + self.outward * way;
-            if turn.abs() < 1e-9 { 0.0 } else { turn }
+    fn to_end(&self, stable_end: StableEnd) -> End {
+        let tilt = |distance: f64| {
+            let tilt = self.from + self.outward * distance;
+            if tilt.abs() < 1e-9 { 0.0 } else { tilt }
         };
-        match exit {
-            Exit::At(way, mechanism) => End::At {
-                value: turn(way),
+        match stable_end {
+            StableEnd::At(distance, mechanism) => End::At {
+                value: tilt(distance),
                 mechanism,
             },
-            Exit::Unconfirmed(stands, beyond) => End::Unconfirmed {
-                stands: turn(stands),
-                beyond: turn(beyond),
+            StableEnd::Unconfirmed(stands, beyond) => End::Unconfirmed {
+                stands: tilt(stands),
+                beyond: tilt(beyond),
             },
         }
     }
 
     /// Finds the first tilt beyond which the component falls. It lies between the distances `stands` and `falls` from
     /// the start, in degrees. The component stands at `stands`, and falls at `falls` by `motion`.
-    fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
+    fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> StableEnd {
         let (mut stands, mut falls, mut motion) = (stands, falls, motion);
         // If the last mechanism excluded hardly any tilts, bisect in the next step.
         let mut is_slow = false;
         for _ in 0..MAX_CUTS {
             // The mechanism was found at `falls`. It excludes every tilt from `bound` to `falls`.
-            let arc = cut(self.trial, self.from + self.outward * falls, &motion);
+            let arc = excluded_arc(self.trial, self.from + self.outward * falls, &motion);
             let bound = arc.map_or(stands, |[low, high]| {
-                let turn = if self.outward > 0.0 { low } else { high };
-                ((turn - self.from) * self.outward).clamp(stands, falls)
+                let tilt = if self.outward > 0.0 { low } else { high };
+                ((tilt - self.from) * self.outward).clamp(stands, falls)
             });
-            if bound - stands <= MIN_GAP {
-                return Exit::At(bound, motion);
+            if bound - stands <= MIN_ARC {
+                return StableEnd::At(bound, motion);
             }
-            let size = size(self.from + self.outward * bound);
-            let near = steps().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
+            let size = tilt_scale(self.from + self.outward * bound);
+            let near = offsets().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
             // If the verdicts near the end of this range are undecided, a tilt farther away narrows the search.
             let far = [0.5, 0.75, 0.25].map(|share| stands + share * (bound - stands));
-            let mut ways: Vec<(f64, bool)> = near.map(|way| (way, true)).collect();
-            let first_far = if is_slow { 0 } else { ways.len() };
-            ways.splice(first_far..first_far, far.map(|way| (way, false)));
+            let mut distances: Vec<(f64, bool)> = near.map(|distance| (distance, true)).collect();
+            let first_far = if is_slow { 0 } else { distances.len() };
+            distances.splice(first_far..first_far, far.map(|distance| (distance, false)));
             let mut inside = None;
-            for (way, is_near) in ways {
-                match self.judge(way) {
+            for (distance, is_near) in distances {
+                match self.decide(distance) {
                     (Verdict::Undecided, _) => {}
-                    (verdict, found) => {
-                        inside = Some((way, is_near, verdict, found));
+                    (verdict, mechanism) => {
+                        inside = Some((distance, is_near, verdict, mechanism));
                         break;
                     }
                 }
             }
             match inside {
-                None => return Exit::Unconfirmed(stands, bound),
-                Some((way, is_near, Verdict::Stable, _)) => match self.gap(stands, way) {
-                    Some(exit) => return exit,
-                    None if is_near => return Exit::At(bound, motion),
-                    None => (stands, is_slow) = (way, false),
-                },
-                Some((way, is_near, _, found)) => {
-                    (falls, motion) = (way, found);
+                None => return StableEnd::Unconfirmed(stands, bound),
+                Some((distance, is_near, Verdict::Stable, _)) => {
+                    match self.fall_between(stands, distance) {
+                        Some(stable_end) => return stable_end,
+                        None if is_near => return StableEnd::At(bound, motion),
+                        None => (stands, is_slow) = (distance, false),
+                    }
+                }
+                Some((distance, is_near, _, mechanism)) => {
+                    (falls, motion) = (distance, mechanism);
                     is_slow = is_near;
                 }
             }
         }
-        Exit::Unconfirmed(stands, falls)
+        StableEnd::Unconfirmed(stands, falls)
     }
 
     /// Finds the first tilt at which the component ceases to stand, between the distances `from` and `to` from the
@@ -174,36 +176,39 @@ impl Arc<'_, '_> {
     /// arc and the intersection of the tangents there, it contains the triangle of these points, and therefore the
     /// arc. If the set is a cone, it contains every arc of less than half a turn between two of its directions.
     /// Otherwise the arc is bisected.
-    fn gap(&mut self, from: f64, to: f64) -> Option<Exit> {
+    fn fall_between(&mut self, from: f64, to: f64) -> Option<StableEnd> {
         let width = to - from;
         let is_cone = !self.trial.is_loaded() && !self.trial.is_limited();
-        if width <= MIN_GAP || (is_cone && width < 179.0) {
+        if width <= MIN_ARC || (is_cone && width < 179.0) {
             return None;
         }
         let middle = 0.5 * (from + to);
         if width < 170.0 {
             let beyond_the_arc = 1.0 / libm::cos(0.5 * width.to_radians());
-            let turn = self.from + self.outward * middle;
-            let apex = self.trial.judge(&turned(turn, beyond_the_arc)).0;
+            let tilt = self.from + self.outward * middle;
+            let apex = self.trial.decide(&tilted(tilt, beyond_the_arc)).0;
             if apex == Verdict::Stable {
                 return None;
             }
         }
-        match self.judge(middle) {
-            (Verdict::Stable, _) => self.gap(from, middle).or_else(|| self.gap(middle, to)),
+        match self.decide(middle) {
+            (Verdict::Stable, _) => self
+                .fall_between(from, middle)
+                .or_else(|| self.fall_between(middle, to)),
             (Verdict::Unstable, motion) => Some(self.edge(from, middle, motion)),
-            (Verdict::Undecided, _) => Some(Exit::Unconfirmed(from, middle)),
+            (Verdict::Undecided, _) => Some(StableEnd::Unconfirmed(from, middle)),
         }
     }
 
-    fn judge(&mut self, way: f64) -> (Verdict, Vec<Motion>) {
-        let turn = self.from + self.outward * way;
-        self.trial.judge_at(&turned(turn, 1.0), Place::AtEdge)
+    fn decide(&mut self, distance: f64) -> (Verdict, Vec<Motion>) {
+        let tilt = self.from + self.outward * distance;
+        self.trial
+            .decide_at(&tilted(tilt, 1.0), LimitDistance::AtLimit)
     }
 }
 
 /// Returns the setting with gravity rotated by an angle in degrees, positive to the right, and multiplied by `stretch`.
-pub(super) fn turned(degrees: f64, stretch: f64) -> Setting {
+pub(super) fn tilted(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
     Setting {
         along: stretch * libm::cos(angle),
@@ -212,9 +217,9 @@ pub(super) fn turned(degrees: f64, stretch: f64) -> Setting {
     }
 }
 
-/// Returns the first and the last tilt, in degrees, at which a motion proves a fall. The tilt `turn`, at which the
+/// Returns the first and the last tilt, in degrees, at which a motion proves a fall. The tilt `tilt`, at which the
 /// motion was found, lies between them. `None` if the motion proves a fall at every tilt.
-pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
+pub(super) fn excluded_arc(trial: &Trial, tilt: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
         let setting = Setting {
             along,
@@ -232,37 +237,37 @@ pub(super) fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2
     }
     let middle = libm::atan2(across, along).to_degrees();
     let half = libm::acos((-constant / size).clamp(-1.0, 1.0)).to_degrees();
-    let off = turn - middle;
-    let off = off - 360.0 * (off / 360.0).round();
-    let half = half.max(off.abs());
-    Some([turn - off - half, turn - off + half])
+    let offset = tilt - middle;
+    let offset = offset - 360.0 * (offset / 360.0).round();
+    let half = half.max(offset.abs());
+    Some([tilt - offset - half, tilt - offset + half])
 }
 
-/// Returns growing distances from the end of an interval of tilts, as fractions of [`size`].
-pub(super) fn steps() -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
-        .take_while(|step| *step <= FAR)
+/// Returns growing distances from the end of an interval of tilts, as fractions of [`tilt_scale`].
+pub(super) fn offsets() -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(0.5 * MIN_OFFSET), |step| Some(step * OFFSET_GROWTH))
+        .take_while(|step| *step <= MAX_OFFSET)
 }
 
 /// Returns the angle, in degrees, to which distances from a tilt are relative: the magnitude of the tilt, but at least
 /// 1 and at most 90.
-pub(super) fn size(turn: f64) -> f64 {
-    turn.abs().clamp(1.0, 90.0)
+pub(super) fn tilt_scale(tilt: f64) -> f64 {
+    tilt.abs().clamp(1.0, 90.0)
 }
 
 /// Returns the largest tilt on one side (`side` is −1 or 1), for a component with only weights and no finite robot
 /// limits. Up to 90°, the tangent of this tilt is the largest horizontal load. Beyond 90°, a second linear program
 /// gives the largest upward fraction of the weights, whose arctangent is added to 90°.
-fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
-    let turn = |share: f64| libm::atan(share).to_degrees();
+fn limit_of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
+    let tilt = |share: f64| libm::atan(share).to_degrees();
     match horizontal {
         End::At { value, mechanism } => End::At {
-            value: turn(*value),
+            value: tilt(*value),
             mechanism: mechanism.clone(),
         },
         End::Unconfirmed { stands, beyond } => End::Unconfirmed {
-            stands: turn(*stands),
-            beyond: turn(*beyond),
+            stands: tilt(*stands),
+            beyond: tilt(*beyond),
         },
         End::Unbounded => {
             let line = Line {
@@ -271,9 +276,9 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
                     across: side,
                     ..Setting::default()
                 },
-                least: 0.0,
-                natural: 1.0,
-                reach: 1.0,
+                min_value: 0.0,
+                typical_small: 1.0,
+                typical_large: 1.0,
             };
             let alone = |_: f64| Setting {
                 along: -1.0,
@@ -284,7 +289,7 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
                     high: End::At { value, mechanism },
                     ..
                 } => End::At {
-                    value: side * (90.0 + turn(value)),
+                    value: side * (90.0 + tilt(value)),
                     mechanism,
                 },
                 Interval::Between {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
 use crate::analysis::decide::{
-    Ends, Place, ProofCache, decide_verdict, remember_limit, verdict_from_cache,
+    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, verdict_from_cache,
 };
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
@@ -38,24 +38,24 @@ pub(super) struct Setting {
     /// Factor on the listed loads.
     pub loads: f64,
     /// The robots' limits.
-    pub limits: Limited,
+    pub limits: LimitChange,
 }
 
 /// The changed limits of robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Limited {
+pub(super) enum LimitChange {
     /// The limits of the scene.
-    AsGiven,
+    None,
     /// Every finite limit becomes 0. The rest is what robots can carry if the loads grow without end.
-    Unlimited,
+    FiniteToZero,
     /// One limit of one grip.
-    One {
+    Replace {
         /// The grip.
         grip: usize,
         /// 0: force x, 1: force y, 2: torque.
         component: usize,
         /// The limit, N or N·m.
-        most: f64,
+        value: f64,
     },
 }
 
@@ -67,59 +67,59 @@ impl Default for Setting {
             along: 1.0,
             across: 0.0,
             loads: 1.0,
-            limits: Limited::AsGiven,
+            limits: LimitChange::None,
         }
     }
 }
 
 /// One component of a frame, of which changed versions are decided.
 pub(super) struct Trial<'a> {
-    given: &'a Assembly,
+    original: &'a Assembly,
     /// The forces that balance the unchanged component, if it stands.
     forces: Option<&'a Forces>,
-    guesses: ProofCache,
+    proofs: ProofCache,
     /// The number of settings that were decided.
-    pub judged: usize,
+    pub decided_count: usize,
 }
 
 impl<'a> Trial<'a> {
     /// Creates a trial, which decides changed copies of a component. `forces` balance the unchanged component; they are
     /// `None` if it does not stand.
-    pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
-        let mut guesses = ProofCache::default();
+    pub fn new(original: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
+        let mut proofs = ProofCache::default();
         if let Some(forces) = forces {
-            guesses.add_forces(given, forces.clone());
+            proofs.add_forces(original, forces.clone());
         }
         Trial {
-            given,
+            original,
             forces,
-            guesses,
-            judged: 0,
+            proofs,
+            decided_count: 0,
         }
     }
 
     /// Returns the robots that hold a body of the component, in the order of the grips.
     pub fn holds(&self) -> Vec<RobotId> {
-        self.given.grips.iter().map(|grip| grip.robot).collect()
+        self.original.grips.iter().map(|grip| grip.robot).collect()
     }
 
     /// True if the scene lists a load on the component.
     pub fn is_loaded(&self) -> bool {
-        is_loaded(self.given)
+        is_loaded(self.original)
     }
 
     /// True if some robot has a limit other than 0 and infinity. The forces at the limit of stability are then not
     /// proportional to the loads.
     pub fn is_limited(&self) -> bool {
-        is_limited(self.given)
+        is_limited(self.original)
     }
 
     /// Returns the ratio of the heaviest weight to the largest listed load; 1 if there are no weights or no listed
     /// loads.
     pub fn weights_to_loads(&self) -> f64 {
-        let bodies = || self.given.bodies.iter();
-        let weights = bodies().map(|body| body.weight * self.given.pull.norm());
-        let loads = bodies().map(|body| body.listed.size(self.given.length));
+        let bodies = || self.original.bodies.iter();
+        let weights = bodies().map(|body| body.weight * self.original.pull.norm());
+        let loads = bodies().map(|body| body.listed.size(self.original.length));
         let ratio = weights.fold(0.0, f64::max) / loads.fold(0.0, f64::max);
         if ratio.is_finite() && ratio > 0.0 {
             ratio
@@ -130,20 +130,24 @@ impl<'a> Trial<'a> {
 
     /// Returns the verdict on the component with the parameters `setting`, and its mechanism if it falls (otherwise an
     /// empty list).
-    pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
-        self.judge_at(setting, Place::Anywhere)
+    pub fn decide(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
+        self.decide_at(setting, LimitDistance::Unknown)
     }
 
-    /// Like [`Trial::judge`]. `place` says whether the changed component is known to be at its limit of stability.
-    pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
+    /// Like [`Trial::decide`]. `limit_distance` says whether the changed component is known to be at its limit of stability.
+    pub fn decide_at(
+        &mut self,
+        setting: &Setting,
+        limit_distance: LimitDistance,
+    ) -> (Verdict, Vec<Motion>) {
         self.count();
-        decide_verdict(&self.changed(setting), place, &mut self.guesses)
+        decide_verdict(&self.changed(setting), limit_distance, &mut self.proofs)
     }
 
-    /// Like [`Trial::judge`], but tries only cached proofs and solves no program. The verdict is undecided if no cached
+    /// Like [`Trial::decide`], but tries only cached proofs and solves no program. The verdict is undecided if no cached
     /// proof holds.
-    pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
-        verdict_from_cache(&self.changed(setting), &self.guesses)
+    pub fn cached_verdict(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
+        verdict_from_cache(&self.changed(setting), &self.proofs)
     }
 
     /// Returns the least residual force of the changed component, with its derivative. `None` if the program could not
@@ -154,7 +158,7 @@ impl<'a> Trial<'a> {
     }
 
     fn count(&mut self) {
-        self.judged += 1;
+        self.decided_count += 1;
         TRIALS.fetch_add(1, Ordering::Relaxed);
     }
 
@@ -172,22 +176,22 @@ impl<'a> Trial<'a> {
 
     /// Adds the results of a least-residual program to the cache: its forces if the verdict is stable, its motion if it
     /// is unstable.
-    pub fn learn_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
+    pub fn cache_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
         let changed = self.changed(setting);
         let program = Program::new(&changed, Scale::from_assembly(&changed));
         let (forces, motion) = (tangent.forces(&program), tangent.motion());
-        let ends = Ends {
+        let results = LimitResults {
             program: &program,
             forces: (verdict == Verdict::Stable).then_some((&forces, &changed)),
             motion: (verdict == Verdict::Unstable).then_some((&motion[..], &changed)),
         };
-        remember_limit(&ends, &mut self.guesses);
+        add_limit_to_cache(&results, &mut self.proofs);
     }
 
     /// Adds the results of the program for an end of an interval to the cache: its forces, for the value `at`, and its
     /// motion, for the value `beyond`. If `base` (the present value) is given, also adds interpolated forces for the
     /// value `inside`.
-    pub fn learn_edge(
+    pub fn cache_extreme(
         &mut self,
         program: &Program,
         extreme: &ExtremeValue,
@@ -195,21 +199,21 @@ impl<'a> Trial<'a> {
         setting: &dyn Fn(f64) -> Setting,
         base: Option<f64>,
     ) {
-        let [here, there] = [at, beyond].map(|value| self.changed(&setting(value)));
-        let ends = Ends {
+        let [at_limit, beyond_limit] = [at, beyond].map(|value| self.changed(&setting(value)));
+        let results = LimitResults {
             program,
-            forces: extreme.forces.as_ref().map(|forces| (forces, &here)),
-            motion: extreme.motion.as_ref().map(|y| (&y[..], &there)),
+            forces: extreme.forces.as_ref().map(|forces| (forces, &at_limit)),
+            motion: extreme.motion.as_ref().map(|y| (&y[..], &beyond_limit)),
         };
-        let found = remember_limit(&ends, &mut self.guesses);
-        if let (Some(last), Some(first), Some(base)) = (found, self.forces, base)
+        let limit_forces = add_limit_to_cache(&results, &mut self.proofs);
+        if let (Some(at_forces), Some(base_forces), Some(base)) = (limit_forces, self.forces, base)
             && at != base
         {
             let share = (inside - base) / (at - base);
             if (0.0..=1.0).contains(&share) {
                 let changed = self.changed(&setting(inside));
-                let between = between(first, &last, share);
-                self.guesses.add_forces(&changed, between);
+                let interpolated = interpolate(base_forces, &at_forces, share);
+                self.proofs.add_forces(&changed, interpolated);
             }
         }
     }
@@ -231,7 +235,7 @@ impl<'a> Trial<'a> {
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());
-        let scale = Scale::new(self.given.length, heaviest);
+        let scale = Scale::new(self.original.length, heaviest);
         // Use one scale for both programs, so that their load vectors can be subtracted.
         let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
@@ -240,7 +244,7 @@ impl<'a> Trial<'a> {
     }
 
     fn changed(&self, setting: &Setting) -> Assembly {
-        let mut changed = self.given.clone();
+        let mut changed = self.original.clone();
         if let Some(kernel) = setting.kernel {
             changed = changed.with_kernel(kernel);
         }
@@ -248,7 +252,7 @@ impl<'a> Trial<'a> {
             changed = changed.with_friction(mu);
         }
         // Weights along and across the original gravity together equal weights along a changed gravity vector.
-        let down = self.given.pull;
+        let down = self.original.pull;
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
             .with_load_factor(setting.loads);
@@ -277,23 +281,23 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
 
 /// Returns the limits of the grip with index `number` as `setting` changes them: unchanged, with one limit replaced, or
 /// with all finite limits set to 0.
-fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
-    let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
+fn limits(given: Limits, number: usize, setting: LimitChange) -> Limits {
+    let finite_to_zero = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
-        Limited::Unlimited => Limits {
-            fx: or_none(given.fx),
-            fy: or_none(given.fy),
-            torque: or_none(given.torque),
+        LimitChange::FiniteToZero => Limits {
+            fx: finite_to_zero(given.fx),
+            fy: finite_to_zero(given.fy),
+            torque: finite_to_zero(given.torque),
         },
-        Limited::One {
+        LimitChange::Replace {
             grip,
             component,
-            most,
+            value,
         } if grip == number => match component {
-            0 => Limits { fx: most, ..given },
-            1 => Limits { fy: most, ..given },
+            0 => Limits { fx: value, ..given },
+            1 => Limits { fy: value, ..given },
             _ => Limits {
-                torque: most,
+                torque: value,
                 ..given
             },
         },
@@ -303,7 +307,7 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
 
 /// Interpolates linearly between two sets of forces, from `first` (share 0) to `last` (share 1). The result is
 /// admissible, because admissible forces form a convex set.
-fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
+fn interpolate(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);
     let contacts = contacts.map(|(a, b)| ContactForces {

@@ -35,11 +35,11 @@ pub struct Resultant {
 /// #     friction: 0.7,
 /// # };
 /// // Normals of 1 N at x = 4 and 3 N at x = 0, friction 2 N along (−n_y, n_x) = (−1, 0).
-/// let sum = resultant::from_corner_forces(&seam, 0.0, [1.0, 3.0], 2.0);
+/// let sum = resultant::from_point_forces(&seam, 0.0, [1.0, 3.0], 2.0);
 /// assert_eq!(sum.at, Point::new(1.0, 1.0));
 /// assert_eq!(sum.force, Vector::new(-2.0, 4.0));
 /// ```
-pub fn from_corner_forces(
+pub fn from_point_forces(
     interface: &Interface,
     kernel: f64,
     normal: [f64; 2],

@@ -6,21 +6,21 @@ use crate::program::Program;
 use crate::solve::{Balance, SolverSettings, balance_at_first_look, balance_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
-    of(balance_in(program, settings))
+    from_balance(balance_in(program, settings))
 }
 
 /// Solves the program of least force with few iterations. Near the limit of stability it converges slowly or ends
 /// without a result, and other programs decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
-    of(balance_at_first_look(program, settings))
+    from_balance(balance_at_first_look(program, settings))
 }
 
-fn of(solved: Balance) -> Attempt {
+fn from_balance(balance: Balance) -> Attempt {
     Attempt {
-        forces: solved.forces,
-        motion: solved.motion,
-        witness: solved.witness,
+        forces: balance.forces,
+        motion: balance.motion,
+        witness: balance.witness,
         least_adhesion: None,
-        effort: solved.effort,
+        effort: balance.effort,
     }
 }

@@ -1,4 +1,4 @@
-//! Two programs that have an optimum whether the component stands or falls. [`any`] finds some forces that balance the
+//! Two programs that have an optimum whether the component stands or falls. [`attempt_any_balance`] finds some forces that balance the
 //! loads, or a motion that excludes such forces. [`attempt`] finds the forces with the least imbalance and the motion
 //! with the greatest power.
 
@@ -6,22 +6,22 @@ use super::Attempt;
 use crate::program::Program;
 use crate::solve::{Effort, Residual, any_balance, least_residual};
 
-pub(super) fn any(program: &Program) -> Attempt {
-    of(Some(any_balance(program)))
+pub(super) fn attempt_any_balance(program: &Program) -> Attempt {
+    from_residual(Some(any_balance(program)))
 }
 
 pub(super) fn attempt(program: &Program) -> Attempt {
-    of(least_residual(program))
+    from_residual(least_residual(program))
 }
 
-fn of(solved: Option<Residual>) -> Attempt {
-    match solved {
-        Some(left) => Attempt {
-            forces: left.is_reliable.then_some(left.forces),
-            motion: Some(left.motion),
+fn from_residual(residual: Option<Residual>) -> Attempt {
+    match residual {
+        Some(residual) => Attempt {
+            forces: residual.is_reliable.then_some(residual.forces),
+            motion: Some(residual.motion),
             witness: None,
             least_adhesion: None,
-            effort: left.effort,
+            effort: residual.effort,
         },
         None => Attempt {
             forces: None,

@@ -52,11 +52,11 @@ impl fmt::Display for Method {
 
 /// What is known beforehand about a component's distance from its limit of stability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::mechanics::analysis) enum Place {
+pub(in crate::mechanics::analysis) enum LimitDistance {
     /// Nothing is known.
-    Anywhere,
+    Unknown,
     /// At the limit of stability.
-    AtEdge,
+    AtLimit,
 }
 
 /// One program that may decide a component.
@@ -114,7 +114,7 @@ impl Strategy {
     ///
     /// Three cases differ:
     ///
-    /// - At the limit (`Place::AtEdge`) step 3 comes before step 2.
+    /// - At the limit (`LimitDistance::AtLimit`) step 3 comes before step 2.
     /// - Large programs begin with a short attempt with least force. If failures are requested, least adhesion comes
     ///   before least residual: a large component that falls needs least adhesion in any case, and least residual takes
     ///   nearly as long.
@@ -124,43 +124,48 @@ impl Strategy {
     pub fn in_order(
         program: &Program,
         settings: &[SolverSettings],
-        place: Place,
+        limit_distance: LimitDistance,
         complete_result: bool,
     ) -> Vec<Strategy> {
         let mut strategies: Vec<Strategy> = settings.iter().copied().map(Strategy::Force).collect();
-        let many = program.blocks >= LARGE_PROGRAM_BLOCKS;
-        let any = settings.iter().all(|s| s.choice == Choice::Any);
-        let plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
-        let quick = settings.iter().find(plain).copied();
+        let is_large = program.blocks >= LARGE_PROGRAM_BLOCKS;
+        let only_verdict = settings.iter().all(|s| s.choice == Choice::Any);
+        let is_plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
+        let quick_settings = settings.iter().find(is_plain).copied();
         let residual = [Strategy::AnyBalance, Strategy::Residual];
-        match place {
+        match limit_distance {
             // Large components. Order: short attempt with least force, any balance, least adhesion if failures are
             // requested, least residual, full attempts with least force.
-            Place::Anywhere if many && !any => {
+            LimitDistance::Unknown if is_large && !only_verdict => {
                 strategies.splice(0..0, residual);
                 if complete_result {
-                    strategies.splice(1..1, quick.map(Strategy::Adhesion));
+                    strategies.splice(1..1, quick_settings.map(Strategy::Adhesion));
                 }
-                strategies.splice(0..0, quick.map(Strategy::FirstLook));
+                strategies.splice(0..0, quick_settings.map(Strategy::FirstLook));
             }
             // Large components, if only the verdict is requested. Order: any balance, short attempt with least force,
             // least residual, full attempts with least force.
-            Place::Anywhere if many => {
+            LimitDistance::Unknown if is_large => {
                 strategies.splice(0..0, residual);
-                let unique = |settings| SolverSettings {
+                let with_unique_forces = |settings| SolverSettings {
                     choice: Choice::Unique,
                     ..settings
                 };
-                strategies.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
+                strategies.splice(
+                    1..1,
+                    quick_settings
+                        .map(with_unique_forces)
+                        .map(Strategy::FirstLook),
+                );
             }
             // Small components. Order: least force, any balance, least residual, least force with full precision.
-            Place::Anywhere => {
+            LimitDistance::Unknown => {
                 let second = 1.min(strategies.len());
                 strategies.splice(second..second, residual);
             }
             // At the limit of stability, the program of least force may have no optimum. Any balance and least residual
             // come first.
-            Place::AtEdge => {
+            LimitDistance::AtLimit => {
                 strategies.splice(0..0, residual);
             }
         }
@@ -179,14 +184,14 @@ impl Strategy {
             Strategy::Determinate => determinate::attempt(program),
             Strategy::FirstLook(settings) => least_force::first_look(program, *settings),
             Strategy::Force(settings) => least_force::attempt(program, *settings),
-            Strategy::AnyBalance => least_residual::any(program),
+            Strategy::AnyBalance => least_residual::attempt_any_balance(program),
             Strategy::Residual => least_residual::attempt(program),
             Strategy::Adhesion(settings) => least_adhesion::attempt(program, *settings),
         }
     }
 
     /// True if the strategy solves the program of least force to the end.
-    pub fn is_least(&self) -> bool {
+    pub fn is_full_least_force(&self) -> bool {
         matches!(self, Strategy::Force(_))
     }
 
