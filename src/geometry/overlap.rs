@@ -17,7 +17,7 @@ use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 /// A polygon cut into convex pieces: the polygon itself if it is convex, otherwise triangles.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
-    whole: Option<Piece<'p>>,
+    convex: Option<Piece<'p>>,
     triangles: Vec<Piece<'p>>,
 }
 
@@ -89,7 +89,7 @@ impl<'p> ConvexPieces<'p> {
     pub fn new(polygon: &'p Polygon) -> ConvexPieces<'p> {
         if polygon.is_convex() {
             return ConvexPieces {
-                whole: Piece::new(Cow::Borrowed(polygon.outline())),
+                convex: Piece::new(Cow::Borrowed(polygon.outline())),
                 triangles: Vec::new(),
             };
         }
@@ -121,13 +121,13 @@ impl<'p> ConvexPieces<'p> {
             .filter_map(|t| Piece::new(Cow::Owned(t)))
             .collect();
         ConvexPieces {
-            whole: None,
+            convex: None,
             triangles,
         }
     }
 
-    fn all(&self) -> impl Iterator<Item = &Piece<'p>> {
-        self.whole.iter().chain(&self.triangles)
+    fn pieces(&self) -> impl Iterator<Item = &Piece<'p>> {
+        self.convex.iter().chain(&self.triangles)
     }
 }
 
@@ -136,8 +136,8 @@ impl<'p> ConvexPieces<'p> {
 pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut overlapping = Vec::new();
-    for one in a.all() {
-        for two in b.all().filter(|two| one.bounds.intersects(two.bounds)) {
+    for one in a.pieces() {
+        for two in b.pieces().filter(|two| one.bounds.intersects(two.bounds)) {
             if one.is_separated_from(two) || two.is_separated_from(one) {
                 continue;
             }
@@ -156,7 +156,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
         return None;
     }
     // Compute the area and the centroid of the intersection relative to a corner near it, so that few digits are lost.
-    let base = a.all().next()?.corners[0];
+    let base = a.pieces().next()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
     (area > 0.0).then(|| Overlap {
         area,
@@ -397,7 +397,7 @@ mod tests {
         let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
         let frame = frame.expect("sound");
         let mut area = 0.0;
-        for piece in ConvexPieces::new(&frame).all() {
+        for piece in ConvexPieces::new(&frame).pieces() {
             let t = &piece.corners;
             let bounds = Bounds::from_points(t.iter().copied());
             assert_eq!((t.len(), bounds), (3, Some(piece.bounds)));
@@ -420,14 +420,14 @@ mod tests {
         ];
         let l = polygon(&corners.map(far));
         let pieces = ConvexPieces::new(&l);
-        let parts = pieces.all().map(|piece| {
+        let parts = pieces.pieces().map(|piece| {
             let t = &piece.corners;
             cross(t[1] - t[0], t[2] - t[0]) / 2.0
         });
         assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
         let square = rectangle(0.0, 0.0, 1.0, 1.0);
         let pieces = ConvexPieces::new(&square);
-        let whole: Vec<usize> = pieces.all().map(|piece| piece.corners.len()).collect();
-        assert_eq!(whole, [4], "what is convex stays whole");
+        let convex: Vec<usize> = pieces.pieces().map(|piece| piece.corners.len()).collect();
+        assert_eq!(convex, [4], "what is convex stays whole");
     }
 }

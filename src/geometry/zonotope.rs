@@ -38,7 +38,7 @@ const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 ///
 /// If it were ten times smaller, rounding would give a flat zonotope a width, and a point outside its plane a finite τ.
 /// If it were ten times larger, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// Returns the gauge of a zonotope: the smallest factor τ for which `point` lies in the zonotope scaled by τ. Infinity
 /// if there is no such factor. The zonotope is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 } of the generators gᵢ.
@@ -157,8 +157,8 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     // `zonotope_gauge` subtracts rounding from each width of the zonotope. No width is less than the square root of the
     // Gram matrix's smallest eigenvalue. With ones on the diagonal, this eigenvalue is at least 4/9 of the determinant.
     let min_width = (determinant * 4.0 / 9.0).sqrt() * a.min(b).min(c);
-    let rounding = 2.0 * ROUNDING * lengths / min_width;
-    let bound = max * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING * norm(point) / min_width;
+    let rounding = 2.0 * ROUNDING_TOL * lengths / min_width;
+    let bound = max * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING_TOL * norm(point) / min_width;
     let is_reliable =
         rounding < 0.25 && solution.iter().all(|v| v.is_finite()) && bound.is_finite();
     is_reliable.then_some(bound)
@@ -173,8 +173,8 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
     };
     let mut gauge: f64 = 0.0;
     let rounding = Rounding {
-        distance: ROUNDING * norm(point),
-        width: ROUNDING * generators.iter().map(|g| norm(*g)).sum::<f64>(),
+        distance: ROUNDING_TOL * norm(point),
+        width: ROUNDING_TOL * generators.iter().map(|g| norm(*g)).sum::<f64>(),
     };
     let mut try_normal = |normal: Vec3| {
         let length = norm(normal);
@@ -195,7 +195,7 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
         .iter()
         .map(|g| cross(longest, *g))
         .max_by(by_length)
-        .filter(|n| norm(*n) > ROUNDING * norm(longest) * norm(longest));
+        .filter(|n| norm(*n) > ROUNDING_TOL * norm(longest) * norm(longest));
     let plane = plane.unwrap_or_else(|| {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let across = axes.map(|axis| cross(longest, axis));
@@ -261,7 +261,7 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
             *cell_sum = aligned_sum(*cell_sum, g);
             continue;
         }
-        let is_parallel = |a: &Vec3| norm(cross(*a, g)) <= ROUNDING * norm(*a) * norm(g);
+        let is_parallel = |a: &Vec3| norm(cross(*a, g)) <= ROUNDING_TOL * norm(*a) * norm(g);
         match reduced.iter_mut().find(|a| is_parallel(a)) {
             Some(a) => *a = aligned_sum(*a, g),
             None => reduced.push(g),

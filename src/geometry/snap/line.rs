@@ -26,7 +26,7 @@ const MIN_SQUARED_SINE: f64 = 1e-4;
 /// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test and of level lines.
 ///
 /// It must exceed the rounding of coordinates; for a gap of 1 mm it is 10⁻¹² m.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_TOL: f64 = 1e-9;
 /// A node that would move farther than this many gaps stays where it was.
 const MAX_MOVE_IN_GAPS: f64 = 2.0;
 
@@ -143,7 +143,7 @@ impl Lines {
                 farthest = farthest.max(step.norm() / nodes.all[*node].gap);
             }
             // Convergence test: stop if the largest step, as a fraction of the node's gap, is only rounding.
-            if farthest <= ROUNDING {
+            if farthest <= ROUNDING_TOL {
                 break;
             }
         }
@@ -214,7 +214,7 @@ impl Line {
         } else {
             (1, LineKind::Upright)
         };
-        let rounding = ROUNDING * nodes.all[members[0]].gap;
+        let rounding = ROUNDING_TOL * nodes.all[members[0]].gap;
         if normal[axis].abs() * spread(axis) <= 2.0 * off + rounding {
             return Some(line(kind));
         }

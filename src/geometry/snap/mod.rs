@@ -63,7 +63,7 @@ const MAX_ATTEMPTS: usize = 12;
 /// A node whose distance from a side is at most this fraction of the gap already lies on that side.
 ///
 /// It is a thousandth of [`MIN_MOVE`]. A limit below the rounding of coordinates would rebuild bodies that already fit.
-const MAX_EXACT_DISTANCE: f64 = 1e-9;
+const EXACT_DISTANCE_TOL: f64 = 1e-9;
 
 /// A corner that moves by at most this fraction of the gap is not reported as moved: that is the rounding of numbers.
 const MIN_MOVE: f64 = 1e-6;
@@ -193,7 +193,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     let found = nodes_near_sides(&nodes, &sides, gaps, kept);
     // If all nodes already lie on their sides, return the bodies unchanged.
     let fits = |b: &NodeNearSide<'_>| {
-        !b.side.curved && b.off <= MAX_EXACT_DISTANCE * nodes.all[b.node].gap
+        !b.side.curved && b.off <= EXACT_DISTANCE_TOL * nodes.all[b.node].gap
     };
     if nodes.exact && found.iter().all(fits) {
         return Outcome {

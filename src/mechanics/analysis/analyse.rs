@@ -208,7 +208,7 @@ fn find_wedging(
     options: Options,
 ) -> Wedging {
     match (options.wedging, analysis.verdict) {
-        (false, _) => Wedging::NotAsked,
+        (false, _) => Wedging::NotRequested,
         (true, Verdict::Stable) => {
             let components = solved.iter().map(|s| (s.component, s.findings));
             let (only, shown, wedged) = decide::only_by_wedging(scene, components);

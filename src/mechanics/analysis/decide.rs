@@ -222,7 +222,7 @@ impl<'a> Component<'a> {
         }
         // If a component falls, its contact forces balance it only together with the missing adhesion.
         let forces = match (decision.verdict, &decision.adhesion) {
-            (Verdict::Unstable, _) if !self.complete_result => Forces::none(self.assembly),
+            (Verdict::Unstable, _) if !self.complete_result => Forces::zero(self.assembly),
             (Verdict::Unstable, Some(adhesion)) => {
                 self.prove_with_adhesion(&decision.amounts, adhesion).0
             }

@@ -1,7 +1,7 @@
 //! Combines the proofs of the components of a frame, and adds the effect reports and notices of the whole frame.
 
 use super::{FrameAnalysis, Verdict};
-use crate::effect::sticking::Sought;
+use crate::effect::sticking::AdhesionSearch;
 use crate::effect::{EffectName, FrameContext, mechanism, sticking};
 use crate::program::UnknownCounts;
 use crate::proof::Proof;
@@ -65,14 +65,14 @@ pub(super) fn complete_frame(
     }
     let blocks = context.frame.placed.len();
     // Report whether adhesion was computed: only if the frame falls and its failures are requested.
-    let sought = match verdict_only {
-        true if unstable => Sought::NotAsked,
-        _ if analysis.failures.is_empty() => Sought::NotNeeded,
-        _ => Sought::Found,
+    let search = match verdict_only {
+        true if unstable => AdhesionSearch::NotRequested,
+        _ if analysis.failures.is_empty() => AdhesionSearch::NotNeeded,
+        _ => AdhesionSearch::Found,
     };
     analysis.effects.push(sticking::report(
         blocks,
-        sought,
+        search,
         counts.get(EffectName::Sticking),
     ));
     analysis.effects.push(mechanism::report(unstable));

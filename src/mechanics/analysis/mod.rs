@@ -186,7 +186,7 @@ impl Analysis {
         let scene = scene.into();
         let (found, mut frames) = analyse::analyse(&scene, options);
         gaps_closed::recheck(&scene, &found, &mut frames, options);
-        capacity::add(&scene, &found, &mut frames, options);
+        capacity::add_capacities(&scene, &found, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &found);
         Analysis {
             scene,

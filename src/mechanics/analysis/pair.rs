@@ -9,7 +9,7 @@ use crate::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
 
 /// Numbers that differ by at most this fraction are equal. For corners, the fraction is relative to the size of the
 /// outline.
-const ALIKE: f64 = 1e-9;
+const EQUAL_TOL: f64 = 1e-9;
 
 /// Joins two frames into one scene with two frames, and returns it with the results of both. `before` and `after` are
 /// each an analysis and the number of a frame, from 0. `titles` are the titles of the frames. The second title also
@@ -63,7 +63,7 @@ pub fn pair(
 
 /// Returns an error if two scenes differ in their ground, their direction of gravity or their listed contacts.
 fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
-    if (first.down() - second.down()).norm() > ALIKE {
+    if (first.down() - second.down()).norm() > EQUAL_TOL {
         return Err("gravity points another way in the second; turn one of the two".into());
     }
     if first.contacts != second.contacts {
@@ -89,7 +89,7 @@ fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> 
     for (number, block) in second.blocks.iter().enumerate() {
         let known = first.blocks.iter().position(|b| b.id == block.id);
         let known = known.filter(|k| {
-            same(&first.blocks[*k], block)
+            is_same_block(&first.blocks[*k], block)
                 && loads(first, BlockId(*k)) == loads(second, BlockId(number))
         });
         places.push(BlockId(known.unwrap_or(scene.blocks.len())));
@@ -121,7 +121,7 @@ fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
 fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     let mut words = Vec::new();
     let mut compare = |what: &str, a: f64, b: f64| {
-        if (a - b).abs() > ALIKE * a.abs().max(b.abs()) {
+        if (a - b).abs() > EQUAL_TOL * a.abs().max(b.abs()) {
             words.push(format!("{what} {b} in place of {a}"));
         }
     };
@@ -156,7 +156,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
 }
 
 fn alike(a: &Polygon, b: &Polygon) -> bool {
-    let reach = ALIKE * a.bounds().diagonal().max(b.bounds().diagonal());
+    let reach = EQUAL_TOL * a.bounds().diagonal().max(b.bounds().diagonal());
     let (a, b) = (a.rings(), b.rings());
     a.len() == b.len()
         && a.iter().zip(b).all(|(a, b)| {
@@ -164,9 +164,9 @@ fn alike(a: &Polygon, b: &Polygon) -> bool {
         })
 }
 
-fn same(a: &Block, b: &Block) -> bool {
+fn is_same_block(a: &Block, b: &Block) -> bool {
     alike(&a.body.polygon, &b.body.polygon)
-        && (a.weight - b.weight).abs() <= ALIKE * a.weight.max(b.weight)
+        && (a.weight - b.weight).abs() <= EQUAL_TOL * a.weight.max(b.weight)
 }
 
 /// Returns the loads on a block, each as force x, force y (N), point x, point y (m) and torque (N·m).

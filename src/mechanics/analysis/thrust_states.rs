@@ -27,7 +27,7 @@ const NO_THRUST: f64 = 1e-3;
 /// The weight of the sum of forces in the objective. It selects the least sum among forces with the same thrust.
 const PRICE_OF_FORCE: f64 = 1e-6;
 /// The largest imbalance of a block that is accepted for the forces of a state, as defined in [`proof::imbalances`].
-const BALANCED: f64 = 1e-6;
+const BALANCE_TOL: f64 = 1e-6;
 /// The most central forces are computed for the largest kernel, reduced by this fraction. At the largest kernel
 /// itself the frame is exactly at its limit of stability.
 const WITHIN_KERNEL: f64 = 1e-4;
@@ -212,7 +212,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     match proof::check_forces(component, &forces) {
         Proof::Forces {
             worst_imbalance, ..
-        } if worst_imbalance <= BALANCED => Some(forces),
+        } if worst_imbalance <= BALANCE_TOL => Some(forces),
         _ => None,
     }
 }

@@ -119,7 +119,7 @@ impl Program {
     }
 
     /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
-    const NON_BINDING: f64 = 10.0;
+    const NON_BINDING_RATIO: f64 = 10.0;
 
     /// Returns the program without those limits of robots that are far above the loads. `None` if there are no such
     /// limits.
@@ -129,7 +129,7 @@ impl Program {
     /// with all limits.
     pub fn without_non_binding_limits(&self) -> Option<Program> {
         let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
-        let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING * sum;
+        let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING_RATIO * sum;
         let any = self.grips.iter().flat_map(|g| g.limits).any(non_binding);
         any.then(|| {
             let mut program = self.clone();

@@ -9,9 +9,9 @@ use crate::geometry::{Vector, cross};
 ///
 /// Rounding coordinates to six digits turns a joint by about 10⁻⁶. Ten times this value would straighten wedges that
 /// were drawn on purpose; a tenth would miss joints of drawings with six digits.
-const SAME_DIRECTION: f64 = 1e-5;
+const PARALLEL_TOL: f64 = 1e-5;
 /// Rotations below this, in radians, are the rounding of the angles themselves.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_TOL: f64 = 1e-12;
 
 impl Program {
     /// Returns the program with all nearly parallel or perpendicular joints made exactly parallel or perpendicular.
@@ -22,13 +22,16 @@ impl Program {
     /// exactly parallel.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
-        let turns = turns(&normals);
-        if turns.iter().all(|turn| turn.abs() <= ROUNDING) {
+        let alignment_angles = alignment_angles(&normals);
+        if alignment_angles
+            .iter()
+            .all(|turn| turn.abs() <= ROUNDING_TOL)
+        {
             return None;
         }
         let mut straight = self.clone();
-        for (contact, turn) in straight.contacts.iter_mut().zip(turns) {
-            contact.normal = turned(contact.normal, turn);
+        for (contact, turn) in straight.contacts.iter_mut().zip(alignment_angles) {
+            contact.normal = rotated(contact.normal, turn);
         }
         Some(straight)
     }
@@ -39,32 +42,32 @@ impl Program {
 ///
 /// Angles modulo 90° are sorted and split into clusters at gaps (single linkage). All directions of a cluster are
 /// rotated to its mean angle.
-fn turns(directions: &[Vector]) -> Vec<f64> {
-    let angles = directions.iter().map(|d| beyond_axis(*d));
+fn alignment_angles(directions: &[Vector]) -> Vec<f64> {
+    let angles = directions.iter().map(|d| angle_to_axis(*d));
     let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();
     angles.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Angles are periodic: a cluster at 45° lies at both ends of the list. Rotate the list so that it starts after a
     // gap.
     let gap = angles
         .windows(2)
-        .position(|w| w[1].0 - w[0].0 > SAME_DIRECTION);
+        .position(|w| w[1].0 - w[0].0 > PARALLEL_TOL);
     let first = gap.map_or(0, |gap| gap + 1);
     for (angle, _) in &mut angles[..first] {
         *angle += FRAC_PI_2;
     }
     angles.rotate_left(first);
-    let mut turns = vec![0.0; directions.len()];
-    for same in angles.chunk_by(|a, b| b.0 - a.0 <= SAME_DIRECTION) {
+    let mut alignment_angles = vec![0.0; directions.len()];
+    for same in angles.chunk_by(|a, b| b.0 - a.0 <= PARALLEL_TOL) {
         let mean = same.iter().map(|a| a.0).sum::<f64>() / same.len() as f64;
         for (angle, number) in same {
-            turns[*number] = mean - angle;
+            alignment_angles[*number] = mean - angle;
         }
     }
-    turns
+    alignment_angles
 }
 
 /// Returns a direction rotated anticlockwise by an angle in radians.
-fn turned(direction: Vector, angle: f64) -> Vector {
+fn rotated(direction: Vector, angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
     Vector::new(
         cos * direction.x - sin * direction.y,
@@ -74,7 +77,7 @@ fn turned(direction: Vector, angle: f64) -> Vector {
 
 /// Returns the angle between a direction and the nearest coordinate axis, in radians, anticlockwise positive, from −π/4
 /// to π/4.
-fn beyond_axis(direction: Vector) -> f64 {
+fn angle_to_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)
     } else {
@@ -87,7 +90,7 @@ fn beyond_axis(direction: Vector) -> f64 {
 mod tests {
     use super::*;
 
-    fn along(angle: f64) -> Vector {
+    fn unit_vector(angle: f64) -> Vector {
         Vector::new(libm::cos(angle), libm::sin(angle))
     }
 
@@ -98,23 +101,26 @@ mod tests {
             let off = [1e-6, -2e-6, 5e-7, 0.0, -1e-6];
             let mut directions: Vec<Vector> = (0..5_u8)
                 .zip(off)
-                .map(|(k, off)| along(turn + off + f64::from(k) * FRAC_PI_2))
+                .map(|(k, off)| unit_vector(turn + off + f64::from(k) * FRAC_PI_2))
                 .collect();
-            directions.push(along(turn + 0.01));
-            let turns = turns(&directions);
-            assert_eq!(turns[5], 0.0, "{turn}");
+            directions.push(unit_vector(turn + 0.01));
+            let alignment_angles = alignment_angles(&directions);
+            assert_eq!(alignment_angles[5], 0.0, "{turn}");
             let straight: Vec<Vector> = directions
                 .iter()
-                .zip(&turns)
-                .map(|(d, turn)| turned(*d, *turn))
+                .zip(&alignment_angles)
+                .map(|(d, turn)| rotated(*d, *turn))
                 .collect();
             for other in &straight[1..5] {
                 let (parallel, square) = (cross(straight[0], *other), straight[0].dot(other));
                 assert!(parallel.abs().min(square.abs()) < 1e-15, "{turn}");
             }
-            assert!(turns.iter().all(|turn| turn.abs() < 4e-6), "{turn}");
+            assert!(
+                alignment_angles.iter().all(|turn| turn.abs() < 4e-6),
+                "{turn}"
+            );
         }
-        let exact = turns(&[along(0.0), along(FRAC_PI_2)]);
-        assert!(exact.iter().all(|turn| turn.abs() <= ROUNDING));
+        let exact = alignment_angles(&[unit_vector(0.0), unit_vector(FRAC_PI_2)]);
+        assert!(exact.iter().all(|turn| turn.abs() <= ROUNDING_TOL));
     }
 }

@@ -19,14 +19,14 @@ use crate::geometry::{
 };
 
 /// An upper bound of the relative rounding error of a few sums and products.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// The strictest threshold of any proof. The allowed rounding is scaled so that it changes τ by no more than this.
 const MIN_THRESHOLD: f64 = 1e-9;
 
 /// If an upper bound of τ is at most this, it is returned instead of τ: it is faster to compute, and a tenth of any
 /// threshold.
-const GOOD_ENOUGH: f64 = 1e-10;
+const NEGLIGIBLE_IMBALANCE: f64 = 1e-10;
 
 /// The friction force at a contact, and the largest friction force that its normal forces allow.
 struct Cone {
@@ -110,7 +110,7 @@ impl BodyForces {
     fn add_common_generators(&mut self) {
         // Moving every force by τ R changes M/R by at most τ Σ |F|.
         self.generators.push([0.0, 0.0, self.total]);
-        let rounding = ROUNDING / MIN_THRESHOLD * self.total;
+        let rounding = ROUNDING_TOL / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
             // Friction below its limit can compensate for a rounding error along the contact.
             let spare = rounding.min(cone.available) - cone.given;
@@ -127,7 +127,7 @@ impl BodyForces {
         self.generators.push([0.0, turned, 0.0]);
     }
 
-    /// Returns the imbalance τ of the body. A value up to [`GOOD_ENOUGH`] is only an upper bound of τ. Call
+    /// Returns the imbalance τ of the body. A value up to [`NEGLIGIBLE_IMBALANCE`] is only an upper bound of τ. Call
     /// [`Self::add_common_generators`] first.
     fn imbalance(&self) -> f64 {
         let residual = self.residual();
@@ -135,7 +135,7 @@ impl BodyForces {
             return 0.0;
         }
         match zonotope_gauge_bound(&self.generators, residual) {
-            Some(enough) if enough <= GOOD_ENOUGH => enough,
+            Some(enough) if enough <= NEGLIGIBLE_IMBALANCE => enough,
             _ => zonotope_gauge(&self.generators, residual),
         }
     }
@@ -155,7 +155,7 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
 ///
 /// Bodies are taken in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound exceeds the
 /// largest τ found so far.
-pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
+pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;
     let mut bounds: Vec<(f64, usize)> = Vec::with_capacity(all.len());

@@ -5,7 +5,9 @@
 //! amount times its speed. Forces with a sum below P/δ therefore cannot balance the loads. A robot with a limit may
 //! absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
 
-use super::{Forces, Motion, NON_BINDING, ROUNDING, moving_load, power_of_loads, worst_violation};
+use super::{
+    Forces, Motion, NON_BINDING_RATIO, ROUNDING_TOL, moving_load, power_of_loads, worst_violation,
+};
 use crate::assembly::Assembly;
 
 impl Forces {
@@ -27,7 +29,7 @@ impl Forces {
 /// length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A robot limit above this value counts as unlimited.
-    let binding = NON_BINDING * moving_load(assembly, motions);
+    let binding = NON_BINDING_RATIO * moving_load(assembly, motions);
     // `worst` is δ. Robot components without a limit can increase δ. For a component with a limit, the power beyond δ
     // is subtracted from the power of the loads.
     let mut worst = worst_violation(assembly, motions).max(1.0);
@@ -36,7 +38,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         // Compute the speed of the grip against each component of the robot's force, including its rounding error.
         let at_grip = motion.about(body.centroid, grip.at);
-        let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
+        let unsure = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
             (at_grip.x.abs() + unsure.x, grip.limits.fx),
             (at_grip.y.abs() + unsure.y, grip.limits.fy),

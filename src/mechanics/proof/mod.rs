@@ -164,7 +164,7 @@ pub struct GripForces {
 
 impl Forces {
     /// Creates forces that are zero at all contacts and grips of an assembly.
-    pub fn none(assembly: &Assembly) -> Forces {
+    pub fn zero(assembly: &Assembly) -> Forces {
         let held = GripForces {
             force: Vector::zeros(),
             torque: 0.0,
@@ -231,7 +231,7 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
 ///
 /// A tenth of this value would reject motions in which a robot that can hold a thousand times the load gives way. With
 /// ten times this value, the rounding of a speed (10⁻¹⁵) times the limit would be a noticeable power.
-const NON_BINDING: f64 = 1e4;
+const NON_BINDING_RATIO: f64 = 1e4;
 
 /// Checks forces on an assembly, and returns the largest errors: imbalance of a body, tension, slip, and excess over
 /// the limits of a robot.
@@ -265,7 +265,7 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
         }
     }
     // Check the balance of each body.
-    let (worst_imbalance, worst_share) = balance::worst(assembly, forces);
+    let (worst_imbalance, worst_share) = balance::worst_imbalance(assembly, forces);
     Proof::Forces {
         worst_imbalance,
         worst_share,
@@ -302,7 +302,7 @@ pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
 }
 
 /// A bound of the relative rounding error of a sum of a few products.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const ROUNDING_TOL: f64 = 8.0 * f64::EPSILON;
 
 /// Returns the largest violation of a contact by a motion: the speed against which a contact force with N + |T| = 1
 /// would act, including rounding. It is 0 if every contact opens.
@@ -333,7 +333,7 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             let friction = contact.friction;
             let used = (friction * slides.abs() - opens) / (1.0 + friction);
             let unsure = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
-            violation = violation.max(used.max(-opens) + ROUNDING * unsure);
+            violation = violation.max(used.max(-opens) + ROUNDING_TOL * unsure);
         }
     }
     violation
@@ -406,7 +406,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         let limits = grip.limits;
         let at_grip = motion.about(body.centroid, grip.at);
         let spin = motion.spin * assembly.length;
-        let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
+        let unsure = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
         for (speed, limit, unsure) in [
             (at_grip.x, limits.fx, unsure.x),
             (at_grip.y, limits.fy, unsure.y),
@@ -414,7 +414,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         ] {
             // If the limit is far above the loads, even the rounding error of a speed would give a noticeable power.
             // Such a grip counts as unlimited.
-            if limit > NON_BINDING * load {
+            if limit > NON_BINDING_RATIO * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {
                 power -= limit * (speed.abs() + unsure);

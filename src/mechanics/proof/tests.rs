@@ -17,7 +17,7 @@ fn body(number: usize, bottom: f64, height: f64, weight: f64, listed: LoadVector
         corners: corners.map(|(x, y)| Point::new(x, bottom + y)).into(),
         weight,
         listed,
-        load: LoadVector::NONE,
+        load: LoadVector::ZERO,
     }
 }
 
@@ -130,7 +130,7 @@ fn forces_that_balance_leave_nothing() {
     // one.
     let two = assembly(
         vec![
-            body(0, 0.0, 3.0, 10.0, LoadVector::NONE),
+            body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
             body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0)),
         ],
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
@@ -152,7 +152,7 @@ fn forces_that_balance_leave_nothing() {
 
 #[test]
 fn imbalance_is_the_share_by_which_forces_must_change_or_move() {
-    let box_alone = on_ground(LoadVector::NONE);
+    let box_alone = on_ground(LoadVector::ZERO);
     assert_eq!(
         found(&box_alone, vec![pressed(5.0, 5.0, 0.0)], vec![]),
         [0.0; 4]
@@ -172,8 +172,8 @@ fn imbalance_is_the_share_by_which_forces_must_change_or_move() {
     let all = found(&pushed, vec![pressed(5.0, 5.0, 0.0)], vec![]);
     assert_near(all[0], 1.0, 1e-3);
     // The worst of all bodies, and each by itself.
-    let mut two = on_ground(LoadVector::NONE);
-    two.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::NONE));
+    let mut two = on_ground(LoadVector::ZERO);
+    two.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     two.contacts.push(joint(1, Some(0), 3.0));
     let contacts = vec![pressed(8.0, 8.0, 0.0), pressed(3.5, 3.5, 0.0)];
     let each = imbalances(
@@ -194,7 +194,7 @@ fn load_factor_and_pull_count_in_the_balance() {
     let all = found(&doubled, vec![pressed(8.0, 8.0, 0.0)], vec![]);
     assert_eq!(all, [0.0; 4]);
     assert_near(gross_load(&doubled, &doubled.bodies[0]), 16.0, 1e-15);
-    let leaning = on_ground(LoadVector::NONE).with_gravity(Vector::new(0.6, -0.8));
+    let leaning = on_ground(LoadVector::ZERO).with_gravity(Vector::new(0.6, -0.8));
     // 6 N along the joint at its middle's height below the centroid: 9 N·m, 4.5 N more at the right point.
     let all = found(&leaning, vec![pressed(8.5, -0.5, 6.0)], vec![]);
     assert_eq!(all[0], 0.0);
@@ -203,19 +203,19 @@ fn load_factor_and_pull_count_in_the_balance() {
 #[test]
 fn pulls_slips_and_limits_are_shares_of_their_own_forces() {
     let all = |assembly: &Assembly, at: ContactForces| found(assembly, vec![at], vec![]);
-    let edge = on_ground(LoadVector::NONE);
+    let edge = on_ground(LoadVector::ZERO);
     assert_near(all(&edge, pressed(-1.0, 11.0, 0.0))[2], 1.0 / 12.0, 1e-15);
     assert_near(all(&edge, pressed(11.0, -1.0, 0.0))[2], 1.0 / 12.0, 1e-15);
     assert_near(all(&edge, pressed(4.0, 6.0, -6.0))[3], 1.0 / 16.0, 1e-15);
     assert_eq!(all(&edge, pressed(4.0, 6.0, 5.0))[2..], [0.0, 0.0]);
     // A corner has one point: what stands at the other one is no force of it.
-    let mut tip = on_ground(LoadVector::NONE);
+    let mut tip = on_ground(LoadVector::ZERO);
     tip.contacts[0].kind = ContactKind::Corner;
     assert_near(all(&tip, pressed(6.0, 2.0, 0.0))[2], 0.25, 1e-15);
     assert_near(all(&tip, pressed(6.0, -2.0, 0.0))[2], 0.25, 1e-15);
     assert_near(all(&tip, pressed(-6.0, 0.0, 0.0))[2], 1.0, 1e-15);
     assert_eq!(all(&tip, pressed(6.0, 0.0, 0.0))[2], 0.0);
-    let mut held = on_ground(LoadVector::NONE);
+    let mut held = on_ground(LoadVector::ZERO);
     for (force, torque, over) in [
         ((3.0, 4.0), 5.0, 0.0),
         ((-4.0, 0.0), 0.0, 0.25),
@@ -270,7 +270,7 @@ fn a_turning_box_opens_its_joint_or_presses_it() {
 fn only_what_moves_apart_counts_between_two_bodies() {
     let two = assembly(
         vec![
-            body(0, 0.0, 3.0, 10.0, LoadVector::NONE),
+            body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
             body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0)),
         ],
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
@@ -388,10 +388,10 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     let found = watts(&held, &[moving(0, 1e-3, 0.0, 0.0)]);
     assert_near(found, -1.0, 1e-14);
     // A slide along a level joint: friction's share of its speed may be off by eight roundings of itself.
-    let slides = driven(&on_ground(LoadVector::NONE), &[moving(0, 1.0, 0.0, 0.0)]);
+    let slides = driven(&on_ground(LoadVector::ZERO), &[moving(0, 1.0, 0.0, 0.0)]);
     assert!(slides[1] >= 1.0 / 3.0 + 3.0 * EPSILON && slides[1] < 1.0 / 3.0 + 1e-14);
     // What weighs nothing proves nothing by its motion.
-    let mut weightless = on_ground(LoadVector::NONE);
+    let mut weightless = on_ground(LoadVector::ZERO);
     weightless.bodies[0].weight = 0.0;
     let still = driven(&weightless.with_summed_loads(), &[moving(0, 1.0, 1.0, 0.0)]);
     assert_eq!(still, [0.0, 0.0]);
@@ -408,7 +408,7 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
     };
     assert_near(forces.sum(2.0), 6.0 + 9.0 + 3.0, 1e-14);
     // The ground presses with the weight at least, however fast the box is let down.
-    let mut alone = on_ground(LoadVector::NONE);
+    let mut alone = on_ground(LoadVector::ZERO);
     for speed in [1.0, 2.0] {
         let bound = force_sum_lower_bound(&alone, &[moving(0, 0.0, -speed, 0.0)]);
         assert_near(bound, 10.0, 1e-12);
@@ -424,7 +424,7 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         0.0
     );
     // A box beside it hangs on a robot: 10 + 4 · 6 W; of the robot's 3 N counts what is faster than 1.
-    alone.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::NONE));
+    alone.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     let mut both = alone.with_summed_loads();
     let motions = [moving(0, 0.0, -1.0, 0.0), moving(1, 0.0, -4.0, 0.0)];
     for (limits, bound) in [

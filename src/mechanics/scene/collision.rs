@@ -15,9 +15,9 @@ use crate::geometry::{
 };
 
 /// The largest number of overlaps that are listed. In a scene with more, they most likely have one cause.
-const MOST: usize = 1000;
+const MAX_LISTED_OVERLAPS: usize = 1000;
 /// An overlap with a depth below this fraction of the smaller block's size may come from rounding.
-const SLIGHT: f64 = 0.01;
+const MAX_ROUNDING_DEPTH: f64 = 0.01;
 
 /// An overlap of two bodies.
 struct Found {
@@ -64,7 +64,7 @@ pub struct Penetration {
 
 /// Reports each pair of bodies that overlap in some frame. Pairs with a small overlap, which may be a drawing error,
 /// are returned instead of reported. All pairs are reported if the scene gives a contact tolerance, or if more than
-/// [`MOST`] pairs overlap.
+/// [`MAX_LISTED_OVERLAPS`] pairs overlap.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
@@ -79,11 +79,11 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
     };
     found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
     let all = found.len();
-    let (slight, found): (Vec<Found>, Vec<Found>) =
-        (found.into_iter()).partition(|f| f.may_be_meant && !scene.given && all <= MOST);
+    let (slight, found): (Vec<Found>, Vec<Found>) = (found.into_iter())
+        .partition(|f| f.may_be_meant && !scene.given && all <= MAX_LISTED_OVERLAPS);
     let top = Trail::Top;
     let list = top.key("blocks");
-    for f in found.iter().take(MOST) {
+    for f in found.iter().take(MAX_LISTED_OVERLAPS) {
         let BodyId::Block(block) = f.bodies[1] else {
             continue;
         };
@@ -110,8 +110,8 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
         .at(problem::Place::Between(f.at, f.bodies[0]));
         findings.add(&list.index(block.0), wording);
     }
-    if found.len() > MOST {
-        findings.add(&list, problem::outline::more_overlaps(MOST));
+    if found.len() > MAX_LISTED_OVERLAPS {
+        findings.add(&list, problem::outline::more_overlaps(MAX_LISTED_OVERLAPS));
     }
     let slight = slight.into_iter().map(|f| Penetration {
         bodies: f.bodies,
@@ -187,7 +187,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                     known.1.push(*cell);
                 } else if let Some(frame) = presence.together(pair[0], pair[1]) {
                     shared.insert(pair, (frame, vec![*cell]));
-                    if shared.len() > MOST {
+                    if shared.len() > MAX_LISTED_OVERLAPS {
                         break 'cells;
                     }
                 }
@@ -251,13 +251,14 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
                     bodies: pair,
                     area: o.area,
                     depth: o.depth,
-                    may_be_meant: o.depth < SLIGHT * sizes.fold(f64::INFINITY, f64::min),
+                    may_be_meant: o.depth
+                        < MAX_ROUNDING_DEPTH * sizes.fold(f64::INFINITY, f64::min),
                     at: o.at,
                     frame,
                 });
             }
         }
-        if found.len() > MOST {
+        if found.len() > MAX_LISTED_OVERLAPS {
             break;
         }
     }

@@ -10,7 +10,7 @@ use super::{Code, Problem, SceneError};
 /// An environment variable for tests, in builds with debug assertions only. If its value is `faulty#2`, the second call
 /// of [`isolate`] for a scene whose name contains `faulty` panics.
 #[cfg(debug_assertions)]
-const INJECTED: &str = "DRYSTONE_TEST_FAULT";
+const FAULT_VARIABLE: &str = "DRYSTONE_TEST_FAULT";
 
 /// Calls `work` for one scene. If `work` panics, the panic becomes a problem with the code [`Code::InternalFault`].
 ///
@@ -35,7 +35,7 @@ fn inject_fault(name: &str) {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     static WORKS: AtomicUsize = AtomicUsize::new(0);
-    let Ok(injected) = std::env::var(INJECTED) else {
+    let Ok(injected) = std::env::var(FAULT_VARIABLE) else {
         return;
     };
     let (part, number) = injected.rsplit_once('#').unwrap_or((&injected, "1"));

@@ -165,10 +165,12 @@ impl UnreadParts {
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,
-            [Segment::Key(key)] => key == list || (known == 0 && !TOP.contains(&key.as_str())),
+            [Segment::Key(key)] => {
+                key == list || (known == 0 && !NAMED_LISTS.contains(&key.as_str()))
+            }
             [Segment::Key(key), Segment::Index(_)] => key == list,
             [Segment::Key(key), Segment::Index(_), Segment::Key(inner)] => {
-                key == list && !ENTRY.contains(&inner.as_str())
+                key == list && !ENTRY_KEYS.contains(&inner.as_str())
             }
             _ => false,
         })
@@ -176,10 +178,10 @@ impl UnreadParts {
 }
 
 /// Keys of a scene file under which names are given.
-const TOP: [&str; 4] = ["materials", "shapes", "blocks", "robots"];
+const NAMED_LISTS: [&str; 4] = ["materials", "shapes", "blocks", "robots"];
 
 /// Keys of blocks and robots that certainly are not a misspelt `id`.
-const ENTRY: [&str; 15] = [
+const ENTRY_KEYS: [&str; 15] = [
     "polygon",
     "holes",
     "cells",

@@ -14,25 +14,25 @@ use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
 /// Coordinates rounded more coarsely than this fraction of a block's size are not healed.
-pub(super) const FINE: f64 = 1.0 / 200.0;
+pub(super) const MAX_ROUNDING_PER_SIZE: f64 = 1.0 / 200.0;
 /// The largest gap of a body as a fraction of its size, if its coordinates are not rounded.
-const SLIGHT: f64 = 1e-3;
+const DEFAULT_GAP_PER_SIZE: f64 = 1e-3;
 /// A gap is closed only if it is smaller than this fraction of the body's size, even if the given tolerance is larger.
-const MOST: f64 = 1.0 / 20.0;
+const MAX_GAP_PER_SIZE: f64 = 1.0 / 20.0;
 /// If a tolerance is given, a corner moves by at most this fraction of its shorter side.
 ///
 /// A tolerance is meant for gaps between bodies, not for sides shorter than itself: the outline of a round stone stays
 /// round. When both ends of a side move, its length changes by at most half and its direction by at most 30°. If this
 /// value were ten times smaller, joints next to short sides would stay open. If it were twice as large, a side could
 /// lose its whole length.
-const OF_EDGE: f64 = 0.25;
+const MAX_MOVE_PER_SIDE: f64 = 0.25;
 /// Healing may make an overlap deeper by less than this fraction of the gap; such an overlap is ignored.
-const NOISE: f64 = 0.25;
+const MAX_DEEPENING_PER_GAP: f64 = 0.25;
 /// The smallest share and number of corners that show that coordinates are noisy, however many digits they have. The
 /// corners counted lie off the edge that they should touch, by at most a millionth of the scene's extent.
-const NOISY: (f64, usize) = (0.2, 8);
+const MIN_NOISY_CORNERS: (f64, usize) = (0.2, 8);
 /// Coordinates are assumed to have an error of this many units in the last place of the largest one.
-const LAST: f64 = 16.0;
+const MAX_LAST_PLACE_UNITS: f64 = 16.0;
 
 /// Where the contact tolerance of a scene comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub struct Healed {
 pub(super) struct HealingReach {
     pub(super) source: ToleranceSource,
     /// A millionth of the scene's extent: edges at this distance touch, however their coordinates are written.
-    pub(super) usual: f64,
+    pub(super) default_gap: f64,
     /// Corners and edges up to this distance apart are snapped; 0 if nothing is snapped.
     pub(super) healing: f64,
 }
@@ -90,22 +90,22 @@ impl HealingReach {
     /// The tolerance of a scene on a lattice.
     pub(super) const EXACT: HealingReach = HealingReach {
         source: ToleranceSource::Lattice,
-        usual: 0.0,
+        default_gap: 0.0,
         healing: 0.0,
     };
 
     /// Returns the largest distance between two edges that count as touching, in the unit of the corners.
     pub(super) fn gap(self) -> f64 {
-        self.usual.max(self.healing)
+        self.default_gap.max(self.healing)
     }
 
     /// Returns the largest distance by which corners of a body may move. `size` is the size of the body. Both are in
     /// the unit of the corners.
     fn healing_of(self, size: f64) -> f64 {
         let part = match self.source {
-            ToleranceSource::Given => MOST,
-            ToleranceSource::Size | ToleranceSource::Noise => SLIGHT,
-            _ => FINE,
+            ToleranceSource::Given => MAX_GAP_PER_SIZE,
+            ToleranceSource::Size | ToleranceSource::Noise => DEFAULT_GAP_PER_SIZE,
+            _ => MAX_ROUNDING_PER_SIZE,
         };
         self.healing.min(part * size)
     }
@@ -114,7 +114,7 @@ impl HealingReach {
     /// if the sides do not limit the move.
     fn share_of_edge(self) -> f64 {
         match self.source {
-            ToleranceSource::Given => OF_EDGE,
+            ToleranceSource::Given => MAX_MOVE_PER_SIDE,
             // Other tolerances come from rounding errors, which are smaller than the sides of outlines. The sides need
             // not limit the move.
             _ => f64::INFINITY,
@@ -124,14 +124,15 @@ impl HealingReach {
     /// Returns the largest error of the coordinates of a body. `size` is the size of the body, and `farthest` its
     /// largest coordinate.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
-        self.healing_of(size).max(LAST * f64::EPSILON * farthest)
+        self.healing_of(size)
+            .max(MAX_LAST_PLACE_UNITS * f64::EPSILON * farthest)
     }
 
     /// Returns the largest distance at which a body touches other bodies. `size` is the size of the body, and
     /// `farthest` its largest coordinate.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
-        let usual = self.usual.min(SLIGHT * size);
-        usual.max(self.rounding_of(size, farthest))
+        let default_gap = self.default_gap.min(DEFAULT_GAP_PER_SIZE * size);
+        default_gap.max(self.rounding_of(size, farthest))
     }
 }
 
@@ -252,29 +253,34 @@ impl Drawn {
                 of_body: &self.gaps(reach),
                 share_of_edge: reach.share_of_edge(),
             };
-            let outcome = snapped(&self.outlines, limits, &self.fixed, NOISE);
+            let outcome = snapped(&self.outlines, limits, &self.fixed, MAX_DEEPENING_PER_GAP);
             (closed.outlines, closed.kept) = (outcome.bodies, outcome.kept);
         }
         closed
     }
 
-    /// Step 3 of healing: if as many corners as [`NOISY`] requires still lie slightly off the edges that they should
-    /// touch, snaps these corners too.
+    /// Step 3 of healing: if as many corners as [`MIN_NOISY_CORNERS`] requires still lie slightly off the edges that
+    /// they should touch, snaps these corners too.
     fn without_noise<'d>(&self, closed: Closed<'d>) -> Closed<'d> {
-        let usual = closed.reach.usual;
-        if usual <= closed.reach.healing {
+        let default_gap = closed.reach.default_gap;
+        if default_gap <= closed.reach.healing {
             return closed;
         }
         let reach = HealingReach {
             source: ToleranceSource::Noise,
-            usual,
-            healing: usual,
+            default_gap,
+            healing: default_gap,
         };
         let gaps = self.gaps(reach);
-        let outcome = snapped(&closed.outlines, Gaps::new(&gaps), &self.fixed, NOISE);
+        let outcome = snapped(
+            &closed.outlines,
+            Gaps::new(&gaps),
+            &self.fixed,
+            MAX_DEEPENING_PER_GAP,
+        );
         let all: usize = self.outlines.iter().flatten().map(Vec::len).sum();
         let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
-        let (share, least) = NOISY;
+        let (share, least) = MIN_NOISY_CORNERS;
         if moved < least || (moved as f64) < share * all as f64 {
             return closed;
         }
@@ -355,7 +361,7 @@ impl Scene {
         let mut scene = self.clone();
         let reach = HealingReach {
             source: ToleranceSource::Given,
-            usual: 0.0,
+            default_gap: 0.0,
             healing: gap,
         };
         let mut ground: Vec<Option<Ground>> = scene.ground.into_iter().map(Some).collect();

@@ -16,7 +16,7 @@ mod note;
 mod number;
 mod outline;
 mod path;
-mod play;
+mod steps;
 mod problem;
 mod reading;
 mod resolution;

@@ -13,7 +13,7 @@ use super::{BlockId, Body, BodyId, RobotId, Scene};
 use crate::geometry::{Point, Polygon};
 
 /// Friction coefficients above this are probably mistakes: those of dry stone, brick, wood and rubber are lower.
-pub(super) const MOST_FRICTION: f64 = 2.0;
+pub(super) const MAX_PLAUSIBLE_FRICTION: f64 = 2.0;
 
 codes! {
     /// The kind of a note. Later versions may add words, but never rename them.
@@ -158,7 +158,7 @@ impl Notes<'_> {
     fn friction(&mut self, file: &SceneFile) {
         let top = Trail::Top;
         let mut check = |at: &Trail<'_>, friction: Option<f64>| {
-            if let Some(mu) = friction.filter(|mu| *mu > MOST_FRICTION) {
+            if let Some(mu) = friction.filter(|mu| *mu > MAX_PLAUSIBLE_FRICTION) {
                 self.add(
                     NoteCode::FrictionHigh,
                     &at.key("friction"),

@@ -6,11 +6,11 @@ use super::path::Trail;
 use super::problem;
 
 /// The largest amount of any number in a scene file, in any unit.
-pub(super) const LARGEST: f64 = 1e12;
+pub(super) const MAX_MAGNITUDE: f64 = 1e12;
 
 /// The smallest amount other than 0, in any unit. A weight is a product of several amounts, and its square must not
 /// underflow. Coordinates may be smaller: compared with other coordinates they are rounding noise.
-pub(super) const SMALLEST: f64 = 1e-30;
+pub(super) const MIN_MAGNITUDE: f64 = 1e-30;
 
 /// Smallest extent of a body or a cell, in the units of the file: its area and moments are products of several.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
@@ -22,8 +22,11 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
             findings.add(at, problem::number::not_finite(*x));
             return false;
         }
-        if x.abs() > LARGEST {
-            findings.add(at, problem::number::absurd(*x, LARGEST, findings.units));
+        if x.abs() > MAX_MAGNITUDE {
+            findings.add(
+                at,
+                problem::number::absurd(*x, MAX_MAGNITUDE, findings.units),
+            );
             return false;
         }
     }
@@ -37,8 +40,11 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
         return false;
     }
     let largest = numbers.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
-    if largest > 0.0 && largest < SMALLEST {
-        findings.add(at, problem::number::tiny(largest, SMALLEST, findings.units));
+    if largest > 0.0 && largest < MIN_MAGNITUDE {
+        findings.add(
+            at,
+            problem::number::tiny(largest, MIN_MAGNITUDE, findings.units),
+        );
         return false;
     }
     true

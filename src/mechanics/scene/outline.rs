@@ -10,7 +10,7 @@ use crate::geometry::{
 };
 
 /// The largest lattice coordinate: sums and products of a few coordinates stay exact.
-pub(super) const REACH: f64 = 1e6;
+pub(super) const MAX_LATTICE_COORDINATE: f64 = 1e6;
 
 /// The shape of a body relative to its own origin.
 #[derive(Clone, Debug)]
@@ -196,8 +196,11 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
         findings.add(at, problem::outline::not_whole(pair));
         return None;
     }
-    if pair.iter().any(|x| x.abs() > REACH) {
-        findings.add(at, problem::outline::beyond_lattice(pair, REACH));
+    if pair.iter().any(|x| x.abs() > MAX_LATTICE_COORDINATE) {
+        findings.add(
+            at,
+            problem::outline::beyond_lattice(pair, MAX_LATTICE_COORDINATE),
+        );
         return None;
     }
     Some((pair[0] as i64, pair[1] as i64))

@@ -158,7 +158,7 @@ impl Wording {
     }
 }
 
-fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
+fn new_wording(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
     // Messages quote names and other text from the file. A line break in such text must not start a new line in the
     // output.
     Wording {

@@ -20,17 +20,17 @@ use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
 use super::path::Trail;
-use super::play::{self, StepContext};
 use super::problem;
 use super::shape;
+use super::steps::{self, StepContext};
 use super::unit;
 use super::{Block, BlockId, BodyId, Ground, Material, Rgb, Robot, RobotId, Scene};
 use crate::geometry::{Lattice, LatticeKind, Point, Vector};
 
-const FRICTION: f64 = 0.7;
-const DENSITY: f64 = 1.0;
-const THICKNESS: f64 = 1.0;
-const GRAVITY: Pair = [0.0, -9.81];
+const DEFAULT_FRICTION: f64 = 0.7;
+const DEFAULT_DENSITY: f64 = 1.0;
+const DEFAULT_THICKNESS: f64 = 1.0;
+const DEFAULT_GRAVITY: Pair = [0.0, -9.81];
 
 /// Returns the scene that a file describes, or all problems that were found.
 ///
@@ -94,10 +94,12 @@ impl<'f> Resolution<'f> {
             units: file.units.unwrap_or_default(),
             gravity,
             kernel,
-            friction: at_least_zero(findings, &top, "friction", file.friction).unwrap_or(FRICTION),
-            density: at_least_zero(findings, &top, "density", file.density).unwrap_or(DENSITY),
+            friction: at_least_zero(findings, &top, "friction", file.friction)
+                .unwrap_or(DEFAULT_FRICTION),
+            density: at_least_zero(findings, &top, "density", file.density)
+                .unwrap_or(DEFAULT_DENSITY),
             thickness: at_least_zero(findings, &top, "thickness", file.thickness)
-                .unwrap_or(THICKNESS),
+                .unwrap_or(DEFAULT_THICKNESS),
             lattice,
             grid_known,
             materials,
@@ -209,7 +211,7 @@ impl<'f> Resolution<'f> {
                 })
             };
             let holds = grips.iter().enumerate().filter_map(holds).collect();
-            return vec![play::whole(centroids.len(), holds)];
+            return vec![steps::frame_without_steps(centroids.len(), holds)];
         }
         // If a step could not be read, the frames from this step on are unknown. Execute only the steps before it.
         let known = (findings.doubt.first_entry("steps"))
@@ -221,7 +223,7 @@ impl<'f> Resolution<'f> {
             centroids,
             grips: &grips,
         };
-        play::frames(findings, &self.file.steps[..known], &context)
+        steps::frames(findings, &self.file.steps[..known], &context)
     }
 
     /// Returns the overlaps of bodies that are small enough to be allowed. Reports all other overlaps.
@@ -272,7 +274,7 @@ fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
             problem::number::version(file.drystone.0),
         );
     }
-    let gravity = file.gravity.unwrap_or(GRAVITY);
+    let gravity = file.gravity.unwrap_or(DEFAULT_GRAVITY);
     is_amount(findings, &top.key("gravity"), &gravity);
     let kernel = file.kernel.unwrap_or(0.0);
     if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {

@@ -9,14 +9,14 @@ use super::ToleranceSource;
 use super::format::{Pair, SceneFile};
 
 /// A file counts as rounded to a number of digits only if at least this fraction of its numbers have all of them.
-const SHARE: f64 = 0.25;
+const MIN_ROUNDED_SHARE: f64 = 0.25;
 /// The fraction that distinguishes rounding to decimals from 32-bit floats: of numbers rounded to a decimal, nine in
 /// ten end there; of 32-bit floats, far fewer end at the last decimal that occurs.
-const MOSTLY: f64 = 0.6;
+const MIN_DECIMAL_SHARE: f64 = 0.6;
 /// Numbers with more decimals or significant digits than this count as not rounded.
-const FULL: usize = 12;
+const MAX_ROUNDED_DIGITS: usize = 12;
 /// The size of a table of digits. Numbers with more digits are counted in its last entry.
-const MOST: usize = 40;
+const DIGIT_TABLE_SIZE: usize = 40;
 
 /// The rounding of the coordinates in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +29,13 @@ pub(super) struct Rounding {
 
 /// Estimates how the coordinates in a file are rounded, and the largest error that this causes. `None` if the digits do
 /// not show any rounding.
-pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
+pub(super) fn estimate_rounding(file: &SceneFile) -> Option<Rounding> {
     let mut digits = Digits::default();
     let mut reach = 0.0_f64;
     let mut turns = Digits::default();
     let mut ring = |points: &[Pair]| {
         for x in points.iter().flatten() {
-            digits.take(*x);
+            digits.count_digits(*x);
             reach = reach.max(x.abs());
         }
     };
@@ -50,12 +50,13 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
         if file.grid.is_none() {
             ring(at.as_slice());
         }
-        turns.take(angle.unwrap_or(0.0));
+        turns.count_digits(angle.unwrap_or(0.0));
     }
     let mut found = digits.rounding()?;
     // Angles with three decimals or more were probably rounded. Add the error that this causes at the farthest
     // coordinate. Angles with fewer decimals count as exact, such as whole degrees.
-    if let Some(k) = (turns.decimals.last(SHARE, turns.count)).filter(|k| *k >= 3) {
+    if let Some(k) = (turns.decimals.last_digit(MIN_ROUNDED_SHARE, turns.count)).filter(|k| *k >= 3)
+    {
         found.error += (0.5 * power(k)).to_radians() * reach;
     }
     Some(found)
@@ -85,7 +86,7 @@ struct Digits {
 /// matches is therefore the shortest.
 fn few_digits(x: f64) -> Option<(usize, i64)> {
     let mut power = 1.0;
-    for behind in 0..=FULL as i64 {
+    for behind in 0..=MAX_ROUNDED_DIGITS as i64 {
         let whole = (x.abs() * power).round();
         if whole >= 1e15 {
             return None;
@@ -110,25 +111,25 @@ fn write_shortly(text: &mut String, x: impl LowerExp) {
     let _ = write!(text, "{x:e}");
 }
 
-struct Table([usize; MOST]);
+struct Table([usize; DIGIT_TABLE_SIZE]);
 
 impl Default for Table {
     fn default() -> Table {
-        Table([0; MOST])
+        Table([0; DIGIT_TABLE_SIZE])
     }
 }
 
 impl Table {
     fn add(&mut self, digits: usize) {
-        self.0[digits.min(MOST - 1)] += 1;
+        self.0[digits.min(DIGIT_TABLE_SIZE - 1)] += 1;
     }
 
     /// Returns the largest number of digits that occurs in the table. `None` if fewer than the fraction `share` of
-    /// `count` numbers have that many digits, or if it exceeds [`FULL`].
-    fn last(&self, share: f64, count: usize) -> Option<usize> {
+    /// `count` numbers have that many digits, or if it exceeds [`MAX_ROUNDED_DIGITS`].
+    fn last_digit(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;
-        (enough && last <= FULL).then_some(last)
+        (enough && last <= MAX_ROUNDED_DIGITS).then_some(last)
     }
 
     fn at_least(&self, digits: usize) -> usize {
@@ -138,7 +139,7 @@ impl Table {
 
 impl Digits {
     /// Adds the digits of a number to the counts. Zeros are skipped, because every notation gives them exactly.
-    fn take(&mut self, x: f64) {
+    fn count_digits(&mut self, x: f64) {
         if x == 0.0 || !x.is_finite() {
             return;
         }
@@ -150,7 +151,7 @@ impl Digits {
             (digits, digits as i64 - 1 - exponent)
         });
         self.decimals
-            .add(usize::try_from(behind.max(0)).unwrap_or(MOST));
+            .add(usize::try_from(behind.max(0)).unwrap_or(DIGIT_TABLE_SIZE));
         self.significant.add(digits);
         let narrow = x as f32;
         // Every number with at most six digits is the shortest notation of some 32-bit float, so only longer numbers
@@ -170,7 +171,7 @@ impl Digits {
             error: 0.5 * power(k),
         };
         let float = 0.5 * f64::from(f32::EPSILON) * self.largest;
-        if let Some(k) = self.decimals.last(MOSTLY, self.count) {
+        if let Some(k) = self.decimals.last_digit(MIN_DECIMAL_SHARE, self.count) {
             let mut found = decimals(k);
             if !self.wide {
                 found.error = found.error.max(float);
@@ -179,7 +180,7 @@ impl Digits {
         }
         // A number with seven digits is always the shortest notation of some 32-bit float, so it proves nothing. For a
         // number with eight digits this is rarely a coincidence.
-        let long = self.significant.at_least(7) as f64 >= SHARE * self.count as f64;
+        let long = self.significant.at_least(7) as f64 >= MIN_ROUNDED_SHARE * self.count as f64;
         if !self.wide && long && self.significant.at_least(8) > 0 {
             return Some(Rounding {
                 source: ToleranceSource::Float32,
@@ -187,10 +188,10 @@ impl Digits {
                 error: 2.0 * float,
             });
         }
-        if let Some(k) = self.decimals.last(SHARE, self.count) {
+        if let Some(k) = self.decimals.last_digit(MIN_ROUNDED_SHARE, self.count) {
             return Some(decimals(k));
         }
-        let n = self.significant.last(SHARE, self.count)?;
+        let n = self.significant.last_digit(MIN_ROUNDED_SHARE, self.count)?;
         let text = format!("{:e}", self.largest);
         let exponent: i32 = text.split_once('e')?.1.parse().ok()?;
         let unit = libm::pow(10.0, f64::from(exponent + 1) - n as f64);
@@ -212,7 +213,7 @@ mod tests {
 
     fn rounding(numbers: impl IntoIterator<Item = f64>) -> Option<Rounding> {
         let mut digits = Digits::default();
-        numbers.into_iter().for_each(|x| digits.take(x));
+        numbers.into_iter().for_each(|x| digits.count_digits(x));
         digits.rounding()
     }
 

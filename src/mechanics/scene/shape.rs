@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Lattice, LatticeKind, Point, Vector};
 
-    const H: f64 = 0.866_025_403_784_438_6;
+    const TRIANGLE_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
     fn check(name: &str, origin: (f64, f64), outline: &[(f64, f64)]) {
         let lattice = Lattice {
@@ -116,44 +116,56 @@ mod tests {
             (0.0, 0.0),
             &[
                 (1.0, 0.0),
-                (0.5, H),
-                (-0.5, H),
+                (0.5, TRIANGLE_HEIGHT),
+                (-0.5, TRIANGLE_HEIGHT),
                 (-1.0, 0.0),
-                (-0.5, -H),
-                (0.5, -H),
+                (-0.5, -TRIANGLE_HEIGHT),
+                (0.5, -TRIANGLE_HEIGHT),
             ],
         );
         check(
             "linkh",
             (-0.5, 0.0),
             &[
-                (-1.0, -H),
-                (1.0, -H),
+                (-1.0, -TRIANGLE_HEIGHT),
+                (1.0, -TRIANGLE_HEIGHT),
                 (0.5, 0.0),
-                (1.0, H),
-                (-1.0, H),
+                (1.0, TRIANGLE_HEIGHT),
+                (-1.0, TRIANGLE_HEIGHT),
                 (-0.5, 0.0),
             ],
         );
         let linkr = [
-            (-1.25, -H / 2.0),
-            (-0.25, -H / 2.0),
-            (0.25, -1.5 * H),
-            (1.25, H / 2.0),
-            (0.25, H / 2.0),
-            (-0.25, 1.5 * H),
+            (-1.25, -TRIANGLE_HEIGHT / 2.0),
+            (-0.25, -TRIANGLE_HEIGHT / 2.0),
+            (0.25, -1.5 * TRIANGLE_HEIGHT),
+            (1.25, TRIANGLE_HEIGHT / 2.0),
+            (0.25, TRIANGLE_HEIGHT / 2.0),
+            (-0.25, 1.5 * TRIANGLE_HEIGHT),
         ];
-        check("linkr", (-0.25, -H / 2.0), &linkr);
-        check("linkl", (0.25, -H / 2.0), &linkr.map(|(x, y)| (-x, y)));
+        check("linkr", (-0.25, -TRIANGLE_HEIGHT / 2.0), &linkr);
+        check(
+            "linkl",
+            (0.25, -TRIANGLE_HEIGHT / 2.0),
+            &linkr.map(|(x, y)| (-x, y)),
+        );
         check(
             "up",
-            (-0.5, -H / 3.0),
-            &[(-0.5, -H / 3.0), (0.5, -H / 3.0), (0.0, 2.0 * H / 3.0)],
+            (-0.5, -TRIANGLE_HEIGHT / 3.0),
+            &[
+                (-0.5, -TRIANGLE_HEIGHT / 3.0),
+                (0.5, -TRIANGLE_HEIGHT / 3.0),
+                (0.0, 2.0 * TRIANGLE_HEIGHT / 3.0),
+            ],
         );
         check(
             "down",
-            (-0.5, H / 3.0),
-            &[(-0.5, H / 3.0), (0.5, H / 3.0), (0.0, -2.0 * H / 3.0)],
+            (-0.5, TRIANGLE_HEIGHT / 3.0),
+            &[
+                (-0.5, TRIANGLE_HEIGHT / 3.0),
+                (0.5, TRIANGLE_HEIGHT / 3.0),
+                (0.0, -2.0 * TRIANGLE_HEIGHT / 3.0),
+            ],
         );
     }
 }

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// The largest number of brackets that may be open at the same time.
-pub(super) const DEEPEST: usize = 127;
+pub(super) const MAX_DEPTH: usize = 127;
 
 /// The syntax tree of a JSON text.
 #[derive(Debug)]
@@ -102,7 +102,7 @@ pub(super) struct SyntaxError {
 pub(super) enum Why {
     /// The text ends too early. Contains the innermost open bracket or quote, with its byte.
     End(Option<(char, usize)>),
-    /// More brackets are open than [`DEEPEST`].
+    /// More brackets are open than [`MAX_DEPTH`].
     TooDeep,
     /// A string that began at this byte holds a line break or another control character.
     Control(usize),
@@ -131,7 +131,7 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
         bytes: text.as_bytes(),
         at: 0,
         open: Vec::new(),
-        items: Vec::with_capacity(text.len() / BYTES_AN_ITEM),
+        items: Vec::with_capacity(text.len() / MIN_BYTES_PER_ITEM),
         entries: Vec::new(),
         loose_items: Vec::new(),
         loose_entries: Vec::new(),
@@ -150,7 +150,7 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
 }
 
 /// Bytes per value in a list of points, at least; used to reserve memory.
-const BYTES_AN_ITEM: usize = 8;
+const MIN_BYTES_PER_ITEM: usize = 8;
 
 struct Parser<'t> {
     text: &'t str,
@@ -253,7 +253,7 @@ impl<'t> Parser<'t> {
     }
 
     fn enter(&mut self, bracket: char) -> Result<(), SyntaxError> {
-        if self.open.len() == DEEPEST {
+        if self.open.len() == MAX_DEPTH {
             return Err(self.fault(Why::TooDeep));
         }
         self.open.push((bracket, self.at));
@@ -380,8 +380,8 @@ mod tests {
     #[test]
     fn brackets_may_be_open_as_deep_as_said() {
         let nested = |depth: usize| format!("{}{}", "[".repeat(depth), "]".repeat(depth));
-        assert!(parse(&nested(DEEPEST)).is_ok());
-        let fault = parse(&nested(DEEPEST + 1)).expect_err("too deep");
-        assert_eq!((fault.at, fault.why), (DEEPEST, Why::TooDeep));
+        assert!(parse(&nested(MAX_DEPTH)).is_ok());
+        let fault = parse(&nested(MAX_DEPTH + 1)).expect_err("too deep");
+        assert_eq!((fault.at, fault.why), (MAX_DEPTH, Why::TooDeep));
     }
 }

@@ -334,8 +334,8 @@ mod tests {
     use crate::interface::ContactKind;
     use crate::program::{ContactTerm, GripTerm, Scale};
 
-    /// A block 2 wide and 1 high, pressed down by 10 at `x` from its middle and pushed by `push` at its centre, on ground of
-    /// friction 0.5.
+    /// A block 2 wide and 1 high, pressed down by 10 at `x` from its middle and pushed by `push` at its centre, on
+    /// ground of friction 0.5.
     fn block(x: f64, push: f64, grips: Vec<GripTerm>) -> Program {
         let arms = [Vector::new(1.0, -0.5), Vector::new(-1.0, -0.5)];
         Program {

@@ -19,7 +19,8 @@ const ZERO_ADHESION: f64 = 1e-15;
 /// [`ZERO_ADHESION`] for many blocks, where a refinement takes long: the solver's tolerance.
 const ZERO_ADHESION_MANY: f64 = 1e-10;
 
-/// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may have.
+/// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may
+/// have.
 const SUM_TOL: f64 = 1e-8;
 
 /// A refined sum of adhesion below this multiple of the smallest accurate force is refined again.
@@ -30,8 +31,8 @@ const MAX_ROUNDS: usize = 4;
 
 /// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
-/// `None` if this size is so close to the largest load that the unrefined optimum is accurate enough. `least_sum` is the
-/// least sum of adhesion, and `has_many_blocks` says whether the program has many blocks.
+/// `None` if this size is so close to the largest load that the unrefined optimum is accurate enough. `least_sum` is
+/// the least sum of adhesion, and `has_many_blocks` says whether the program has many blocks.
 fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool) -> Option<f64> {
     let largest_load = largest(loads);
     let light = lightest(loads);
@@ -51,9 +52,9 @@ fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool)
 
 /// Returns the refined optimum of stage 1, and the size of the smallest forces that are accurate in it.
 ///
-/// `None` if loads and adhesion do not differ by has_many_blocks powers of ten, or if the refinement fails. `first` is the optimum
-/// of stage 1; `has_many_blocks` says whether the program has many blocks. Before the refinement, a small sum of adhesion is
-/// noise. If the refined sum is far smaller, the optimum is refined again.
+/// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is
+/// the optimum of stage 1; `has_many_blocks` says whether the program has many blocks. Before the refinement, a small
+/// sum of adhesion is noise. If the refined sum is far smaller, the optimum is refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
@@ -75,7 +76,8 @@ pub(super) fn precise_optimum(
     }
 }
 
-/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with adhesion.
+/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with
+/// adhesion.
 ///
 /// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
 pub(super) fn least_force_optimum(

@@ -192,7 +192,8 @@ impl ScaledLoads {
         pairs.map(|(load, along)| load + factor * along).collect()
     }
 
-    /// Returns the amount of each column under the scaled load `total`, without the solver's residual, in program units.
+    /// Returns the amount of each column under the scaled load `total`, without the solver's residual, in program
+    /// units.
     pub(super) fn amounts(
         &self,
         total: &[f64],

@@ -227,7 +227,7 @@ pub fn rebalance_relative(
 /// Builds the quadratic program for one round of [`rebalance_relative`]: its unknowns are the relative changes ε of the
 /// columns `used` and the remaining residual v of each row.
 ///
-/// `block_residuals` is the residual, and `size` its largest scaled entry.
+/// `residual` is loads − Σ force, and `size` its largest scaled entry.
 fn relative_changes(
     list: &[Column],
     used: &[usize],
@@ -291,8 +291,8 @@ pub fn rebalance_absolute(
     is_improved.then_some(best)
 }
 
-/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the block_residuals, or `None` if it finds
-/// no such forces.
+/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None` if it
+/// finds no such forces.
 ///
 /// Only amounts below `ratio` times the residual get a lower bound.
 fn correct_once(

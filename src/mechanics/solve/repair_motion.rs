@@ -39,14 +39,14 @@ const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 const MAX_ROUNDS: usize = 5;
 
 /// A grip whose limit exceeds this multiple of the heaviest load is treated as having no limit.
-const NON_BINDING: f64 = 1e4;
+const NON_BINDING_RATIO: f64 = 1e4;
 
 /// Returns a motion that no contact opposes, near a given motion. `None` if no such motion is found.
 ///
 /// The largest velocity of the given motion must be about 1. Some motions are impossible without violations, such as
 /// the motion of a flat wedge into its notch. The corrected motion then has almost no power.
 pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
-    let firm = NON_BINDING * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let firm = NON_BINDING_RATIO * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
     for column in columns(program) {
         match column.force {

@@ -20,7 +20,8 @@ const MIN_FAILURE_SHARE: f64 = 1e-6;
 pub enum Method {
     /// The program of the source: one newton of sticking costs 10^exponent newtons of force (the penalty β).
     Source(u8),
-    /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are unknowns.
+    /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are
+    /// unknowns.
     ForceForm,
     /// Only the kinematic dual program. Its unknowns are velocities.
     Kinematic,

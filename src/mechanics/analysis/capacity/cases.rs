@@ -18,28 +18,28 @@
 //! are not linear, such as the position of a corner.
 
 use super::refine;
-use super::region::{clipped, close, corners, cut_off, square};
+use super::region::{bounded_polygon, clipped, corners, set_edges, square};
 use super::{CapacityEdge, CapacityError, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 
 /// The longest piece into which an arc of tilts is divided, degrees.
-const LONGEST_PIECE: f64 = 1.0;
+const MAX_ARC_DEGREES: f64 = 1.0;
 
 /// Rays are cut off at this multiple of the size of the sets.
-const FAR: f64 = 1e5;
+const RAY_LENGTH_PER_SIZE: f64 = 1e5;
 
-/// Computes the load capacity in each extreme case with the function `one`, and returns the intersection of these sets
-/// of forces.
+/// Computes the load capacity in each extreme case with the function `capacity_of_case`, and returns the intersection
+/// of these sets of forces.
 pub(super) fn intersected(
     assembly: &Assembly,
     cases: &Cases,
-    one: impl Fn(&Assembly) -> Result<LoadCapacity, CapacityError>,
+    capacity_of_case: impl Fn(&Assembly) -> Result<LoadCapacity, CapacityError>,
 ) -> Result<LoadCapacity, CapacityError> {
     let changed = extremes(assembly, cases)?;
     let mut all = Vec::with_capacity(changed.len());
     for (number, assembly) in changed.iter().enumerate() {
-        let mut capacity = one(assembly)?;
+        let mut capacity = capacity_of_case(assembly)?;
         for edge in &mut capacity.edges {
             edge.case = number;
         }
@@ -102,7 +102,7 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     if from == to {
         return vec![(from, 1.0)];
     }
-    let pieces = ((to - from) / LONGEST_PIECE).ceil().max(1.0);
+    let pieces = ((to - from) / MAX_ARC_DEGREES).ceil().max(1.0);
     let piece = (to - from) / pieces;
     let strength = 1.0 / sin_cos_degrees(0.5 * piece).1;
     let mut all = vec![(from, 1.0), (to, 1.0)];
@@ -116,12 +116,12 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     let centre = forces().next().unwrap_or_else(Vector::zeros);
     let size = forces().map(|f| (f - centre).norm()).fold(0.0, f64::max);
     let size = size.max(1e-9 * centre.norm()).max(f64::MIN_POSITIVE);
-    let far = FAR * size;
+    let far = RAY_LENGTH_PER_SIZE * size;
     let mut ring = square(centre, 0.5 * far);
     for capacity in all.iter().filter(|c| c.rays.len() < 3) {
         let own: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
-        let inner = cut_off(&own, &capacity.rays, far);
-        for (normal, limit) in half_planes(&inner, refine::ROUNDING * size) {
+        let inner = bounded_polygon(&own, &capacity.rays, far);
+        for (normal, limit) in half_planes(&inner, refine::ROUNDING_TOL * size) {
             ring = clipped(&ring, normal, limit);
         }
     }
@@ -160,7 +160,7 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
         capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
         return capacity;
     }
-    close(&mut capacity, &lines, size);
+    set_edges(&mut capacity, &lines, size);
     capacity
 }
 

@@ -7,11 +7,11 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::probe::{Farthest, Probe};
-use super::refine::{Sample, refined, sample, size};
+use super::refine::{Sample, refine, sample, size};
 use crate::geometry::Vector;
 
 /// The samples of a set, and the unit directions in which it is unbounded.
-pub(super) struct Found {
+pub(super) struct SampledSet {
     pub samples: Vec<Sample>,
     pub rays: Vec<Vector>,
 }
@@ -23,41 +23,44 @@ const MAX_STEP: f64 = 1.1;
 const SAME_ANGLE: f64 = 1e-7;
 
 /// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
-const REACH: f64 = 10.0;
+const MAX_FORCE_PER_SIZE: f64 = 10.0;
 
 /// Computes the set of forces that the block of a probe can carry. `None` if the set is empty, or if a force has no
 /// proof.
-pub(super) fn found(probe: &Probe) -> Option<Found> {
+pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();
     for angle in axes {
         match probe.farthest(unit(angle), None) {
             Farthest::At {
                 carried: Some(carried),
-                line,
-            } => start.push(Sample { carried, line }),
+                half_plane,
+            } => start.push(Sample {
+                carried,
+                half_plane,
+            }),
             Farthest::At { carried: None, .. } => start.push(sample(probe, unit(angle), None)?),
             Farthest::Unbounded => break,
             Farthest::None => return None,
         }
     }
     if start.len() == axes.len() {
-        let samples = refined(probe, start, true, None);
+        let samples = refine(probe, start, true, None);
         let rays = Vec::new();
-        return Some(Found { samples, rays });
+        return Some(SampledSet { samples, rays });
     }
     unbounded(probe)
 }
 
 /// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a force has no proof.
-fn unbounded(probe: &Probe) -> Option<Found> {
-    let cone = Cone::of(probe)?;
+fn unbounded(probe: &Probe) -> Option<SampledSet> {
+    let cone = Cone::from_probe(probe)?;
     let around = probe.heaviest();
     if cone == Cone::Everything {
         let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
         // The set contains every force. One proof suffices: that some force balances the real loads.
         let samples = vec![sample(probe, unit(0.0), Some(around))?];
-        return Some(Found { samples, rays });
+        return Some(SampledSet { samples, rays });
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
@@ -68,18 +71,18 @@ fn unbounded(probe: &Probe) -> Option<Found> {
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
         // Then compute samples in the two outer directions, at right angles to the unbounded edges.
-        let reach = Some(REACH * largest);
+        let reach = Some(MAX_FORCE_PER_SIZE * largest);
         let first = sample(probe, unit(from), reach)?;
         if to - from > SAME_ANGLE {
             inside.insert(0, first);
             inside.push(sample(probe, unit(to), reach)?);
-            samples.extend(refined(probe, inside, false, reach));
+            samples.extend(refine(probe, inside, false, reach));
         } else {
             samples.push(first);
         }
     }
     let rays = cone.rays();
-    Some(Found { samples, rays })
+    Some(SampledSet { samples, rays })
 }
 
 /// The directions in which a set is unbounded, as angles in radians.
@@ -96,12 +99,12 @@ enum Cone {
 impl Cone {
     /// Computes the recession cone of a probe: the forces, with components of at most 1, that are carried without
     /// loads. `None` if the set is bounded in every direction.
-    fn of(probe: &Probe) -> Option<Cone> {
+    fn from_probe(probe: &Probe) -> Option<Cone> {
         let homogeneous = probe.without_loads();
         let reach = Some(1.0);
         let start = (0..8).map(|k| 0.1 + f64::from(k) * TAU / 8.0);
         let start = start.filter_map(|a| sample(&homogeneous, unit(a), reach));
-        let samples = refined(&homogeneous, start.collect(), true, reach);
+        let samples = refine(&homogeneous, start.collect(), true, reach);
         let far = samples.iter().map(|s| s.carried.force);
         let far = far.filter(|force| force.amax() > 0.5);
         let mut angles: Vec<f64> = far.map(|f| libm::atan2(f.y, f.x)).collect();

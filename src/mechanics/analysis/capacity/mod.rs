@@ -271,7 +271,7 @@ impl Analysis {
 }
 
 /// Computes the capacity of each frame if the options request it. Adds a notice to a frame if this fails.
-pub(super) fn add(
+pub(super) fn add_capacities(
     scene: &Scene,
     interfaces: &Interfaces,
     frames: &mut [FrameAnalysis],
@@ -294,14 +294,14 @@ pub(super) fn add(
     }
 }
 
-/// True if the error bound of a capacity exceeds `INEXACT` times its largest corner force.
+/// True if the error bound of a capacity exceeds `MAX_RELATIVE_GAP` times its largest corner force.
 fn is_inexact(capacity: &LoadCapacity) -> bool {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
-    capacity.gap > INEXACT * sizes.fold(0.0, f64::max)
+    capacity.gap > MAX_RELATIVE_GAP * sizes.fold(0.0, f64::max)
 }
 
 /// If the gap is larger than this fraction of the largest force, the capacity is reported as undecided.
-const INEXACT: f64 = 1e-4;
+const MAX_RELATIVE_GAP: f64 = 1e-4;
 
 /// Returns a notice if one of `points` lies outside the block: about the first such point. Otherwise `None`.
 fn outside(block: &Block, points: &[Point]) -> Option<String> {
@@ -384,7 +384,7 @@ fn capacity_of_assembly(
         return Ok(LoadCapacity::empty(block, points.to_vec(), mechanism));
     }
     let probe = Probe::new(&component, body, points);
-    match cone::found(&probe) {
+    match cone::sample_set(&probe) {
         Some(found) => {
             let capacity = region::capacity(found, &probe, block, points);
             match is_inexact(&capacity) {

@@ -11,13 +11,13 @@ use crate::solve::{Amounts, Support, support};
 
 /// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
 /// is linear in the force, so the proof holds up to the line on which the power is 0.
-const BEYOND: f64 = 4e-3;
+const SHARE_BEYOND_LIMIT: f64 = 4e-3;
 
 /// How far inside the limit a force is tried, relative to its size, if the farthest force itself has no proof.
-const INSIDE: [f64; 4] = [0.0, 1e-9, 1e-8, LAST_INSIDE];
+const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 
 /// The last of these distances, which is a tenth of the accuracy of the polygon.
-const LAST_INSIDE: f64 = 1e-7;
+const MAX_SHARE_INSIDE: f64 = 1e-7;
 
 /// A motion in which the point is slower than this gives no limit of the force. The fastest point of a motion has speed
 /// 1.
@@ -40,7 +40,7 @@ pub(super) struct Probe {
 
 /// A force that is carried, with its proof.
 #[derive(Clone, Debug)]
-pub(super) struct Carried {
+pub(super) struct CarriedForce {
     pub force: Vector,
     pub torque: f64,
     pub forces: Forces,
@@ -49,7 +49,7 @@ pub(super) struct Carried {
 
 /// A half-plane that contains all carried forces F: normal · F ≤ limit.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct HalfPlane {
     pub normal: Vector,
     pub limit: f64,
     pub motion: Vec<Motion>,
@@ -62,9 +62,9 @@ pub(super) enum Farthest {
     /// The farthest force is finite.
     At {
         /// The farthest force; `None` if it has no proof.
-        carried: Option<Carried>,
+        carried: Option<CarriedForce>,
         /// The motion that excludes farther forces; `None` if it has no proof.
-        line: Option<Line>,
+        half_plane: Option<HalfPlane>,
     },
     /// There is no farthest force: forces of any size are carried.
     Unbounded,
@@ -97,7 +97,7 @@ impl Probe {
     pub fn without_loads(&self) -> Probe {
         let mut given = self.given.clone();
         for body in &mut given.bodies {
-            (body.weight, body.listed, body.load) = (0.0, LoadVector::NONE, LoadVector::NONE);
+            (body.weight, body.listed, body.load) = (0.0, LoadVector::ZERO, LoadVector::ZERO);
         }
         let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
         for grip in &mut given.grips {
@@ -143,20 +143,24 @@ impl Probe {
         match first {
             Farthest::At {
                 carried: Some(_),
-                line: Some(_),
+                half_plane: Some(_),
             } => first,
-            Farthest::At { carried, line } if self.proves => {
-                match self.farthest_in(&program, direction, true) {
-                    Farthest::At {
-                        carried: better,
-                        line: closer,
-                    } => Farthest::At {
-                        carried: better.or(carried),
-                        line: closer.or(line),
-                    },
-                    _ => Farthest::At { carried, line },
-                }
-            }
+            Farthest::At {
+                carried,
+                half_plane,
+            } if self.proves => match self.farthest_in(&program, direction, true) {
+                Farthest::At {
+                    carried: better,
+                    half_plane: closer,
+                } => Farthest::At {
+                    carried: better.or(carried),
+                    half_plane: closer.or(half_plane),
+                },
+                _ => Farthest::At {
+                    carried,
+                    half_plane,
+                },
+            },
             other => other,
         }
     }
@@ -173,11 +177,11 @@ impl Probe {
                             None if is_retry => self.carried_near(near, direction),
                             carried => carried,
                         },
-                        line: self.line(near, direction, &motion),
+                        half_plane: self.half_plane(near, direction, &motion),
                     },
                     false => Farthest::At {
                         carried: Some(self.unproved(near)),
-                        line: None,
+                        half_plane: None,
                     },
                 }
             }
@@ -186,9 +190,9 @@ impl Probe {
         }
     }
 
-    fn unproved(&self, force: Vector) -> Carried {
-        let forces = Forces::none(&self.given);
-        Carried {
+    fn unproved(&self, force: Vector) -> CarriedForce {
+        let forces = Forces::zero(&self.given);
+        CarriedForce {
             force,
             torque: 0.0,
             proof: check_forces(&self.given, &forces),
@@ -196,10 +200,10 @@ impl Probe {
         }
     }
 
-    fn carried(&self, amounts: &Amounts) -> Option<Carried> {
+    fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
         let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
         let own = forces.grips.pop()?;
-        Some(Carried {
+        Some(CarriedForce {
             force: own.force,
             torque: own.torque,
             forces,
@@ -210,12 +214,12 @@ impl Probe {
     /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
     /// slightly smaller forces in `direction`. If both fail, decides it with a free force and accepts this force if it
     /// is as far.
-    fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<Carried> {
+    fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<CarriedForce> {
         let size = farthest.norm().max(self.heaviest());
         let under = |inside: f64| {
             let force = farthest - direction * (inside * size);
             let (forces, proof) = decided_forces(&self.with_force(force))?;
-            Some(Carried {
+            Some(CarriedForce {
                 force,
                 torque: 0.0,
                 forces,
@@ -224,13 +228,13 @@ impl Probe {
         };
         let near = match self.has_torque {
             true => None,
-            false => INSIDE.into_iter().find_map(under),
+            false => SHARES_INSIDE_LIMIT.into_iter().find_map(under),
         };
         near.or_else(|| {
             let (mut forces, proof) = decided_forces(&self.held)?;
             let own = forces.grips.pop()?;
-            let is_as_far = direction.dot(&(farthest - own.force)) <= LAST_INSIDE * size;
-            is_as_far.then_some(Carried {
+            let is_as_far = direction.dot(&(farthest - own.force)) <= MAX_SHARE_INSIDE * size;
+            is_as_far.then_some(CarriedForce {
                 force: own.force,
                 torque: own.torque,
                 forces,
@@ -241,15 +245,15 @@ impl Probe {
 
     /// Returns the half-plane normal · F ≤ limit that a motion proves: the velocities `y` of the program exclude every
     /// force outside it. `None` if a force just beyond `near` gives no proof, or if the point hardly moves.
-    fn line(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<Line> {
+    fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
         let size = near.norm().max(self.heaviest());
-        let beyond = self.with_force(near + direction * (BEYOND * size));
+        let beyond = self.with_force(near + direction * (SHARE_BEYOND_LIMIT * size));
         let program = Program::new(&beyond, self.program.scale);
         let (motion, proof) = proved_motion(&beyond, &program, y)?;
         let own = &motion[self.body];
         let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
         let speed = velocity.norm();
-        (speed > MIN_SPEED).then(|| Line {
+        (speed > MIN_SPEED).then(|| HalfPlane {
             normal: velocity / speed,
             limit: -net_power(&self.given, &motion) / speed,
             motion,

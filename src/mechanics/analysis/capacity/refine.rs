@@ -4,27 +4,27 @@
 //! of their chord decides. If it is not farther than the chord, the chord is an edge; otherwise it is a new vertex.
 //! Reference: Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
 
-use super::probe::{Carried, Farthest, Line, Probe};
+use super::probe::{CarriedForce, Farthest, HalfPlane, Probe};
 use crate::geometry::{Vector, cross};
 
 /// The farthest force in a direction, and the half-plane of the motion that excludes farther forces.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
-    pub carried: Carried,
-    pub line: Option<Line>,
+    pub carried: CarriedForce,
+    pub half_plane: Option<HalfPlane>,
 }
 
 /// The tolerance of the refinement, as a fraction of the size of the set.
-const TOLERANCE: f64 = 2e-7;
+const RELATIVE_TOL: f64 = 2e-7;
 
 /// The tolerance is at least this fraction of the heaviest load, because the solver is not more accurate.
-const LEAST_TOLERANCE: f64 = 2e-9;
+const MIN_TOL_PER_LOAD: f64 = 2e-9;
 
 /// Forces whose distance is at most this fraction of the size of a set differ only by rounding.
-pub(super) const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING_TOL: f64 = 1e-12;
 
 /// A force that lies beyond a chord by at most this multiple of the tolerance may be an error of the program.
-const NOISE: f64 = 30.0;
+const NOISE_PER_TOLERANCE: f64 = 30.0;
 
 /// The largest depth of the recursion.
 const MAX_DEPTH: usize = 24;
@@ -34,7 +34,7 @@ const MAX_SAMPLES: usize = 500;
 
 /// Returns the distance, N, below which two forces count as equal, for a set of forces of this size, N.
 pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
-    (TOLERANCE * size).max(LEAST_TOLERANCE * probe.heaviest())
+    (RELATIVE_TOL * size).max(MIN_TOL_PER_LOAD * probe.heaviest())
 }
 
 /// Returns the size of a set of forces, N: the larger side of its bounding box.
@@ -64,8 +64,11 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
             match probe.farthest(turned, reach) {
                 Farthest::At {
                     carried: Some(carried),
-                    line,
-                } => Some(Sample { carried, line }),
+                    half_plane,
+                } => Some(Sample {
+                    carried,
+                    half_plane,
+                }),
                 _ => None,
             }
         })
@@ -73,7 +76,7 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
 
 /// Adds samples between neighbouring samples until all edges between them are known. The directions of `start` run
 /// anticlockwise. If `is_closed`, the last sample is also a neighbour of the first. Returns all samples in this order.
-pub(super) fn refined(
+pub(super) fn refine(
     probe: &Probe,
     start: Vec<Sample>,
     is_closed: bool,
@@ -84,19 +87,19 @@ pub(super) fn refined(
         reach,
         tolerance: tolerance(probe, size(&start)),
         count: 0,
-        found: Vec::new(),
+        samples: Vec::new(),
     };
     let pairs = match is_closed {
         true => start.len(),
         false => start.len().saturating_sub(1),
     };
     for (k, first) in start.iter().enumerate() {
-        search.found.push(first.clone());
+        search.samples.push(first.clone());
         if k < pairs {
-            search.between(first, &start[(k + 1) % start.len()], MAX_DEPTH);
+            search.refine_between(first, &start[(k + 1) % start.len()], MAX_DEPTH);
         }
     }
-    search.found
+    search.samples
 }
 
 struct Search<'a> {
@@ -104,12 +107,12 @@ struct Search<'a> {
     reach: Option<f64>,
     tolerance: f64,
     count: usize,
-    found: Vec<Sample>,
+    samples: Vec<Sample>,
 }
 
 impl Search<'_> {
     /// Adds the samples between two neighbouring samples, recursively.
-    fn between(&mut self, from: &Sample, to: &Sample, depth: usize) {
+    fn refine_between(&mut self, from: &Sample, to: &Sample, depth: usize) {
         let [a, b] = [from, to].map(|sample| sample.carried.force);
         let chord = b - a;
         let length = chord.norm();
@@ -117,11 +120,13 @@ impl Search<'_> {
             return;
         }
         // If the half-plane of one sample passes through both forces, the edge between them is already known.
-        let touches = |line: &Option<Line>, force: Vector| {
-            let line = line.as_ref();
-            line.is_some_and(|line| line.limit - line.normal.dot(&force) <= self.tolerance)
+        let touches = |half_plane: &Option<HalfPlane>, force: Vector| {
+            let half_plane = half_plane.as_ref();
+            half_plane.is_some_and(|half_plane| {
+                half_plane.limit - half_plane.normal.dot(&force) <= self.tolerance
+            })
         };
-        if touches(&from.line, b) || touches(&to.line, a) {
+        if touches(&from.half_plane, b) || touches(&to.half_plane, a) {
             return;
         }
         // The forces run anticlockwise, so the outside is to the right of the chord.
@@ -135,19 +140,19 @@ impl Search<'_> {
         // The distance of the force from its own half-plane is the error of this program. Such an error must not become
         // a new vertex.
         let error = next
-            .line
+            .half_plane
             .as_ref()
             .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
-        if farther <= self.tolerance + (2.0 * error).min(NOISE * self.tolerance) {
+        if farther <= self.tolerance + (2.0 * error).min(NOISE_PER_TOLERANCE * self.tolerance) {
             // The chord is an edge, because the new force is not farther out. The new sample contains the half-plane of
             // this edge.
-            if next.line.is_some() {
-                self.found.push(next);
+            if next.half_plane.is_some() {
+                self.samples.push(next);
             }
             return;
         }
-        self.between(from, &next, depth - 1);
-        self.found.push(next.clone());
-        self.between(&next, to, depth - 1);
+        self.refine_between(from, &next, depth - 1);
+        self.samples.push(next.clone());
+        self.refine_between(&next, to, depth - 1);
     }
 }

@@ -1,22 +1,22 @@
 //! Convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
 
-use super::probe::{Line, Probe};
+use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross, in_half_plane};
 use crate::scene::BlockId;
 
 /// A ray is cut off at this multiple of the size of the set.
-const FAR: f64 = 1e4;
+const RAY_LENGTH_PER_SIZE: f64 = 1e4;
 
 /// Builds the capacity of a block from samples of its boundary: vertices, edges and error bound.
 pub(super) fn capacity(
-    found: cone::Found,
+    set: cone::SampledSet,
     probe: &Probe,
     block: BlockId,
     at: &[Point],
 ) -> LoadCapacity {
-    let cone::Found { samples, rays } = found;
+    let cone::SampledSet { samples, rays } = set;
     let size = refine::size(&samples);
     let tolerance = refine::tolerance(probe, size);
     let forces: Vec<Vector> = samples.iter().map(|s| s.carried.force).collect();
@@ -25,9 +25,9 @@ pub(super) fn capacity(
         .iter()
         .map(|k| vertex(&samples[*k], probe))
         .collect();
-    let lines: Vec<(&Line, usize)> = samples
+    let lines: Vec<(&HalfPlane, usize)> = samples
         .iter()
-        .filter_map(|s| Some((s.line.as_ref()?, 0)))
+        .filter_map(|s| Some((s.half_plane.as_ref()?, 0)))
         .collect();
     let mut capacity = LoadCapacity {
         block,
@@ -44,13 +44,13 @@ pub(super) fn capacity(
         return capacity;
     }
     let lines: Vec<CapacityEdge> = lines.into_iter().map(edge_of).collect();
-    close(&mut capacity, &lines, size.max(1e-3 * probe.heaviest()));
+    set_edges(&mut capacity, &lines, size.max(1e-3 * probe.heaviest()));
     capacity
 }
 
 /// Sets the edges and the error bound of a capacity. For each side of the polygon, the edge is the nearest of the
 /// half-planes `lines`.
-pub(super) fn close(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
+pub(super) fn set_edges(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let mut edges = Vec::new();
     for (ends, from, to) in sides(&corners, &capacity.rays, size) {
@@ -90,7 +90,7 @@ fn vertex(sample: &Sample, probe: &Probe) -> CapacityVertex {
     }
 }
 
-fn edge_of((line, case): (&Line, usize)) -> CapacityEdge {
+fn edge_of((line, case): (&HalfPlane, usize)) -> CapacityEdge {
     CapacityEdge {
         ends: [None; 2],
         normal: line.normal,
@@ -146,7 +146,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
         return Vec::new();
     }
     let extent = forces.iter().map(|f| (f - forces[0]).norm());
-    let far = FAR * extent.fold(1e6 * tolerance, f64::max);
+    let far = RAY_LENGTH_PER_SIZE * extent.fold(1e6 * tolerance, f64::max);
     let mut points: Vec<(Vector, Option<usize>)> = forces
         .iter()
         .enumerate()
@@ -277,7 +277,7 @@ pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
 }
 
 /// Returns a bounded convex polygon: the convex hull of the corners and of the corners moved by `far` along each ray.
-pub(super) fn cut_off(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
+pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
     let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
     for ray in rays {
         points.extend(corners.iter().map(|f| (f + ray * far, None)));
@@ -292,7 +292,11 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
     }
     let extent = corners.iter().map(|f| (f - force).norm());
     let extent = extent.fold(0.0, f64::max);
-    let ring = cut_off(corners, rays, FAR * extent.max(f64::MIN_POSITIVE));
+    let ring = bounded_polygon(
+        corners,
+        rays,
+        RAY_LENGTH_PER_SIZE * extent.max(f64::MIN_POSITIVE),
+    );
     distance(&ring, force) <= 1e-9 * extent
 }
 
@@ -323,7 +327,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
         .iter()
         .map(|f| f.norm())
         .fold(f64::MIN_POSITIVE, f64::max);
-    let ring = cut_off(corners, rays, FAR * extent);
+    let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent);
     let along = |force: &Vector| force.dot(&direction);
     if ring.len() < 3 {
         // The set is a segment or a point, so a force is carried only if it lies along the segment.

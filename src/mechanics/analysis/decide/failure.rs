@@ -52,8 +52,8 @@ impl Component<'_> {
         failures
     }
 
-    /// Appends the missing tension and the missing friction of a contact to `failures`, if they exceed `min_amount`. Inputs
-    /// are in the program's unit of force.
+    /// Appends the missing tension and the missing friction of a contact to `failures`, if they exceed `min_amount`.
+    /// Inputs are in the program's unit of force.
     fn add_contact_failures(
         &self,
         failures: &mut Vec<Failure>,

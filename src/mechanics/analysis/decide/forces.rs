@@ -57,7 +57,7 @@ impl Component<'_> {
         match best {
             Some((_, proved)) => proved,
             None => {
-                let forces = Forces::none(self.assembly);
+                let forces = Forces::zero(self.assembly);
                 let proof = proof::check_forces(self.assembly, &forces);
                 ProvedForces { forces, proof }
             }

@@ -77,7 +77,7 @@ impl Component<'_> {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
-        let total = loads.fold(LoadVector::NONE, LoadVector::plus).force;
+        let total = loads.fold(LoadVector::ZERO, LoadVector::plus).force;
         // If the loads cancel, they cause no translation.
         if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest_load() {
             return None;

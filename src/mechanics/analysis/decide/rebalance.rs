@@ -57,8 +57,8 @@ pub(super) struct FallingPart {
 }
 
 impl Component<'_> {
-    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns [`RebalanceOutcome::Undecided`] if
-    /// neither succeeds.
+    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns
+    /// [`RebalanceOutcome::Undecided`] if neither succeeds.
     pub fn rebalance_locally(
         &self,
         program: &Program,

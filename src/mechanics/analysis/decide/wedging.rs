@@ -39,10 +39,10 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
             SelfStressCheck::OnlyWedged(self_stress) => {
                 let shown = describe(&self_stress, component.scale.force, body, face);
                 let wedged = Wedged::new(assembly, component.scale, &self_stress);
-                return (Some(true), Wedging::Only(shown), Some(wedged));
+                return (Some(true), Wedging::OnlyByWedging(shown), Some(wedged));
             }
             SelfStressCheck::Undecided(doubt) => {
-                answer = (None, Wedging::Open(doubt.to_string()), None)
+                answer = (None, Wedging::Undecided(doubt.to_string()), None)
             }
         }
     }

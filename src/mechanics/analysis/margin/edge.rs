@@ -44,8 +44,8 @@ impl Threshold {
         }
     }
 
-    /// Creates the search for the largest value from 0 to `max_value` at which the component stands, such as its largest
-    /// kernel.
+    /// Creates the search for the largest value from 0 to `max_value` at which the component stands, such as its
+    /// largest kernel.
     pub fn largest_stable(max_value: f64) -> Threshold {
         Threshold {
             stable_side: StableSide::Below,
@@ -72,7 +72,8 @@ impl Threshold {
     /// Newton's root is accepted if a stable and an unstable value on both sides of it are at most this far apart,
     /// relative.
     pub(super) const BRACKET_TOL: f64 = 512e-6;
-    /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong enough.
+    /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong
+    /// enough.
     const OFFSET_GROWTH: f64 = 16.0;
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const MAX_OFFSET: f64 = 256e-6;

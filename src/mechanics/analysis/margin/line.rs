@@ -52,12 +52,12 @@ const OFFSET_GROWTH: f64 = 16.0;
 const MAX_STEPS: usize = 60;
 /// The largest value that is tried, as a multiple of [`Line::typical_large`].
 const MAX_VALUE: f64 = 1e6;
-/// If the power of a mechanism vanishes only beyond this multiple of [`Line::typical_large`], the component counts as falling
-/// at every value.
+/// If the power of a mechanism vanishes only beyond this multiple of [`Line::typical_large`], the component counts as
+/// falling at every value.
 const MAX_VANISHING_VALUE: f64 = 1e6;
 
 impl Line<'_> {
-    /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `finite_start`, at which the
+    /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `from`, at which the
     /// component stands.
     ///
     /// `hint` is the end that a linear program found. The forces and the motion of this program are already in the

@@ -12,9 +12,9 @@ use super::trial::Trial;
 use crate::analysis::Verdict;
 use crate::analysis::decide::LimitDistance;
 
-/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`LOOKAHEAD_FACTOR`] times the gain. Cuts
-/// whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that a
-/// load pulls off its posts.
+/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`LOOKAHEAD_FACTOR`] times the gain.
+/// Cuts whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that
+/// a load pulls off its posts.
 const SLOW_GAIN: f64 = 1e-2;
 /// How far the search looks ahead, as a multiple of the gain.
 const LOOKAHEAD_FACTOR: f64 = 16.0;

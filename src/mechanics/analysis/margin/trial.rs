@@ -134,7 +134,8 @@ impl<'a> Trial<'a> {
         self.decide_at(setting, LimitDistance::Unknown)
     }
 
-    /// Like [`Trial::decide`]. `limit_distance` says whether the changed component is known to be at its limit of stability.
+    /// Like [`Trial::decide`]. `limit_distance` says whether the changed component is known to be at its limit of
+    /// stability.
     pub fn decide_at(
         &mut self,
         setting: &Setting,
@@ -144,8 +145,8 @@ impl<'a> Trial<'a> {
         decide_verdict(&self.changed(setting), limit_distance, &mut self.proofs)
     }
 
-    /// Like [`Trial::decide`], but tries only cached proofs and solves no program. The verdict is undecided if no cached
-    /// proof holds.
+    /// Like [`Trial::decide`], but tries only cached proofs and solves no program. The verdict is undecided if no
+    /// cached proof holds.
     pub fn cached_verdict(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         verdict_from_cache(&self.changed(setting), &self.proofs)
     }
@@ -267,7 +268,7 @@ impl<'a> Trial<'a> {
 /// True if the scene lists a load on some body of a component.
 pub(super) fn is_loaded(component: &Assembly) -> bool {
     let mut bodies = component.bodies.iter();
-    bodies.any(|body| body.listed != LoadVector::NONE)
+    bodies.any(|body| body.listed != LoadVector::ZERO)
 }
 
 /// True if a robot that holds a body of the component has a limit other than 0 and infinity.

@@ -25,10 +25,10 @@ pub(super) struct Case<'a> {
 ///
 /// The state at the end is the same for every fraction. With a large fraction, the program may begin where the
 /// component does not stand. A small fraction loses digits.
-const SHARES: [f64; 3] = [0.05, 2e-3, 1e-4];
+const START_SHARES: [f64; 3] = [0.05, 2e-3, 1e-4];
 
 /// The state is accepted if the program ends this close to the end of the interval, as a fraction of the loads.
-const SAME_END: f64 = 1e-3;
+const END_TOL: f64 = 1e-3;
 
 impl Case<'_> {
     /// Returns the component with the parameter set to `value`.
@@ -83,7 +83,7 @@ impl Case<'_> {
         let bodies = self.component.bodies.iter();
         let along = bodies.map(|body| {
             let motion = self.mechanism.iter().find(|m| m.block == body.block);
-            motion.map_or(LoadVector::NONE, |motion| LoadVector {
+            motion.map_or(LoadVector::ZERO, |motion| LoadVector {
                 force: motion.velocity,
                 moment: motion.spin * length * length,
             })
@@ -106,13 +106,13 @@ impl Case<'_> {
             return None;
         }
         direction.iter_mut().for_each(|v| *v *= loads / push);
-        SHARES.iter().find_map(|share| {
+        START_SHARES.iter().find_map(|share| {
             let mut inside = program.clone();
             for (load, push) in inside.loads.iter_mut().zip(&direction) {
                 *load -= share * push;
             }
             let state = limit_state(&inside, &direction)?;
-            let is_same = (state.factor - share).abs() <= SAME_END.max(0.1 * share);
+            let is_same = (state.factor - share).abs() <= END_TOL.max(0.1 * share);
             is_same.then_some((program.clone(), state))
         })
     }

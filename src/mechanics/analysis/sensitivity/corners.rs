@@ -7,19 +7,19 @@
 //! guided by two edges of different directions cannot move.
 
 use super::elimination::Elimination;
-use super::joints::{Corner, Finder, Found, Guide};
+use super::joints::{Corner, Finder, Guide, InterfaceCorners};
 use crate::assembly::DisjointSets;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
 /// Two directions are equal if the sine of the angle between them is less than this.
-const PARALLEL: f64 = 1e-3;
+const PARALLEL_TOL: f64 = 1e-3;
 /// A move keeps the contacts only if no corner leaves its edge by more than this, relative to the displacement of the
 /// moved corner.
-const KEPT: f64 = 1e-7;
+const EDGE_TOL: f64 = 1e-7;
 /// If a group of dependent corners has more unknown displacements than this, none of its corners can move.
-const MOST_DEPENDENT: usize = 400;
+const MAX_DEPENDENT_UNKNOWNS: usize = 400;
 
 /// One way in which a joined corner can move. Displacements are per metre.
 #[derive(Clone, Debug)]
@@ -60,7 +60,8 @@ impl Corners {
         for interface in interfaces {
             finder.join(interface);
         }
-        let contacts: Vec<Found> = interfaces.iter().map(|i| finder.contact(i)).collect();
+        let contacts: Vec<InterfaceCorners> =
+            interfaces.iter().map(|i| finder.contact(i)).collect();
         let (joined, count) = finder.joined();
         let guides = finder.guides(&joined);
         let mut corners = Corners {
@@ -98,7 +99,7 @@ impl Corners {
         let mut normals: Vec<Vec<Vector>> = vec![Vec::new(); self.count];
         for guide in guides {
             let known = &mut normals[guide.of];
-            let is_new = |n: &Vector| cross(*n, guide.normal).abs() > PARALLEL;
+            let is_new = |n: &Vector| cross(*n, guide.normal).abs() > PARALLEL_TOL;
             if known.is_empty() || (known.len() == 1 && known.iter().all(is_new)) {
                 known.push(guide.normal);
             }
@@ -115,7 +116,7 @@ impl Corners {
             });
             self.moves[corner] = moves.collect();
         }
-        for part in parts(guides, self.count) {
+        for part in independent_groups(guides, self.count) {
             self.follow(&part, &normals);
         }
     }
@@ -141,7 +142,7 @@ impl Corners {
         let mut involved: Vec<usize> = guides.iter().flat_map(|g| [g.of, g.from, g.to]).collect();
         involved.sort_unstable();
         involved.dedup();
-        if unknowns.len() > MOST_DEPENDENT {
+        if unknowns.len() > MAX_DEPENDENT_UNKNOWNS {
             involved.iter().for_each(|c| self.moves[*c].clear());
             return;
         }
@@ -164,12 +165,12 @@ impl Corners {
         let solved = Elimination::new(&rows, unknowns.len(), &sides);
         for ((corner, k), (solution, rest)) in moved.into_iter().zip(solved.solutions) {
             let of = &mut self.moves[corner][k];
-            if rest > KEPT {
+            if rest > EDGE_TOL {
                 of.field.clear();
                 continue;
             }
             for ((follower, along), share) in unknowns.iter().zip(&solution) {
-                if share.abs() > KEPT {
+                if share.abs() > EDGE_TOL {
                     of.field.push((*follower, along * *share));
                 }
             }
@@ -183,7 +184,7 @@ impl Corners {
 
     /// Removes moves that rotate the normal of a contact of two corners. The derivative of such a rotation is not
     /// computed.
-    fn freeze(&mut self, contacts: &[Found], interfaces: &[&Interface]) {
+    fn freeze(&mut self, contacts: &[InterfaceCorners], interfaces: &[&Interface]) {
         let mut is_frozen = vec![false; self.count];
         for (found, interface) in contacts.iter().zip(interfaces) {
             let is_known = found.ends.is_some()
@@ -218,7 +219,7 @@ fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
 }
 
 /// Groups the guides, such that guides in different groups are independent of each other.
-fn parts(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
+fn independent_groups(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
     let mut is_guided = vec![false; count];
     guides.iter().for_each(|guide| is_guided[guide.of] = true);
     let mut sets = DisjointSets::new(count);

@@ -22,7 +22,7 @@ type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
 
 /// Two ends that differ by less than this, relative to their values, count as equal. Every component with an equal end
 /// falls there.
-const SAME_END: f64 = 1e-6;
+const END_TOL: f64 = 1e-6;
 
 /// Computes how both ends of the interval of a margin change with corners, weights, friction and loads.
 pub(in crate::mechanics::analysis) fn find(
@@ -113,7 +113,7 @@ impl Search<'_> {
         if branches.is_empty() {
             return Err(NoSensitivity::Unsolved);
         }
-        let is_same = (exact - value).abs() <= 1e3 * SAME_END * value.abs().max(1e-3);
+        let is_same = (exact - value).abs() <= 1e3 * END_TOL * value.abs().max(1e-3);
         if !is_same {
             return Err(NoSensitivity::Unsolved);
         }
@@ -144,7 +144,7 @@ impl Search<'_> {
                 value: at,
                 mechanism,
             } if !mechanism.is_empty() => {
-                let is_same = (at - value).abs() <= SAME_END * at.abs().max(value.abs()).max(1e-3);
+                let is_same = (at - value).abs() <= END_TOL * at.abs().max(value.abs()).max(1e-3);
                 is_same.then_some(mechanism)
             }
             _ => None,

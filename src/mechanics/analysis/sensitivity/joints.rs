@@ -7,9 +7,9 @@ use crate::scene::{BodyId, Frame, Scene};
 
 /// A corner counts as the end of a contact if its distance is at most this multiple of the admissible gap. The
 /// positions of both may be wrong by one gap.
-const REACH: f64 = 4.0;
+const CORNER_REACH_PER_GAP: f64 = 4.0;
 /// The least such distance, as a fraction of the coordinates, for scenes without tolerance.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_TOL: f64 = 1e-9;
 /// A corner of a body, with its index in the outline. The corners of holes follow those of the outline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
@@ -49,7 +49,7 @@ impl Guide {
 }
 
 /// The corners that belong to an interface.
-pub(super) struct Found {
+pub(super) struct InterfaceCorners {
     pub ends: Option<[usize; 2]>,
     /// If the contact is a corner on an edge, the two corners of this edge.
     pub edge: Option<[usize; 2]>,
@@ -114,7 +114,7 @@ impl<'s> Finder<'s> {
         let [a, b] = interface.bodies;
         let gap = self.scene.tolerance_between(a, b).gap;
         let size = interface.ends[0].coords.norm().max(interface.length());
-        (REACH * gap).max(ROUNDING * size)
+        (CORNER_REACH_PER_GAP * gap).max(ROUNDING_TOL * size)
     }
 
     /// Returns the corner of a body that is nearest to a point. `None` if it is farther away than `reach`, metres.
@@ -157,10 +157,10 @@ impl<'s> Finder<'s> {
     }
 
     /// Finds the corners at the ends of an interface. Records which of them lie on an edge of the other body.
-    pub fn contact(&mut self, interface: &Interface) -> Found {
+    pub fn contact(&mut self, interface: &Interface) -> InterfaceCorners {
         let reach = self.reach(interface);
         let is_corner = interface.kind == ContactKind::Corner;
-        let mut found = Found {
+        let mut found = InterfaceCorners {
             ends: None,
             edge: None,
             tips: Vec::new(),

@@ -65,7 +65,7 @@ impl Slope {
 }
 
 /// Derivatives count as equal if they differ by less than this fraction of the largest derivative of the same kind.
-const SAME: f64 = 1e-7;
+const EQUAL_SLOPE_TOL: f64 = 1e-7;
 
 /// The derivatives of one component at one end, for every state there.
 pub(super) struct Branch {
@@ -83,7 +83,7 @@ impl Branch {
         };
         let first = read(first);
         let others = || self.rates[1..].iter().map(&read);
-        let is_same = |rate: f64| (rate - first).abs() <= SAME * largest;
+        let is_same = |rate: f64| (rate - first).abs() <= EQUAL_SLOPE_TOL * largest;
         let is_unique = match self.freedom {
             Freedom::Unique => true,
             Freedom::Unknown => false,

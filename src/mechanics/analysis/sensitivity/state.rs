@@ -20,22 +20,22 @@ use super::unknown::Unknown;
 use crate::assembly::Assembly;
 
 /// Forces or velocities below this fraction of the largest count as 0.
-const ZERO: f64 = 1e-7;
+const ZERO_TOL: f64 = 1e-7;
 
 /// An error of the equations up to this, relative to loads or velocities, is rounding.
-const ROUNDING: f64 = 1e-8;
+const ROUNDING_TOL: f64 = 1e-8;
 
 /// The derivatives are not computed for more groups than this: the time grows with the cube of their number.
-const MOST_GROUPS: usize = 150;
+const MAX_GROUPS: usize = 150;
 
 /// If there are more states than this, the others are not computed.
-const MOST_STATES: usize = 64;
+const MAX_STATES: usize = 64;
 
 /// If there are more combinations of conditions than this, extreme motions are not computed.
-const MOST_COMBINATIONS: usize = 4000;
+const MAX_COMBINATIONS: usize = 4000;
 
 /// The largest number of Newton steps for the forces and the value.
-const STEPS: usize = 12;
+const MAX_NEWTON_STEPS: usize = 12;
 
 /// Whether forces and mechanism at the end are unique.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,14 +69,14 @@ impl EndState {
     pub fn new(case: &Case) -> Option<EndState> {
         let (program, solved) = case.solved(&case.at(case.value))?;
         let mut reduced = Reduced::new(case, &program, &solved);
-        if reduced.groups == 0 || reduced.groups > MOST_GROUPS {
+        if reduced.groups == 0 || reduced.groups > MAX_GROUPS {
             return None;
         }
         let mut value = case.value;
         let amounts = balanced(case, &reduced, &mut value)?;
         let changed = case.at(value);
         let motions = Motions::new(case, &reduced, &changed, value)?;
-        if reduced.has_idle_limit(&changed, ZERO * largest(&motions.first), &motions.first) {
+        if reduced.has_idle_limit(&changed, ZERO_TOL * largest(&motions.first), &motions.first) {
             return None;
         }
         // A force that is 0, and along which the mechanism does no work, may differ from 0 in another equilibrium. It
@@ -84,7 +84,7 @@ impl EndState {
         let speed = largest(&motions.first);
         let is_idle = |unknown: &Unknown| {
             let power = reduced.power(&changed, unknown, &motions.first);
-            !unknown.is_basic && power.abs() <= ZERO * speed
+            !unknown.is_basic && power.abs() <= ZERO_TOL * speed
         };
         let idle: Vec<bool> = reduced.unknowns.iter().map(is_idle).collect();
         for (unknown, is_idle) in reduced.unknowns.iter_mut().zip(&idle) {
@@ -95,8 +95,9 @@ impl EndState {
             unknown.is_basic || power >= 0.0
         };
         let force = largest(&amounts);
-        let is_pulled =
-            |(unknown, amount): (&Unknown, &f64)| !unknown.is_both_ways && *amount < -ZERO * force;
+        let is_pulled = |(unknown, amount): (&Unknown, &f64)| {
+            !unknown.is_both_ways && *amount < -ZERO_TOL * force
+        };
         if !reduced.unknowns.iter().all(is_resisted)
             || reduced.unknowns.iter().zip(&amounts).any(is_pulled)
         {
@@ -125,7 +126,7 @@ impl EndState {
         let (changed, value) = (self.changed.clone(), self.value);
         let state =
             |motion: &[f64], amounts: &[f64]| reduced.state(case, &changed, motion, amounts, value);
-        if motions.others.is_empty() && balances.is_empty() {
+        if motions.null_space.is_empty() && balances.is_empty() {
             return;
         }
         let extreme = match balances.is_empty() {
@@ -138,7 +139,7 @@ impl EndState {
             self.states.extend(states);
             return;
         }
-        if (1 + motions.others.len()) * (1 + balances.len()) > MOST_STATES {
+        if (1 + motions.null_space.len()) * (1 + balances.len()) > MAX_STATES {
             self.freedom = Freedom::Unknown;
             return;
         }
@@ -149,7 +150,12 @@ impl EndState {
             first.iter().zip(by).map(|(a, b)| a + share * b).collect()
         };
         let all_motions: Vec<Vec<f64>> = std::iter::once(motions.first.clone())
-            .chain(motions.others.iter().map(|by| moved(&motions.first, by)))
+            .chain(
+                motions
+                    .null_space
+                    .iter()
+                    .map(|by| moved(&motions.first, by)),
+            )
             .collect();
         let all_amounts: Vec<Vec<f64>> = std::iter::once(amounts.to_vec())
             .chain(balances.iter().map(|by| moved(amounts, by)))
@@ -172,10 +178,10 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
             *amount = 0.0;
         }
     }
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let changed = case.at(*value);
         let rest = reduced.residual(&changed, &amounts);
-        if largest(&rest) <= 1e-3 * ROUNDING * reduced.load {
+        if largest(&rest) <= 1e-3 * ROUNDING_TOL * reduced.load {
             return Some(amounts);
         }
         let growth = reduced.growth(case, &changed, &amounts, *value);
@@ -196,7 +202,7 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
         *value += step[basic.len()] * unit;
     }
     let rest = reduced.residual(&case.at(*value), &amounts);
-    (largest(&rest) <= ROUNDING * reduced.load).then_some(amounts)
+    (largest(&rest) <= ROUNDING_TOL * reduced.load).then_some(amounts)
 }
 
 /// Returns a basis of the changes of the forces that keep the balance while the parameter keeps its value. `None` if
@@ -221,7 +227,7 @@ fn null_balances(
         for (k, place) in basic.iter().enumerate() {
             whole[*place] = vector[k];
         }
-        let is_at_value = vector[basic.len()].abs() <= ROUNDING * largest(&vector);
+        let is_at_value = vector[basic.len()].abs() <= ROUNDING_TOL * largest(&vector);
         is_at_value.then_some(whole)
     };
     found.null_space.into_iter().map(whole).collect()
@@ -230,7 +236,7 @@ fn null_balances(
 /// The motions of the groups: one motion, and a basis of the motions that may be added to it.
 struct Motions {
     first: Vec<f64>,
-    others: Vec<Vec<f64>>,
+    null_space: Vec<Vec<f64>>,
 }
 
 impl Motions {
@@ -260,9 +266,9 @@ impl Motions {
         let solved = Elimination::new(&rows, given.len(), &[side]);
         let (change, rest) = &solved.solutions[0];
         let first: Vec<f64> = start.iter().zip(change).map(|(a, b)| a + b).collect();
-        (*rest <= ROUNDING * largest(&first)).then_some(Motions {
+        (*rest <= ROUNDING_TOL * largest(&first)).then_some(Motions {
             first,
-            others: solved.null_space,
+            null_space: solved.null_space,
         })
     }
 }
@@ -277,12 +283,12 @@ fn extreme_motions(
     changed: &Assembly,
     motions: &Motions,
 ) -> Option<Vec<Vec<f64>>> {
-    let free = motions.others.len();
+    let free = motions.null_space.len();
     let conditions: Vec<Condition> = (reduced.unknowns.iter())
         .filter(|unknown| !unknown.is_basic)
         .map(|unknown| {
             let power = |motion: &[f64]| reduced.power(changed, unknown, motion);
-            let shares = motions.others.iter().map(|m| power(m) / largest(m));
+            let shares = motions.null_space.iter().map(|m| power(m) / largest(m));
             Condition {
                 first: power(&motions.first),
                 shares: shares.collect(),
@@ -291,7 +297,7 @@ fn extreme_motions(
         .collect();
     let speed = largest(&motions.first);
     let meets = |shares: &[f64], with: f64| {
-        let tolerance = ZERO * speed.max(largest(shares));
+        let tolerance = ZERO_TOL * speed.max(largest(shares));
         conditions
             .iter()
             .all(|c| c.power(shares, with) >= -tolerance)
@@ -303,7 +309,7 @@ fn extreme_motions(
             .collect()
     };
     // If some direction satisfies all conditions, the set of motions is unbounded.
-    for chosen in combinations(conditions.len(), free - 1)? {
+    for chosen in subsets(conditions.len(), free - 1)? {
         let found = Elimination::new(&rows(&chosen), free, &[]);
         if let [direction] = found.null_space.as_slice() {
             let back: Vec<f64> = direction.iter().map(|v| -v).collect();
@@ -313,13 +319,13 @@ fn extreme_motions(
         }
     }
     let mut all: Vec<Vec<f64>> = Vec::new();
-    for chosen in combinations(conditions.len(), free)? {
+    for chosen in subsets(conditions.len(), free)? {
         let side = chosen.iter().map(|k| -conditions[*k].first).collect();
         let found = Elimination::new(&rows(&chosen), free, &[side]);
         let (shares, _) = &found.solutions[0];
         if found.null_space.is_empty() && meets(shares, 1.0) {
             let mut motion = motions.first.clone();
-            for (share, other) in shares.iter().zip(&motions.others) {
+            for (share, other) in shares.iter().zip(&motions.null_space) {
                 let size = largest(other);
                 for (v, o) in motion.iter_mut().zip(other) {
                     *v += share * o / size;
@@ -348,19 +354,19 @@ impl Condition {
     }
 }
 
-/// Returns all subsets of `count` numbers from 0, 1, …, `of` − 1. `None` if there are too many.
-fn combinations(of: usize, count: usize) -> Option<Vec<Vec<usize>>> {
+/// Returns all subsets of `count` numbers from 0, 1, …, `total` − 1. `None` if there are too many.
+fn subsets(total: usize, count: usize) -> Option<Vec<Vec<usize>>> {
     let mut all: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..count {
         let mut longer = Vec::new();
         for chosen in &all {
-            for k in chosen.last().map_or(0, |last| last + 1)..of {
+            for k in chosen.last().map_or(0, |last| last + 1)..total {
                 let mut more = chosen.clone();
                 more.push(k);
                 longer.push(more);
             }
         }
-        if longer.len() > MOST_COMBINATIONS {
+        if longer.len() > MAX_COMBINATIONS {
             return None;
         }
         all = longer;

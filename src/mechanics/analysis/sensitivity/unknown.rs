@@ -7,10 +7,10 @@ use crate::solve::LimitState;
 
 /// A force is basic if its amount, relative to the largest amount, is larger than this. It must also be larger than the
 /// power of the column, relative to the largest velocity.
-const BASIC: f64 = 1e-8;
+const BASIC_TOL: f64 = 1e-8;
 
 /// The force of a robot counts as being at its limit if it is this close to it, relative to the limit.
-const AT_LIMIT: f64 = 1e-6;
+const LIMIT_TOL: f64 = 1e-6;
 
 /// A force whose amount is unknown.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,7 @@ pub(super) fn unknowns(
                         },
                     },
                     amount: amount * normal,
-                    is_basic: share > BASIC && share > power,
+                    is_basic: share > BASIC_TOL && share > power,
                     is_both_ways: false,
                 });
             }
@@ -83,7 +83,7 @@ pub(super) fn unknowns(
     for (grip, (forces, term)) in grips.iter().zip(&program.grips).enumerate() {
         for (component, amount) in forces.iter().copied().enumerate() {
             let limit = term.limits[component];
-            if limit > 0.0 && amount.abs() >= limit * (1.0 - AT_LIMIT) {
+            if limit > 0.0 && amount.abs() >= limit * (1.0 - LIMIT_TOL) {
                 limits.push((grip, component, limit * amount.signum()));
             } else if limit > 0.0 {
                 unknowns.push(Unknown {

@@ -85,7 +85,7 @@ fn a_rounding_is_granted_to_friction_within_its_cone_and_to_no_more_than_the_loa
 /// A stone without weight has no load to measure by: what is left of it is no share, and friction alone balances it.
 #[test]
 fn what_nothing_loads_has_no_share() {
-    let idle = squeezed(0.0, 0.5, LoadVector::NONE);
+    let idle = squeezed(0.0, 0.5, LoadVector::ZERO);
     let at = [pressed(10.0, 10.0, 1.0), pressed(10.0, 10.0, 2.0)];
     let all = found(&idle, at.into(), vec![]);
     assert_eq!(all[1], 0.0);
@@ -99,7 +99,7 @@ fn what_nothing_loads_has_no_share() {
 #[test]
 fn imbalance_knows_no_unit() {
     let alone = |unit: f64| {
-        let mut there = on_ground(LoadVector::NONE);
+        let mut there = on_ground(LoadVector::ZERO);
         there.bodies[0].weight = 10.0 * unit;
         let there = there.with_summed_loads();
         let all = found(&there, vec![pressed(5.5 * unit, 5.5 * unit, 0.0)], vec![]);
@@ -124,7 +124,7 @@ fn many_small_forces_are_weighed_as_few_large_ones_are() {
         narrow
     });
     let there = assembly(
-        vec![body(0, 0.0, 3.0, 9.0, LoadVector::NONE)],
+        vec![body(0, 0.0, 3.0, 9.0, LoadVector::ZERO)],
         joints.collect(),
     );
     // Friction is in balance by itself, and counts neither way.

@@ -6,8 +6,8 @@ use super::*;
 fn a_bound_from_below_has_every_rounding_taken_off() {
     const EPSILON: f64 = f64::EPSILON;
     // A box let down at 1, another that hangs on a robot at 4: 34 W.
-    let mut both = on_ground(LoadVector::NONE);
-    both.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::NONE));
+    let mut both = on_ground(LoadVector::ZERO);
+    both.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     let mut both = both.with_summed_loads();
     let bound = |assembly: &Assembly, last: Motion| {
         force_sum_lower_bound(assembly, &[moving(0, 0.0, -1.0, 0.0), last])

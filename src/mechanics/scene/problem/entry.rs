@@ -1,10 +1,10 @@
 //! Messages about keys and values that do not fit the format of a scene file.
 
-use super::{Code, Wording, choice, say, shortened};
+use super::{Code, Wording, choice, new_wording, shortened};
 use crate::text::nearest;
 
 pub(in crate::mechanics::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
-    say(
+    new_wording(
         Code::WrongType,
         format!("expected {expected}, found {found}"),
         help(expected, found),
@@ -12,7 +12,7 @@ pub(in crate::mechanics::scene) fn wrong_type(expected: &str, found: &str) -> Wo
 }
 
 pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) -> Wording {
-    say(
+    new_wording(
         Code::WrongType,
         format!("expected {expected}, found {found}"),
         "write a number such as 0.6; to name what a body is made of, use `material`, and give its friction in `materials`",
@@ -45,7 +45,7 @@ fn help(expected: &str, found: &str) -> String {
 }
 
 pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) -> Wording {
-    say(
+    new_wording(
         Code::WrongType,
         format!("expected {expected}, found the string \"{found}\""),
         format!("write {found} without quotes"),
@@ -59,7 +59,7 @@ pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
         }
         _ => "write [x, y]",
     };
-    say(
+    new_wording(
         Code::WrongLength,
         format!("a point has two coordinates; this one has {}", count(found)),
         help,
@@ -73,7 +73,7 @@ pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
         }
         _ => "write [x, y]",
     };
-    say(
+    new_wording(
         Code::WrongLength,
         format!("a vector has two components; this one has {}", count(found)),
         help,
@@ -97,7 +97,7 @@ pub(in crate::mechanics::scene) fn unknown_choice(text: &str, known: &[String]) 
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("write {names}"),
     };
-    say(
+    new_wording(
         Code::UnknownChoice,
         format!("expected {names}, found \"{}\"", shortened(text)),
         help,
@@ -119,7 +119,7 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
     };
-    say(
+    new_wording(
         Code::UnknownKey,
         format!("unknown key `{}`", shortened(key)),
         help,
@@ -148,7 +148,7 @@ fn synonym(key: &str) -> Option<&'static str> {
 }
 
 pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
-    say(
+    new_wording(
         Code::DuplicateKey,
         format!(
             "the key `{}` occurs twice; first in line {line}, column {column}",
@@ -160,7 +160,7 @@ pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column:
 
 /// Returns the message about a key that occurs twice in an object built in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
-    say(
+    new_wording(
         Code::DuplicateKey,
         format!("the key `{}` occurs twice", shortened(key)),
         "remove one of the two keys",
@@ -173,7 +173,7 @@ pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
         "blocks" => "add `\"blocks\": […]`, the list of blocks; it may be empty".into(),
         _ => format!("add `\"{key}\"`"),
     };
-    say(
+    new_wording(
         Code::MissingKey,
         format!("the key `{key}` is missing"),
         help,
@@ -181,7 +181,7 @@ pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {
-    say(
+    new_wording(
         Code::UnknownChoice,
         "both bodies of the contact are the same body",
         "name two different bodies; `ground` is the ground",

@@ -1,6 +1,6 @@
 //! Messages about names and ids that are unknown, reserved, empty or used twice.
 
-use super::{Code, Wording, say, shortened};
+use super::{Code, Wording, new_wording, shortened};
 use crate::text::nearest;
 
 pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
@@ -22,7 +22,7 @@ pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &
             known.len()
         ),
     };
-    say(
+    new_wording(
         Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
         help,
@@ -30,7 +30,7 @@ pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &
 }
 
 pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording {
-    say(
+    new_wording(
         Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
         "the first problem of this kind lists the known names or the nearest one",
@@ -38,7 +38,7 @@ pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) 
 }
 
 pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
-    say(
+    new_wording(
         Code::DuplicateId,
         format!(
             "the {sort} id `{}` is used twice; first by {first}",
@@ -49,7 +49,7 @@ pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -
 }
 
 pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
-    say(
+    new_wording(
         Code::ReservedName,
         "the id `ground` is reserved for the ground in results",
         "give the block another id",
@@ -57,7 +57,7 @@ pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
-    say(
+    new_wording(
         Code::EmptyId,
         format!("the {sort}'s id is empty"),
         "write an id of at least one character",
@@ -65,7 +65,7 @@ pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {
-    say(
+    new_wording(
         Code::ReservedName,
         format!("`{name}` is the name of a built-in shape"),
         "give the shape another name",
@@ -73,7 +73,7 @@ pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn pair_twice(names: &[String; 2], first: usize) -> Wording {
-    say(
+    new_wording(
         Code::DuplicatePair,
         format!(
             "the pair {}, {} is listed twice; first in friction_pairs[{first}]",

@@ -1,11 +1,11 @@
 //! Messages of notes, which point out input that is allowed but probably not intended.
 
-use super::{Code, Wording, digits, pair, say, shortened};
+use super::{Code, Wording, digits, new_wording, pair, shortened};
 
 /// Creates the wording of a note. A wording needs a problem code, but this code is never shown, because notes have
 /// codes of their own.
 fn note(message: String, hint: impl Into<String>) -> Wording {
-    say(Code::OutOfRange, message, hint)
+    new_wording(Code::OutOfRange, message, hint)
 }
 
 pub(in crate::mechanics::scene) fn friction_high(mu: f64) -> Wording {

@@ -2,10 +2,10 @@
 
 use crate::scene::format::UnitsEntry;
 
-use super::{Code, Wording, digits, say, shortened};
+use super::{Code, Wording, digits, new_wording, shortened};
 
 pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
-    say(
+    new_wording(
         Code::UnknownVersion,
         format!("version {found} of the scene format is not known"),
         "write `\"drystone\": 1`",
@@ -13,7 +13,7 @@ pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
-    say(
+    new_wording(
         Code::NotFinite,
         format!("the number is {x}"),
         "give a finite number",
@@ -21,7 +21,7 @@ pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
-    say(
+    new_wording(
         Code::TooLarge,
         format!(
             "the number {} exceeds the limit of ±{}",
@@ -42,7 +42,7 @@ fn check_units(units: UnitsEntry) -> String {
 }
 
 pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry) -> Wording {
-    say(
+    new_wording(
         Code::TooSmall,
         format!(
             "the number {} is not 0, but smaller than the limit of ±{}",
@@ -59,7 +59,7 @@ pub(in crate::mechanics::scene) fn tiny_extent(
     units: UnitsEntry,
 ) -> Wording {
     let unit = units.length().symbol();
-    say(
+    new_wording(
         Code::TooSmall,
         format!(
             "the extent is {} {unit}, which is less than the limit of {} {unit}",
@@ -74,7 +74,7 @@ pub(in crate::mechanics::scene) fn tiny_extent(
 }
 
 pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
-    say(
+    new_wording(
         Code::Negative,
         format!("negative {what} {}", digits(x)),
         format!("`{what}` must be at least 0"),
@@ -82,7 +82,7 @@ pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
-    say(
+    new_wording(
         Code::OutOfRange,
         format!("the kernel {} is not between 0 and 1", digits(x)),
         "give the fraction of each contact that must stay free of force: 0 for none, 0.2 for a fifth",
@@ -90,7 +90,7 @@ pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
-    say(
+    new_wording(
         Code::OutOfRange,
         format!("the side {} of the grid is not positive", digits(x)),
         "give the edge length of a cell, more than 0",
@@ -98,7 +98,7 @@ pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
-    say(
+    new_wording(
         Code::TooLarge,
         format!(
             "the block's weight would be {} N, more than the limit of {} N",
@@ -110,7 +110,7 @@ pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wordi
 }
 
 pub(in crate::mechanics::scene) fn colour(text: &str) -> Wording {
-    say(
+    new_wording(
         Code::NoColour,
         format!("\"{}\" is not a colour", shortened(text)),
         "write a colour as \"#8b6b3d\" or \"#863\"",

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Code, Wording, digits, pair, point, say};
+use super::{Code, Wording, digits, new_wording, pair, point};
 use crate::geometry::Point;
 use crate::scene::format::UnitsEntry;
 
@@ -32,7 +32,7 @@ pub(in crate::mechanics::scene) fn too_few_corners(found: usize) -> Wording {
         1 => "only 1 corner".into(),
         _ => format!("only {found} different corners"),
     };
-    say(
+    new_wording(
         Code::TooFewCorners,
         format!("the outline has {corners}"),
         "give at least three corners",
@@ -40,7 +40,7 @@ pub(in crate::mechanics::scene) fn too_few_corners(found: usize) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn zero_area() -> Wording {
-    say(
+    new_wording(
         Code::ZeroArea,
         "the outline encloses no area",
         "give corners that do not all lie on one line",
@@ -48,7 +48,7 @@ pub(in crate::mechanics::scene) fn zero_area() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wording {
-    say(
+    new_wording(
         Code::CrossingOutline,
         format!("{a} meets {b} at {}", point(at)),
         "list the corners in order around the outline, so that no sides cross or touch; corners are counted from 0",
@@ -56,7 +56,7 @@ pub(in crate::mechanics::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wo
 }
 
 pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
-    say(
+    new_wording(
         Code::HoleOutside,
         "the hole does not lie inside the outline, or lies inside another hole",
         "move the hole, or make it a separate block",
@@ -64,7 +64,7 @@ pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_outline() -> Wording {
-    say(
+    new_wording(
         Code::NoOutline,
         "the body has no `polygon`, no `cells` and no `shape`",
         "give `polygon`, `cells` or `shape`",
@@ -72,7 +72,7 @@ pub(in crate::mechanics::scene) fn no_outline() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
-    say(
+    new_wording(
         Code::MissingKey,
         "the block has a `centre`, but no `mass` and no `weight`",
         "give `mass` or `weight`; a density is not enough without an outline",
@@ -80,7 +80,7 @@ pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
-    say(
+    new_wording(
         Code::NoOutline,
         "the shape has no `polygon` and no `cells`",
         "give `polygon` or `cells`",
@@ -88,7 +88,7 @@ pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wording {
-    say(
+    new_wording(
         Code::TwoOutlines,
         format!("the keys `{first}` and `{second}` are both given"),
         "give only one of the two keys",
@@ -96,7 +96,7 @@ pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wo
 }
 
 pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
-    say(
+    new_wording(
         Code::HolesWithoutPolygon,
         "`holes` need a `polygon`",
         "give the outline as `polygon`, or remove `holes`; in a body of cells, leave out cells to make a hole",
@@ -104,7 +104,7 @@ pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn cells_without_grid() -> Wording {
-    say(
+    new_wording(
         Code::NeedsGrid,
         "cells need a grid",
         "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or give a polygon",
@@ -112,7 +112,7 @@ pub(in crate::mechanics::scene) fn cells_without_grid() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn shape_without_grid(name: &str) -> Wording {
-    say(
+    new_wording(
         Code::NeedsGrid,
         format!("the built-in shape `{name}` needs a triangular grid"),
         "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or describe a shape of your own in `shapes`",
@@ -120,7 +120,7 @@ pub(in crate::mechanics::scene) fn shape_without_grid(name: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_cells() -> Wording {
-    say(
+    new_wording(
         Code::NoOutline,
         "the list of cells is empty",
         "give at least one cell",
@@ -128,7 +128,7 @@ pub(in crate::mechanics::scene) fn no_cells() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn square_cell() -> Wording {
-    say(
+    new_wording(
         Code::WrongCell,
         "a cell of the triangular grid needs \"up\" or \"down\"",
         "write [x, y, \"up\"] or [x, y, \"down\"]",
@@ -136,7 +136,7 @@ pub(in crate::mechanics::scene) fn square_cell() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn triangle_cell() -> Wording {
-    say(
+    new_wording(
         Code::WrongCell,
         "a cell of the square grid has no \"up\" or \"down\"",
         "write [x, y]",
@@ -144,7 +144,7 @@ pub(in crate::mechanics::scene) fn triangle_cell() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
-    say(
+    new_wording(
         Code::DuplicateCell,
         format!("the cell is listed twice; first as number {first}, counting from 0"),
         "remove one of the two cells",
@@ -152,7 +152,7 @@ pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn cells_apart() -> Wording {
-    say(
+    new_wording(
         Code::CellsApart,
         "the cells are not all connected by common edges",
         "make each connected part a separate block",
@@ -160,7 +160,7 @@ pub(in crate::mechanics::scene) fn cells_apart() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
-    say(
+    new_wording(
         Code::OffLattice,
         format!("{} is not a lattice point", pair(p)),
         "cells need whole numbers as coordinates; a polygon may have any coordinates",
@@ -168,7 +168,7 @@ pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
-    say(
+    new_wording(
         Code::TooLarge,
         format!(
             "{} exceeds the limit of ±{} lattice steps",
@@ -180,7 +180,7 @@ pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wo
 }
 
 pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> Wording {
-    say(
+    new_wording(
         Code::OffLattice,
         format!("a rotation by {}° does not fit the lattice", digits(angle)),
         format!("give a multiple of {}°, or use a polygon", digits(turn)),
@@ -214,7 +214,7 @@ pub(in crate::mechanics::scene) fn overlap(
     let help = "move the bodies apart until they only touch".to_owned();
     // Round the depth up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
-    say(
+    new_wording(
         Code::Overlap,
         format!(
             "{a} and {b} overlap by {} {unit}, with a common area of {} {unit}², around {}{when}",
@@ -233,7 +233,7 @@ pub(in crate::mechanics::scene) fn overlap(
 }
 
 pub(in crate::mechanics::scene) fn more_overlaps(listed: usize) -> Wording {
-    say(
+    new_wording(
         Code::MoreProblems,
         format!("there are more overlaps than the {listed} in this list"),
         "correct the listed overlaps first",

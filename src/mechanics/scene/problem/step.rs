@@ -1,9 +1,9 @@
 //! Messages about steps of the assembly that cannot be executed.
 
-use super::{Code, Wording, say, shortened};
+use super::{Code, Wording, new_wording, shortened};
 
 pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
-    say(
+    new_wording(
         Code::TooManySteps,
         format!("the frames of {steps} steps contain more than {most} blocks in total"),
         "use fewer steps, or split the scene into several scenes",
@@ -16,7 +16,7 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
     } else {
         format!("by steps[{since}]")
     };
-    say(
+    new_wording(
         Code::PlacedTwice,
         format!("the block `{}` is already placed, {when}", shortened(block)),
         "place each block only once; to place a block again, `remove` it first",
@@ -24,7 +24,7 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
 }
 
 pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotPlaced,
         format!(
             "the block `{}` is removed, but it is not placed",
@@ -35,7 +35,7 @@ pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wording {
-    say(
+    new_wording(
         Code::RemovedWhileHeld,
         format!(
             "the block `{}` is removed while the robot `{}` holds it",
@@ -50,7 +50,7 @@ pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wor
 }
 
 pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotPlaced,
         format!(
             "the robot `{}` holds the block `{}`, which is not placed",
@@ -66,7 +66,7 @@ pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wo
 
 pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wording {
     let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
-    say(
+    new_wording(
         Code::HoldsTwo,
         format!(
             "the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"
@@ -76,7 +76,7 @@ pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &st
 }
 
 pub(in crate::mechanics::scene) fn planned_placed(robot: &str, block: &str) -> Wording {
-    say(
+    new_wording(
         Code::PlacedTwice,
         format!(
             "the robot `{}` plans the block `{}`, which is already placed",

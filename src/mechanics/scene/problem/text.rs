@@ -1,6 +1,6 @@
 //! Messages about text that is not JSON.
 
-use super::{Code, Wording, say, shortened};
+use super::{Code, Wording, new_wording, shortened};
 
 pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
     let help = if utf16 {
@@ -8,7 +8,7 @@ pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
     } else {
         "save the file in the encoding UTF-8"
     };
-    say(
+    new_wording(
         Code::NotUtf8,
         format!("the byte 0x{byte:02X} is not UTF-8 text"),
         help,
@@ -16,7 +16,7 @@ pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
-    say(
+    new_wording(
         Code::MoreProblems,
         format!("there are more problems than the {listed} in this list"),
         "correct the listed problems first; many may have the same cause",
@@ -24,7 +24,7 @@ pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn empty_text() -> Wording {
-    say(
+    new_wording(
         Code::EmptyFile,
         "the file is empty",
         "start from the scene that `drystone new` writes",
@@ -38,11 +38,11 @@ pub(in crate::mechanics::scene) fn early_end(opened: Option<(char, usize, usize)
         ),
         None => "a part of the file seems to be missing".into(),
     };
-    say(Code::EndsEarly, "the file ends too early", help)
+    new_wording(Code::EndsEarly, "the file ends too early", help)
 }
 
 pub(in crate::mechanics::scene) fn not_a_number(word: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("`{word}` is not a number in JSON"),
         "give a finite number; if a robot has no limit, leave the limit out",
@@ -50,7 +50,7 @@ pub(in crate::mechanics::scene) fn not_a_number(word: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn foreign_word(word: &str, meant: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("`{word}` is not JSON"),
         format!("write `{meant}`"),
@@ -58,7 +58,7 @@ pub(in crate::mechanics::scene) fn foreign_word(word: &str, meant: &str) -> Word
 }
 
 pub(in crate::mechanics::scene) fn bare_word(word: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("`{}` is not JSON", shortened(word)),
         "put strings and keys in double quotes",
@@ -66,7 +66,7 @@ pub(in crate::mechanics::scene) fn bare_word(word: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn comment() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "JSON has no comments",
         "remove the comment; the key `title` can hold a text for people",
@@ -74,7 +74,7 @@ pub(in crate::mechanics::scene) fn comment() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn single_quotes() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "JSON has no single quotes",
         "put strings and keys in double quotes",
@@ -82,7 +82,7 @@ pub(in crate::mechanics::scene) fn single_quotes() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "there is a comma after the last entry",
         "remove the comma, or add the entry that follows it",
@@ -90,7 +90,7 @@ pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn number_too_large(text: &str) -> Wording {
-    say(
+    new_wording(
         Code::TooLarge,
         format!("the number {} is too large", shortened(text)),
         "give a number of at most 1e12",
@@ -98,7 +98,7 @@ pub(in crate::mechanics::scene) fn number_too_large(text: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("`{}` is not a number in JSON", shortened(text)),
         "write numbers as 0.5, -2 or 1e3: no leading + or 0, and a digit on both sides of the point",
@@ -106,7 +106,7 @@ pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn too_deep() -> Wording {
-    say(
+    new_wording(
         Code::NestedTooDeep,
         "more than 127 brackets are open at once",
         "a scene needs no more than seven levels of brackets",
@@ -114,7 +114,7 @@ pub(in crate::mechanics::scene) fn too_deep() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn open_string() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "a string contains a line break or another control character",
         "close the string on its line; write a line break as \\n and a tab as \\t",
@@ -122,7 +122,7 @@ pub(in crate::mechanics::scene) fn open_string() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn missing_comma(close: char) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("expected `,` or `{close}`"),
         "put a comma between entries, and check that every bracket is closed",
@@ -130,7 +130,7 @@ pub(in crate::mechanics::scene) fn missing_comma(close: char) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn not_json(expected: &str) -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         format!("this is not JSON: expected {expected}"),
         "correct the text here, or shortly before this place",
@@ -138,7 +138,7 @@ pub(in crate::mechanics::scene) fn not_json(expected: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn behind_the_end() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "there is text after the end of the scene",
         "remove the text after the last bracket of the scene, or a superfluous closing bracket before it",
@@ -146,7 +146,7 @@ pub(in crate::mechanics::scene) fn behind_the_end() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn escape() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "JSON has no such escape sequence in a string",
         "write a backslash as \\\\, a line break as \\n, and any character by its code as \\u00e9",
@@ -154,7 +154,7 @@ pub(in crate::mechanics::scene) fn escape() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn surrogate() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "the escape is only half of a surrogate pair",
         "write the character itself, or both halves of its surrogate pair",
@@ -162,7 +162,7 @@ pub(in crate::mechanics::scene) fn surrogate() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn conflict() -> Wording {
-    say(
+    new_wording(
         Code::NotJson,
         "a merge conflict has left two versions of the text here",
         "keep one version, and delete the lines that begin with <<<<<<<, ======= and >>>>>>>",
@@ -176,5 +176,5 @@ pub(in crate::mechanics::scene) fn other_format(format: &str) -> Wording {
             "a scene is written as JSON, which begins with `{`; `drystone new` writes a scene to start from"
         }
     };
-    say(Code::OtherFormat, format!("this looks like {format}"), help)
+    new_wording(Code::OtherFormat, format!("this looks like {format}"), help)
 }

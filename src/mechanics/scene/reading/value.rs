@@ -13,7 +13,7 @@ use super::super::source::{Mark, Source};
 use super::super::tree::{Entry, List, Node, NodeKind};
 
 /// In objects with more keys than this, repeated keys are found with a table.
-const FEW: usize = 16;
+const MAX_KEYS_WITHOUT_TABLE: usize = 16;
 
 /// Reads the values of a scene file and collects their problems.
 pub(super) struct Reader<'s, 't> {
@@ -348,7 +348,7 @@ fn repeated<'n, 't>(
 ) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {
     let mut table: BTreeMap<&str, &Entry<'t>> = BTreeMap::new();
     entries.iter().enumerate().filter_map(move |(i, entry)| {
-        let first = if entries.len() <= FEW {
+        let first = if entries.len() <= MAX_KEYS_WITHOUT_TABLE {
             entries[..i].iter().find(|e| e.name == entry.name)
         } else {
             let first = table.get(entry.name.as_ref()).copied();

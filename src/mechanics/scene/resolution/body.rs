@@ -4,7 +4,7 @@ use super::Resolution;
 use crate::geometry::{Point, Vector};
 use crate::scene::finding::Findings;
 use crate::scene::format::{self, Pair};
-use crate::scene::number::{LARGEST, at_least_zero, is_sane};
+use crate::scene::number::{MAX_MAGNITUDE, at_least_zero, is_sane};
 use crate::scene::outline::{self, Outline};
 use crate::scene::path::Trail;
 use crate::scene::problem;
@@ -187,8 +187,8 @@ impl Resolution<'_> {
             Some(weight) => weight * force,
             None => mass.unwrap_or_else(|| density * volume()) * self.gravity.norm(),
         };
-        if !weight.is_finite() || weight > LARGEST {
-            findings.add(at, problem::number::too_heavy(weight, LARGEST));
+        if !weight.is_finite() || weight > MAX_MAGNITUDE {
+            findings.add(at, problem::number::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
         Some(Block {
@@ -233,8 +233,8 @@ impl Resolution<'_> {
         let fill = fill.and_then(|f| colour(findings, &at.key("fill"), f));
         let is_sound = is_sane(findings, &at.key("centre"), &centre);
         let weight = weight.filter(|_| is_sound && other.is_none())?;
-        if !weight.is_finite() || weight > LARGEST {
-            findings.add(at, problem::number::too_heavy(weight, LARGEST));
+        if !weight.is_finite() || weight > MAX_MAGNITUDE {
+            findings.add(at, problem::number::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
         let centroid = Point::new(centre[0], centre[1]);

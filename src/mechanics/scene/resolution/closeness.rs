@@ -60,7 +60,7 @@ impl Resolution<'_> {
         // Estimate the rounding of the coordinates, unless the contacts are exact or the tolerance is given.
         let rounding = match exact || given.is_some() {
             true => None,
-            false => rounding::of(self.file),
+            false => rounding::estimate_rounding(self.file),
         };
         let (reach, healed) = if exact {
             let healed = Healed {
@@ -90,7 +90,7 @@ fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>
     if let Some(gap) = given {
         return HealingReach {
             source: ToleranceSource::Given,
-            usual: 0.0,
+            default_gap: 0.0,
             healing: gap,
         };
     }
@@ -101,17 +101,17 @@ fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>
     };
     let around = polygons().map(Polygon::bounds).reduce(Bounds::union);
     let typical = median(polygons().map(|p| p.bounds().diagonal()).collect());
-    let usual = Tolerance::new(around.map_or(0.0, Bounds::diagonal), typical).gap;
+    let default_gap = Tolerance::new(around.map_or(0.0, Bounds::diagonal), typical).gap;
     let small = median(polygons().map(heal::size).collect());
-    match rounding.filter(|r| misfit(r) <= heal::FINE * small) {
+    match rounding.filter(|r| misfit(r) <= heal::MAX_ROUNDING_PER_SIZE * small) {
         Some(rounding) => HealingReach {
             source: rounding.source,
-            usual,
+            default_gap,
             healing: misfit(&rounding),
         },
         None => HealingReach {
             source: ToleranceSource::Size,
-            usual,
+            default_gap,
             healing: 0.0,
         },
     }

@@ -10,9 +10,9 @@ use crate::scene::problem;
 use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
 
 /// The size of a schematic centre or support, as a share of the diagonal around all centres and contacts.
-const SIGN: f64 = 0.03;
+const SYMBOL_SIZE_SHARE: f64 = 0.03;
 /// Corners of the schematic disc around a centre.
-const DISC: usize = 8;
+const DISC_CORNERS: usize = 8;
 
 impl Resolution<'_> {
     /// True if the file lists its contacts, or has a block without an outline. Contacts are then not computed from
@@ -80,15 +80,15 @@ impl Resolution<'_> {
         let centres = blocks.iter().flatten().map(|b| b.centroid);
         let points = centres.chain(contacts.iter().map(|c| c.at));
         let extent = Bounds::from_points(points).map_or(0.0, Bounds::diagonal);
-        let sign = SIGN * if extent > 0.0 { extent } else { 1.0 };
+        let sign = SYMBOL_SIZE_SHARE * if extent > 0.0 { extent } else { 1.0 };
         for (i, block) in blocks.iter_mut().enumerate() {
             let Some(block) = block.as_mut().filter(|b| b.body.is_schematic) else {
                 continue;
             };
             let own = BodyId::Block(BlockId(i));
             let touching = contacts.iter().filter(|c| c.bodies.contains(&own));
-            let disc = (0..DISC).map(|k| {
-                let (sin, cos) = sin_cos_degrees(360.0 / DISC as f64 * k as f64);
+            let disc = (0..DISC_CORNERS).map(|k| {
+                let (sin, cos) = sin_cos_degrees(360.0 / DISC_CORNERS as f64 * k as f64);
                 block.centroid + Vector::new(cos, sin) * sign
             });
             let outline = hull(touching.map(|c| c.at).chain(disc).collect());

@@ -5,7 +5,7 @@ use super::body::BodyEntry;
 use crate::geometry::{Cell, CellShape, Point, Vector, sin_cos_degrees};
 use crate::scene::finding::{Findings, UnreadParts};
 use crate::scene::format::{CellEntry, CellHalf, SceneFile};
-use crate::scene::number::LARGEST;
+use crate::scene::number::MAX_MAGNITUDE;
 use crate::scene::{BlockId, BodyId, Scene};
 
 /// A body as written in the file, in its position in the scene.
@@ -120,7 +120,7 @@ impl Resolution<'_> {
             let corners = ring.into_iter().map(|p| placement.place(p));
             corners.collect::<Vec<Point>>()
         });
-        let drawable = |p: &Point| p.x.abs() <= LARGEST && p.y.abs() <= LARGEST;
+        let drawable = |p: &Point| p.x.abs() <= MAX_MAGNITUDE && p.y.abs() <= MAX_MAGNITUDE;
         placed
             .filter(|ring| !ring.is_empty() && ring.iter().all(drawable))
             .collect()

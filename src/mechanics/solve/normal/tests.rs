@@ -443,7 +443,8 @@ fn columns_of_the_same_two_bodies_are_one_group_and_act_as_before() {
     let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
         unknowns.iter().map(|i| (*i, numbers.next())).collect()
     };
-    // Bodies 0 and 1: normal forces, friction and both; body 1 and the ground; bodies 1 and 2; nobody; one unknown of body 2.
+    // Bodies 0 and 1: normal forces, friction and both; body 1 and the ground; bodies 1 and 2; nobody; one unknown of
+    // body 2.
     let columns = vec![
         column(&[1, 2, 4, 5]),
         column(&[0, 2, 3, 5]),

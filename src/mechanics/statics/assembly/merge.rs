@@ -45,7 +45,7 @@ fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
     let centroid = Point::from(sum / members.len() as f64);
     // The load of each member keeps its line of action, so it has an additional moment about the common centroid.
     let summed = |load: fn(&AssemblyBody) -> LoadVector| {
-        members.iter().fold(LoadVector::NONE, |sum, body| {
+        members.iter().fold(LoadVector::ZERO, |sum, body| {
             let own = load(body);
             sum.plus(load_about(centroid, body.centroid, own.force, own.moment))
         })
@@ -98,7 +98,7 @@ mod tests {
             centroid: Point::new(at[0], at[1]),
             corners: [Point::new(at[0], at[1])].into(),
             weight: 1.0,
-            listed: LoadVector::NONE,
+            listed: LoadVector::ZERO,
             load: LoadVector {
                 force: Vector::new(force[0], force[1]),
                 moment,

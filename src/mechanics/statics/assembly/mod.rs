@@ -51,7 +51,7 @@ pub struct LoadVector {
 
 impl LoadVector {
     /// No load.
-    pub const NONE: LoadVector = LoadVector {
+    pub const ZERO: LoadVector = LoadVector {
         force: Vector::new(0.0, 0.0),
         moment: 0.0,
     };
@@ -168,8 +168,8 @@ impl Assembly {
                 centroid: given.centroid,
                 corners: given.body.polygon.outline().into(),
                 weight: 0.0,
-                listed: LoadVector::NONE,
-                load: LoadVector::NONE,
+                listed: LoadVector::ZERO,
+                load: LoadVector::ZERO,
             }
         });
         Assembly {

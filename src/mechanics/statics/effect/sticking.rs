@@ -11,30 +11,30 @@ const NAME: EffectName = EffectName::Sticking;
 
 /// Whether the least sticking was computed, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sought {
+pub enum AdhesionSearch {
     /// Computed: admissible forces cannot balance the loads.
     Found,
     /// Not computed: the frame stands.
     NotNeeded,
     /// Not computed: the frame falls, and only its verdict was requested.
-    NotAsked,
+    NotRequested,
 }
 
 /// Returns the report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns
 /// that sticking adds to the program, or that were saved because it was not computed.
-pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
-    match sought {
-        Sought::Found => {
+pub fn report(blocks: usize, search: AdhesionSearch, unknowns: usize) -> EffectReport {
+    match search {
+        AdhesionSearch::Found => {
             let why = format!(
                 "no admissible forces balance the {}",
                 counted(blocks, "block")
             );
             EffectReport::simulated(NAME, why, unknowns)
         }
-        Sought::NotNeeded => {
+        AdhesionSearch::NotNeeded => {
             EffectReport::skipped(NAME, "the program without it has a solution", unknowns)
         }
-        Sought::NotAsked => {
+        AdhesionSearch::NotRequested => {
             let why = "only the verdict was asked for, and a motion proves that it falls";
             EffectReport::skipped(NAME, why, unknowns)
         }

@@ -17,23 +17,23 @@ const NAME: EffectName = EffectName::Wedging;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Wedging {
     /// Not requested.
-    NotAsked,
+    NotRequested,
     /// Not checked, because the frame does not stand.
     Falls,
     /// Undecided: a state of rest was neither found nor ruled out. The text gives the reason.
-    Open(String),
+    Undecided(String),
     /// The springs have a state of rest: the frame does not need wedging.
     FromRest,
     /// The springs have no state of rest; the text says how this was shown.
-    Only(String),
+    OnlyByWedging(String),
 }
 
 /// Returns the report on wedging. Wedging is checked only if it was requested and the frame stands.
 pub fn report(wedging: Wedging) -> EffectReport {
     match wedging {
-        Wedging::NotAsked => EffectReport::skipped(NAME, "not asked for", 0),
+        Wedging::NotRequested => EffectReport::skipped(NAME, "not asked for", 0),
         Wedging::Falls => EffectReport::skipped(NAME, "the frame does not stand", 0),
-        Wedging::Open(why) => {
+        Wedging::Undecided(why) => {
             EffectReport::simulated(NAME, format!("asked for and left open: {why}"), 0)
         }
         Wedging::FromRest => EffectReport::simulated(
@@ -41,7 +41,7 @@ pub fn report(wedging: Wedging) -> EffectReport {
             "asked for: springs without stress come to rest under the loads".to_string(),
             0,
         ),
-        Wedging::Only(shown) => EffectReport::simulated(
+        Wedging::OnlyByWedging(shown) => EffectReport::simulated(
             NAME,
             format!("asked for: no springs without stress come to rest under the loads; {shown}"),
             0,

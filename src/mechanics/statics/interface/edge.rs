@@ -260,7 +260,7 @@ impl Collection {
         let longest = longest_outline_edge(scene, bodies);
         for gap in without_outline(open, touching, tolerance, scene.misfit, longest) {
             if gap.distance() <= MAX_REPORTED_GAPS * tolerance.gap {
-                self.notices.add_apart(scene, bodies, gap.distance());
+                self.notices.add_near_contact(scene, bodies, gap.distance());
             }
             self.near_misses.push(NearMiss {
                 bodies,

@@ -14,7 +14,7 @@ pub(super) struct Notices {
     /// The largest length that was required, metres.
     required_length: f64,
     /// Pairs of bodies that nearly touch: their names as text, and their distance in metres.
-    apart: Vec<(String, f64)>,
+    unjoined: Vec<(String, f64)>,
 }
 
 impl Notices {
@@ -26,9 +26,9 @@ impl Notices {
     }
 
     /// Records two bodies with edges that are `distance` metres apart, slightly more than the tolerance.
-    pub(super) fn add_apart(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
+    pub(super) fn add_near_contact(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
         let names = bodies.map(|body| scene.name(body));
-        self.apart
+        self.unjoined
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
@@ -42,8 +42,8 @@ impl Notices {
                 self.short_count, self.longest_short, self.required_length
             ));
         }
-        if let Some((names, distance)) = self.apart.first() {
-            let others = match self.apart.len() - 1 {
+        if let Some((names, distance)) = self.unjoined.first() {
+            let others = match self.unjoined.len() - 1 {
                 0 => String::new(),
                 n => format!(", and so do {n} other pair(s) of edges"),
             };

@@ -1,6 +1,6 @@
-//! Two programs that have an optimum whether the component stands or falls. [`attempt_any_balance`] finds some forces that balance the
-//! loads, or a motion that excludes such forces. [`attempt`] finds the forces with the least imbalance and the motion
-//! with the greatest power.
+//! Two programs that have an optimum whether the component stands or falls. [`attempt_any_balance`] finds some forces
+//! that balance the loads, or a motion that excludes such forces. [`attempt`] finds the forces with the least imbalance
+//! and the motion with the greatest power.
 
 use super::Attempt;
 use crate::program::Program;

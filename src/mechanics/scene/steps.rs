@@ -16,7 +16,7 @@ use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
 /// The largest sum, over all frames, of the number of placed blocks. It allows a wall of 4 000 blocks laid one by one.
-const MOST: usize = 8_000_000;
+const MAX_PLACED_BLOCKS: usize = 8_000_000;
 
 /// The parts of the scene that the steps refer to.
 pub(super) struct StepContext<'s> {
@@ -42,7 +42,7 @@ impl StepContext<'_> {
 
 /// Returns the only frame of a scene without steps. All `blocks` are placed, and the robots hold the blocks given by
 /// `holds`.
-pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
+pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),
         placed: (0..blocks).map(BlockId).collect(),
@@ -57,24 +57,27 @@ pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
 pub(super) fn frames(
     findings: &mut Findings,
     steps: &[StepEntry],
-    cast: &StepContext<'_>,
+    context: &StepContext<'_>,
 ) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
-    let mut standing = Standing {
-        since: BTreeMap::new(),
-        order: BTreeMap::new(),
+    let mut state = StepState {
+        placed_in_step: BTreeMap::new(),
+        by_placing_order: BTreeMap::new(),
         next: 0,
         holds: BTreeMap::new(),
     };
     let mut frames = Vec::with_capacity(steps.len());
-    let mut standings = 0;
+    let mut placed_total = 0;
     for (k, step) in steps.iter().enumerate() {
-        let frame = standing.play(findings, &list.index(k), k, step, cast);
-        standings += frame.placed.len();
+        let frame = state.execute(findings, &list.index(k), k, step, context);
+        placed_total += frame.placed.len();
         frames.push(frame);
-        if standings > MOST {
-            findings.add(&list.index(k), problem::step::too_many(steps.len(), MOST));
+        if placed_total > MAX_PLACED_BLOCKS {
+            findings.add(
+                &list.index(k),
+                problem::step::too_many(steps.len(), MAX_PLACED_BLOCKS),
+            );
             break;
         }
     }
@@ -82,60 +85,63 @@ pub(super) fn frames(
 }
 
 /// The placed blocks and the blocks held by robots, after the steps so far.
-struct Standing {
+struct StepState {
     /// In which step a block was placed, and its number in placing order.
-    since: BTreeMap<BlockId, (usize, usize)>,
+    placed_in_step: BTreeMap<BlockId, (usize, usize)>,
     /// The blocks in placing order.
-    order: BTreeMap<usize, BlockId>,
+    by_placing_order: BTreeMap<usize, BlockId>,
     /// The next number in placing order.
     next: usize,
     holds: BTreeMap<RobotId, (BlockId, Point)>,
 }
 
-impl Standing {
-    fn play(
+impl StepState {
+    fn execute(
         &mut self,
         findings: &mut Findings,
         at: &Trail<'_>,
         number: usize,
         step: &StepEntry,
-        cast: &StepContext<'_>,
+        context: &StepContext<'_>,
     ) -> Frame {
         let list = at.key("release");
         for (i, name) in step.release.iter().enumerate() {
-            if let Some(robot) = cast.robots.find(findings, &list.index(i), name) {
+            if let Some(robot) = context.robots.find(findings, &list.index(i), name) {
                 self.holds.remove(&RobotId(robot));
             }
         }
         let list = at.key("remove");
         for (i, name) in step.remove.iter().enumerate() {
             let at = list.index(i);
-            if let Some(block) = cast.blocks.find(findings, &at, name).map(BlockId) {
-                self.remove(findings, &at, name, block, cast);
+            if let Some(block) = context.blocks.find(findings, &at, name).map(BlockId) {
+                self.remove(findings, &at, name, block, context);
             }
         }
         let list = at.key("place");
         for (i, name) in step.place.iter().enumerate() {
             let at = list.index(i);
-            if let Some(block) = cast.blocks.find(findings, &at, name).map(BlockId) {
-                if let Some((since, _)) = self.since.get(&block) {
-                    findings.add(&at, problem::step::placed_twice(name, *since, number));
+            if let Some(block) = context.blocks.find(findings, &at, name).map(BlockId) {
+                if let Some((placed_in_step, _)) = self.placed_in_step.get(&block) {
+                    findings.add(
+                        &at,
+                        problem::step::placed_twice(name, *placed_in_step, number),
+                    );
                     continue;
                 }
-                self.since.insert(block, (number, self.next));
-                self.order.insert(self.next, block);
+                self.placed_in_step.insert(block, (number, self.next));
+                self.by_placing_order.insert(self.next, block);
                 self.next += 1;
             }
         }
         let list = at.key("hold");
         name::once(findings, &list, &step.hold);
         for (robot, hold) in &step.hold.0 {
-            self.hold(findings, &list.key(robot), robot, hold, cast);
+            self.hold(findings, &list.key(robot), robot, hold, context);
         }
-        let plans = self.plans(findings, &at.key("plan"), step, cast);
+        let plans = self.plans(findings, &at.key("plan"), step, context);
         Frame {
             title: step.title.clone().unwrap_or_default(),
-            placed: self.order.values().copied().collect(),
+            placed: self.by_placing_order.values().copied().collect(),
             holds: self
                 .holds
                 .iter()
@@ -156,13 +162,13 @@ impl Standing {
         at: &Trail<'_>,
         name: &str,
         block: BlockId,
-        cast: &StepContext<'_>,
+        context: &StepContext<'_>,
     ) {
-        let Some((_, place)) = self.since.remove(&block) else {
+        let Some((_, place)) = self.placed_in_step.remove(&block) else {
             findings.add(at, problem::step::removed_unplaced(name));
             return;
         };
-        self.order.remove(&place);
+        self.by_placing_order.remove(&place);
         let holders: Vec<RobotId> = self
             .holds
             .iter()
@@ -172,7 +178,7 @@ impl Standing {
         if let Some(robot) = holders.first() {
             findings.add(
                 at,
-                problem::step::removed_held(name, cast.robots.name(robot.0)),
+                problem::step::removed_held(name, context.robots.name(robot.0)),
             );
         }
         for robot in holders {
@@ -186,18 +192,21 @@ impl Standing {
         at: &Trail<'_>,
         robot_name: &str,
         hold: &HoldEntry,
-        cast: &StepContext<'_>,
+        context: &StepContext<'_>,
     ) {
         let inner = at.key("block");
         let (name, point, name_at) = match hold {
             HoldEntry::Block(name) => (name, None, at),
             HoldEntry::Grip(grip) => (&grip.block, grip.at, &inner),
         };
-        let robot = cast.robots.find_key(findings, at, robot_name).map(RobotId);
-        let block = cast.blocks.find(findings, name_at, name).map(BlockId);
+        let robot = context
+            .robots
+            .find_key(findings, at, robot_name)
+            .map(RobotId);
+        let block = context.blocks.find(findings, name_at, name).map(BlockId);
         let sound = point.is_none_or(|p| is_sane(findings, &at.key("at"), &p));
         let Some(block) = block else { return };
-        if !self.since.contains_key(&block) {
+        if !self.placed_in_step.contains_key(&block) {
             findings.add(name_at, problem::step::held_unplaced(robot_name, name));
             return;
         }
@@ -207,12 +216,12 @@ impl Standing {
         {
             findings.add(
                 at,
-                problem::step::holds_two(robot_name, cast.blocks.name(other.0), name),
+                problem::step::holds_two(robot_name, context.blocks.name(other.0), name),
             );
         }
         if sound {
             self.holds
-                .insert(robot, (block, cast.grip(robot, block, point)));
+                .insert(robot, (block, context.grip(robot, block, point)));
         }
     }
 
@@ -221,16 +230,19 @@ impl Standing {
         findings: &mut Findings,
         at: &Trail<'_>,
         step: &StepEntry,
-        cast: &StepContext<'_>,
+        context: &StepContext<'_>,
     ) -> Vec<Plan> {
         let mut plans = Vec::new();
         name::once(findings, at, &step.plan);
         for (robot_name, name) in &step.plan.0 {
             let at = at.key(robot_name);
-            let robot = cast.robots.find_key(findings, &at, robot_name).map(RobotId);
-            let block = cast.blocks.find(findings, &at, name).map(BlockId);
+            let robot = context
+                .robots
+                .find_key(findings, &at, robot_name)
+                .map(RobotId);
+            let block = context.blocks.find(findings, &at, name).map(BlockId);
             let Some(block) = block else { continue };
-            if self.since.contains_key(&block) {
+            if self.placed_in_step.contains_key(&block) {
                 findings.add(&at, problem::step::planned_placed(robot_name, name));
             } else if let Some(robot) = robot {
                 plans.push(Plan { robot, block });
