@@ -9,6 +9,7 @@ from typing import Any
 
 from . import _drystone
 from ._errors import SceneError
+from ._geometry import capacity_word
 from ._result import Result, Results
 from ._scene import Scene
 
@@ -133,18 +134,8 @@ def asked(
         names = tuple(margins)
     if for_all is not None and capacity is None:
         raise ValueError("for_all limits the forces that a block can carry, so it needs capacity too")
-    where = None if capacity is None else place(capacity)
+    where = None if capacity is None else capacity_word(capacity)
     return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all, sensitivity)
-
-
-def place(capacity: Capacity) -> str:
-    """Returns the text of the option ``--capacity``: the block, and the points if there are any."""
-    if isinstance(capacity, str):
-        return capacity
-    block, *points = capacity
-    if not points:
-        return str(block)
-    return f"{block}@" + "..".join(f"{float(x)!r},{float(y)!r}" for x, y in points)
 
 
 @lru_cache(maxsize=64)

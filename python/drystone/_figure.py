@@ -10,6 +10,7 @@ from typing import Any
 
 from . import _drystone
 from ._errors import DrystoneError
+from ._geometry import capacity_word
 
 _FORMATS = ("svg", "png", "pdf", "tikz")
 
@@ -91,6 +92,8 @@ def words(options: Mapping[str, Any]) -> list[str]:
             continue
         if value is True:
             made.append(option)
+        elif name == "capacity":
+            made.append(f"{option}={capacity_word(value)}")
         elif isinstance(value, (list, tuple)):
             made += [f"{option}={one}" for one in value]
         else:

@@ -30,15 +30,14 @@ def plain(value: object) -> Any:
 def ring(corners: Any) -> list[list[float]]:
     """Returns corners as a list of ``[x, y]``, without the last corner if it is equal to the first."""
     listed = corners.tolist() if hasattr(corners, "tolist") else corners
-    points = []
-    for corner in listed:
-        try:
+    points: list[list[float]] = []
+    corner: Any = listed
+    try:
+        for corner in listed:
             x, y = corner
             points.append([float(x), float(y)])
-        except (TypeError, ValueError):
-            raise DrystoneError(
-                f"corner {len(points)} is {corner!r}; a corner is [x, y], two numbers in metres"
-            ) from None
+    except (TypeError, ValueError):
+        raise DrystoneError(f"corner {len(points)} is {corner!r}; a corner is [x, y], two numbers in metres") from None
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
     return points
@@ -61,16 +60,21 @@ def rings(outline: Any) -> list[list[list[float]]]:
     return [ring(one) for one in parts]
 
 
-def body(outline: Outline | None, holes: Iterable[Outline] | None, keys: dict[str, Any]) -> dict[str, Any]:
+def outline(polygon: Outline | None, holes: Iterable[Outline] | None) -> tuple[list[list[float]] | None, list[list[list[float]]]]:
+    """Returns the outer ring, or ``None`` if there is no polygon, and the rings of all holes."""
+    found = [] if polygon is None else rings(polygon)
+    inner = found[1:] + [ring(one) for one in holes or ()]
+    return found[0] if found else None, inner
+
+
+def body(polygon: Outline | None, holes: Iterable[Outline] | None, keys: dict[str, Any]) -> dict[str, Any]:
     """Returns the keys of a body that are not ``None``, together with its outline."""
     entry: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
-    if outline is not None:
-        outer, *inner = rings(outline)
+    outer, inner = outline(polygon, holes)
+    if outer is not None:
         entry["polygon"] = outer
-        if inner:
-            entry["holes"] = inner
-    if holes is not None:
-        entry["holes"] = entry.get("holes", []) + [ring(one) for one in holes]
+    if inner or holes is not None:
+        entry["holes"] = inner
     return entry
 
 
@@ -82,3 +86,13 @@ def block(
 ) -> dict[str, Any]:
     """Returns the entry of a block in a scene file."""
     return body(polygon, holes, {"id": None if id is None else str(id), **keys})
+
+
+def capacity_word(capacity: str | tuple[Any, ...]) -> str:
+    """Returns the value of the option ``--capacity``, such as ``lintel@2,3``: the block, and the points if there are any."""
+    if isinstance(capacity, str):
+        return capacity
+    block, *points = capacity
+    if not points:
+        return str(block)
+    return f"{block}@" + "..".join(f"{float(x)!r},{float(y)!r}" for x, y in points)

@@ -51,20 +51,22 @@ class Table:
 
     def __getitem__(self, column: str) -> numpy.ndarray[Any, Any]:
         """Returns a column as an array."""
-        import numpy
-
         for name, (kind, values) in zip(self._native.names(), self._native.columns()):
             if name == column:
-                return numpy.array(values, dtype=str) if kind == "U" else numpy.frombuffer(values, dtype=kind)
+                return _array(kind, values)
         raise KeyError(f"there is no column {column}; there are {', '.join(self.columns)}")
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterates over the names of the columns."""
+        return iter(self.columns)
 
     def to_numpy(self) -> numpy.ndarray[Any, Any]:
         """Returns a structured array with a field for each column."""
         import numpy
 
-        columns = [(name, self[name]) for name in self.columns]
-        rows = numpy.empty(len(self), dtype=[(name, column.dtype) for name, column in columns])
-        for name, column in columns:
+        columns = self._arrays()
+        rows = numpy.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
+        for name, column in columns.items():
             rows[name] = column
         return rows
 
@@ -72,7 +74,10 @@ class Table:
         """Returns the table as a pandas DataFrame."""
         import pandas
 
-        return pandas.DataFrame({name: self[name] for name in self.columns})
+        return pandas.DataFrame(self._arrays())
+
+    def _arrays(self) -> dict[str, numpy.ndarray[Any, Any]]:
+        return {name: _array(*column) for name, column in zip(self._native.names(), self._native.columns())}
 
     def to_dicts(self) -> list[dict[str, Any]]:
         """Returns a dict for each row. This needs no other package."""
@@ -81,7 +86,7 @@ class Table:
             if kind == "U":
                 columns.append(values)
             else:
-                columns.append(memoryview(values).cast("d" if kind == "f8" else "q"))
+                columns.append(memoryview(values).cast(_CODES[kind]))
         names = self.columns
         return [dict(zip(names, row)) for row in zip(*columns)]
 
@@ -138,6 +143,9 @@ class _Answer:
 
         ``width_mm`` is the printed width: 84 for one column of a journal, 174 for two columns. ``options`` are options of
         ``drystone render``, such as ``amounts=True``, ``fill="stress"``, ``block="a"`` and ``no_title=True``.
+
+        The kinds "margin" and "sensitivity" show the margin ``margin="friction"``, and the kind "capacity" shows the block
+        ``capacity="lintel"`` or ``capacity=("lintel", (2, 3))``. A figure computes what the result does not contain.
         """
         return Figure.of_analysis(self._native, self._frame, {"kind": kind, "theme": theme, "width_mm": width_mm, **options})
 
@@ -197,6 +205,11 @@ class Frame(_Answer):
     def __bool__(self) -> bool:
         raise TypeError("a frame cannot be used as a truth value; use .stands")
 
+    def to_dict(self, *, timing: bool = True) -> dict[str, Any]:
+        """Returns the frame's part of :meth:`Result.to_dict`."""
+        made: dict[str, Any] = self._result.to_dict(timing=timing)["frames"][self.number]
+        return made
+
     def _record(self) -> Record:
         record: Record = self._result._record()["frames"][self.number]
         return record
@@ -215,13 +228,13 @@ class Result(_Answer):
     def __init__(self, native: _drystone.Analysis, scene: Scene | None) -> None:
         self._native = native
         self._frame = None
-        self._scene = scene
+        self._scene = None if scene is None else scene._frozen()
         self._path = None if scene is None else scene._path
         self._read: Record | None = None
 
     @property
     def scene(self) -> Scene:
-        """The scene that was checked. Raises :class:`DrystoneError` if the result comes from a session."""
+        """The scene as it was when it was checked. Raises :class:`DrystoneError` if the result comes from a session."""
         if self._scene is None:
             raise DrystoneError("the result of a session has no scene file; build a Scene with the same blocks and check it")
         return self._scene
@@ -352,6 +365,9 @@ class Results(Sequence["Result | SceneError"]):
         return f"<p>{_escaped(repr(self)[1:-1])}</p>{self.table._repr_html_()}"
 
 
+_CODES: dict[str, Any] = {"f8": "d", "i8": "q", "?": "?"}
+"""The codes of ``memoryview`` for the numpy types of columns."""
+
 _WORDS = {"stable": "stands", "unstable": "falls", "undecided": "undecided"}
 
 
@@ -362,6 +378,13 @@ def _counted(verdicts: list[str]) -> str:
     """Returns the number of scenes or frames with each verdict, in words."""
     counts = [(verdicts.count(word), word, plural) for word, plural in _PLURALS.items() if word in verdicts]
     return ", ".join(f"{count} {_WORDS.get(word, plural) if count == 1 else plural}" for count, word, plural in counts)
+
+
+def _array(kind: str, values: Any) -> numpy.ndarray[Any, Any]:
+    """Returns a column as an array: a copy that can be changed."""
+    import numpy
+
+    return numpy.array(values, dtype=str) if kind == "U" else numpy.frombuffer(values, dtype=kind)
 
 
 def _escaped(text: str) -> str:

@@ -20,7 +20,7 @@ class Scene:
 
     Lengths are in metres, forces in newtons, masses in kilograms, angles in degrees anticlockwise; y points up. The names
     of arguments are the keys of a scene file. Arguments that are not given have the defaults of the file format. Methods
-    that add a part return the scene.
+    that add a part change the scene and return it.
 
     A scene is checked when it is used; :meth:`validate` checks it immediately.
 
@@ -48,26 +48,8 @@ class Scene:
         expect: str | None = None,
         silence: Sequence[str] | None = None,
     ) -> None:
-        given = {
-            "title": title,
-            "author": author,
-            "project": project,
-            "date": date,
-            "units": units,
-            "friction": friction,
-            "density": density,
-            "thickness": thickness,
-            "gravity": gravity,
-            "kernel": kernel,
-            "contact_tolerance": contact_tolerance,
-            "corner_contacts": corner_contacts,
-            "grid": grid,
-            "expect": expect,
-            "silence": silence,
-        }
-        self._file: dict[str, Any] | None = {"drystone": 1}
-        self._file.update((key, value) for key, value in given.items() if value is not None)
-        self._file["blocks"] = []
+        keys = _without(locals(), "self")
+        self._file: dict[str, Any] | None = {"drystone": 1, **keys, "blocks": []}
         # The text of the scene. If it was read from a file or a string, problems have lines.
         self._text: str | None = None
         self._located = False
@@ -309,6 +291,12 @@ class Scene:
             self._text = _dumps(self._file)
         return self._text
 
+    def _frozen(self) -> Scene:
+        """Returns a scene with the present content, which later changes of this scene do not reach."""
+        made = object.__new__(type(self))
+        made._file, made._text, made._located, made._path = None, self._json(), self._located, self._path
+        return made
+
     def _loaded(self) -> dict[str, Any]:
         """Returns the keys of the scene file. On the first call they are read from the text."""
         if self._file is None:
@@ -330,25 +318,29 @@ class Scene:
         return file
 
     def _add(self, key: str, entry: dict[str, Any]) -> Scene:
-        given = {name: value for name, value in entry.items() if value is not None}
-        self._changed().setdefault(key, []).append(given)
+        self._changed().setdefault(key, []).append(entry)
         return self
 
     def _name(self, key: str, name: str, entry: dict[str, Any]) -> Scene:
-        given = {key: value for key, value in entry.items() if value is not None}
-        self._changed().setdefault(key, {})[name] = given
+        self._changed().setdefault(key, {})[name] = entry
         return self
+
+
+_encode = json.JSONEncoder(default=_geometry.plain, separators=(",", ":"), allow_nan=False).encode
 
 
 def _dumps(value: object) -> str:
     try:
-        return json.dumps(value, default=_geometry.plain, separators=(",", ":"), allow_nan=False)
+        return _encode(value)
     except ValueError as error:
         raise DrystoneError(f"a number of the scene is infinite or not a number: {error}") from None
 
 
 def _without(names: dict[str, Any], *left_out: str) -> dict[str, Any]:
-    return {name: value for name, value in names.items() if name not in left_out and value is not None}
+    given = {name: value for name, value in names.items() if value is not None}
+    for name in left_out:
+        given.pop(name, None)
+    return given
 
 
 def _is_missing(value: object) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _drystone, _geometry
-from ._check import AnyScene, Margins, as_scene, asked, place
+from ._check import AnyScene, Margins, as_scene, asked
 from ._geometry import Outline, Point
 from ._result import Record, Result
 from ._scene import _dumps
@@ -43,7 +43,9 @@ class Session:
         **keys: Any,
     ) -> str:
         """Places a block and returns the verdict; the arguments are those of :meth:`Scene.block`."""
-        return self._native.place(_dumps(_geometry.block(id, polygon, holes, keys)))
+        outer, inner = _geometry.outline(polygon, holes)
+        given = {key: value for key, value in keys.items() if value is not None}
+        return self._native.place(None if id is None else str(id), outer, inner, _dumps(given) if given else None)
 
     def remove(self, block: str) -> str:
         """Removes a block and the loads on it, and returns the verdict."""
@@ -91,13 +93,19 @@ class Session:
 
         If a robot holds the block and no point is given, the result has the forces that this robot may exert.
         """
-        return json.loads(self._native.capacity(place((block, *points)), for_all), object_hook=Record)
+        return json.loads(self._native.capacity(_geometry.capacity_word((block, *points)), for_all), object_hook=Record)
 
     def copy(self) -> Session:
         """Returns an independent session in the same state, in which steps can be tried."""
         made = Session.__new__(Session)
         made._native = self._native.copy()
         return made
+
+    def __copy__(self) -> Session:
+        return self.copy()
+
+    def __deepcopy__(self, memo: object) -> Session:
+        return self.copy()
 
     def __repr__(self) -> str:
         count = len(self.blocks)

@@ -28,6 +28,22 @@ def test_every_kind_is_drawn(steps):
     assert result.frames[0].figure().svg() != drawn["forces"]
 
 
+def test_a_figure_computes_what_the_result_lacks(lintel):
+    bare = ds.check(lintel)
+    asked = ds.check(lintel, sensitivity="friction", capacity="lintel")
+    # The lintel pushes on nothing sideways, so no friction is needed, and gravity may be tilted by some degrees.
+    assert bare.margins is None and "sensitivity" not in bare.frames[0].to_dict()
+    friction, tilt = (bare.figure("sensitivity", margin=name).svg() for name in ("friction", "tilt"))
+    assert "friction" in friction and "tilt" in tilt and friction != tilt
+    assert asked.figure("sensitivity").svg() == friction
+    assert asked.figure("sensitivity", margin="tilt").svg() == tilt
+    assert bare.figure("capacity", capacity="lintel").svg() == asked.figure("capacity").svg()
+    at = bare.figure("capacity", capacity=("lintel", (3, 4))).svg()
+    assert at == bare.figure("capacity", capacity="lintel@3,4").svg() != asked.figure("capacity").svg()
+    fewer = bare.figure("capacity", capacity="lintel", for_all="friction=0.3..0.6").svg()
+    assert fewer != asked.figure("capacity").svg()
+
+
 def test_wrong_options_are_explained(lintel):
     result = ds.check(lintel)
     for options, words in (
@@ -38,9 +54,12 @@ def test_wrong_options_are_explained(lintel):
         ({"width_mm": -1}, "width-mm"),
         ({"pages": True}, "command line only"),
         ({"kind": "freebody", "block": "z"}, "no block z"),
+        ({"kind": "sensitivity", "margin": "robots"}, "kernel"),
+        ({"kind": "capacity", "capacity": "z"}, "no block z"),
     ):
-        with pytest.raises(ds.DrystoneError, match=words):
+        with pytest.raises(ds.DrystoneError, match=words) as caught:
             result.figure(**options).svg()
+        assert "error:" not in str(caught.value) and "Usage" not in str(caught.value)
 
 
 def test_a_notebook_shows_scenes_results_and_problems(lintel, steps):
@@ -77,7 +96,7 @@ def test_reports(steps, tmp_path):
         result.report(path, title="A sheet")
         assert path.stat().st_size > 1000
     assert "A sheet" in (tmp_path / "sheet.html").read_text(encoding="utf-8")
-    with pytest.raises(ds.DrystoneError, match="a report is"):
+    with pytest.raises(ds.DrystoneError, match="must end in .html"):
         result.report(tmp_path / "sheet.doc")
     with pytest.raises(ds.DrystoneError, match="no theme"):
         result.report(tmp_path / "sheet.html", theme="drak")

@@ -111,6 +111,26 @@ def test_tables_agree_with_the_result(steps):
         result.contacts["weights"]
 
 
+def test_columns_are_arrays_that_a_person_can_change():
+    needed("numpy")
+    result = ds.check(ds.Scene().ground(FLOOR).block("a", brick(0, 0)).block("b", brick(4, 2)))
+    blocks = result.blocks
+    assert blocks["id"][blocks["unsupported"]].tolist() == ["b"]
+    weights = blocks["weight"]
+    weights *= 2
+    assert weights.tolist() == [2 * row["weight"] for row in blocks.to_dicts()]
+    assert list(blocks) == blocks.columns and "weight" in blocks
+
+
+def test_a_result_keeps_its_scene(lintel, tmp_path):
+    result = ds.check(lintel)
+    before = lintel.to_dict()
+    lintel.block("late", brick(0, 4))
+    assert result.scene.to_dict() == before
+    result.report(tmp_path / "sheet.md")
+    assert "late" not in (tmp_path / "sheet.md").read_text(encoding="utf-8")
+
+
 def test_tables_without_rows_are_tables():
     result = ds.check(ds.Scene().ground(FLOOR).block("a", brick(0, 0)))
     assert len(result.failures) == 0 and result.failures.to_dicts() == []

@@ -92,6 +92,8 @@ def test_what_is_no_scene_is_refused_in_words():
         ds.check("{}")
     with pytest.raises(ds.DrystoneError, match="corner 1"):
         ds.Scene().block("a", [(0, 0), (1,), (1, 1)])
+    with pytest.raises(ds.DrystoneError, match="corner 0"):
+        ds.Scene().block("a", 5)
     with pytest.raises(ds.DrystoneError, match="infinite or not a number"):
         ds.check(ds.Scene().block("a", [(0, 0), (1, 0), (float("nan"), 1)]))
 

@@ -1,5 +1,7 @@
 """Sessions."""
 
+import copy
+
 import pytest
 from conftest import FLOOR, brick
 
@@ -24,6 +26,22 @@ def test_a_step_gives_a_verdict(session):
     assert repr(session) == "<Session: 2 blocks, stable>"
 
 
+def test_a_block_is_placed_with_all_its_keys(session):
+    hole = [(1, 0.25), (2, 0.25), (2, 0.75), (1, 0.75)]
+    session.place(7, brick(0, 0), holes=[hole], density=2000, friction=None, fill="#aabbcc")
+    scene = ds.Scene(friction=0.6).ground(FLOOR).robot("crane")
+    scene.block("7", brick(0, 0), holes=[hole], density=2000, fill="#aabbcc")
+    mine, known = session.check().blocks.to_dicts(), ds.check(scene).blocks.to_dicts()
+    assert mine == known and mine[0]["area"] == pytest.approx(2.5)
+    grid = ds.Scene(grid={"kind": "square"}).ground(cells=[(x, -1) for x in range(9)])
+    cells = ds.Session(grid)
+    assert cells.place("a", cells=[(0, 0), (1, 0)]) == "stable"
+    assert cells.place("b", cells=[(1, 1), (2, 1), (3, 1)]) == "unstable"
+    with pytest.raises(ds.SceneError) as caught:
+        session.place("b", [(4, 0), (5, 0), (5, float("nan"))])
+    assert caught.value.problems[0].path == "blocks[1].polygon[2]"
+
+
 def test_a_step_that_is_not_possible_changes_nothing(session):
     session.place("a", brick(0, 0))
     with pytest.raises(ds.SceneError) as caught:
@@ -45,10 +63,10 @@ def test_a_step_that_is_not_possible_changes_nothing(session):
 
 def test_a_copy_is_apart(session):
     session.place("a", brick(0, 0))
-    other = session.copy()
-    other.place("b", brick(2, 1))
-    assert (session.verdict, other.verdict) == ("stable", "unstable")
-    assert session.blocks == ["a"]
+    for other in (session.copy(), copy.copy(session), copy.deepcopy(session)):
+        other.place("b", brick(2, 1))
+        assert (session.verdict, other.verdict) == ("stable", "unstable")
+        assert session.blocks == ["a"]
 
 
 def test_a_session_agrees_with_a_scene(session):

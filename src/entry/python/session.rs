@@ -3,7 +3,7 @@
 
 use pyo3::prelude::*;
 
-use super::{Analysis, Options, fault, refused};
+use super::{Analysis, Options, Ring, fault, refused};
 use crate::analysis;
 use crate::geometry::Point;
 use crate::result;
@@ -30,8 +30,21 @@ impl Session {
         Ok(Session { now })
     }
 
-    fn place(&mut self, py: Python<'_>, block: &str) -> PyResult<&'static str> {
-        let block: BlockEntry = parsed(block).map_err(|why| fault(py, &format!("block: {why}")))?;
+    /// Places a block with these rings, in metres or in the scene's unit of length. `keys` are its other keys as JSON
+    /// text; without `polygon`, one of them gives the outline.
+    fn place(
+        &mut self,
+        py: Python<'_>,
+        id: Option<String>,
+        polygon: Option<Ring>,
+        holes: Vec<Ring>,
+        keys: Option<&str>,
+    ) -> PyResult<&'static str> {
+        let mut block: BlockEntry = match keys {
+            None => BlockEntry::default(),
+            Some(keys) => parsed(keys).map_err(|why| fault(py, &format!("block: {why}")))?,
+        };
+        (block.id, block.polygon, block.holes) = (id, polygon, holes);
         self.step(py, |now| now.place(block))
     }
 

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{
-    ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
+    ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
 };
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyCapsule, PyList};
+use pyo3::types::{PyByteArray, PyCapsule, PyList};
 
 use crate::analysis::{
     Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce,
@@ -22,6 +22,7 @@ use crate::scene::{BlockId, BodyId, Scene};
 enum Column {
     Real(Vec<f64>),
     Whole(Vec<i64>),
+    Flag(Vec<bool>),
     Word(Vec<String>),
 }
 
@@ -43,9 +44,10 @@ impl Table {
         self.columns.iter().map(|column| column.0).collect()
     }
 
-    /// Returns the numpy type of each column, and its values as bytes or a list of texts.
+    /// Returns the numpy type of each column, and its values as a bytearray or a list of texts. An array on a bytearray
+    /// can be written.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
-        let bytes = |bytes: Vec<u8>| PyBytes::new(py, &bytes).into_any();
+        let bytes = |bytes: Vec<u8>| PyByteArray::new(py, &bytes).into_any();
         let one = |(_, column): &(&'static str, Column)| {
             Ok(match column {
                 Column::Real(all) => {
@@ -56,6 +58,7 @@ impl Table {
                     let all = all.iter().flat_map(|x| x.to_ne_bytes());
                     ("i8", bytes(all.collect()))
                 }
+                Column::Flag(all) => ("?", bytes(all.iter().copied().map(u8::from).collect())),
                 Column::Word(all) => ("U", PyList::new(py, all)?.into_any()),
             })
         };
@@ -94,6 +97,7 @@ impl Table {
                     DataType::Int64,
                     Arc::new(Int64Array::from_iter_values(all.iter().copied())),
                 ),
+                Column::Flag(all) => (DataType::Boolean, Arc::new(BooleanArray::from(all.clone()))),
                 Column::Word(all) => (DataType::Utf8, Arc::new(StringArray::from_iter_values(all))),
             };
             fields.push(Field::new(*name, kind, false));
@@ -208,6 +212,11 @@ impl<T> Rows<T> {
         self.columns.push((name, Column::Whole(all)));
     }
 
+    fn flag(&mut self, name: &'static str, of: impl Fn(&T) -> bool) {
+        let all = self.rows.iter().map(|(_, row)| of(row)).collect();
+        self.columns.push((name, Column::Flag(all)));
+    }
+
     fn word(&mut self, name: &'static str, of: impl Fn(&T) -> String) {
         let all = self.rows.iter().map(|(_, row)| of(row));
         self.columns.push((name, Column::Word(all.collect())));
@@ -317,8 +326,8 @@ fn blocks(analysis: &Analysis, numbers: &[usize]) -> Table {
         motion(row).map_or_else(Vector::zeros, |m| m.velocity)
     });
     rows.real("spin", |row| motion(row).map_or(0.0, |m| m.spin));
-    rows.whole("unsupported", |row| {
-        i64::from(analysis.frames[row.0].unsupported.contains(&BlockId(row.1)))
+    rows.flag("unsupported", |row| {
+        analysis.frames[row.0].unsupported.contains(&BlockId(row.1))
     });
     rows.word("robot", |row| {
         let holds = scene.frames()[row.0].holds.iter();

@@ -29,7 +29,7 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
     let head = ["figure", "scene.json", "-o", output.as_str()];
     let line = head.into_iter().chain(words.iter().map(String::as_str));
     let render = Line::try_parse_from(line)
-        .map_err(|error| error.render().to_string())?
+        .map_err(|error| trimmed(&error.render().to_string()))?
         .render;
     if render.panels || render.pages || render.watch || render.strict || render.frame.is_some() {
         let why = "the options panels, pages, watch, strict and frame are available on the command line only";
@@ -112,9 +112,13 @@ pub(crate) fn sketch(words: &[String], ending: &str, text: &str) -> Result<Vec<u
 
 /// Returns the message of an error, without the parts that are useful only on the command line.
 fn words_of(error: &CliError) -> String {
-    let page = error.page(None);
-    let text = page.text().trim_start_matches("error: ");
-    text.replace("\nFor more information, try '--help'.\n", "")
-        .trim_end()
-        .to_owned()
+    trimmed(error.page(None).text())
+}
+
+/// Removes from a message of the command line the word "error" at its start, and the usage and the hint at its end.
+fn trimmed(text: &str) -> String {
+    let text = text.trim_start_matches("error: ");
+    let ends = ["\n\nUsage: ", "\n\nFor more information, try"];
+    let end = ends.iter().filter_map(|end| text.find(end)).min();
+    text[..end.unwrap_or(text.len())].trim_end().to_owned()
 }
