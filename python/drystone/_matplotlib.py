@@ -9,6 +9,10 @@ from . import _drystone
 from ._errors import DrystoneError
 
 
+_PLATE = {"facecolor": "#e9e4d8", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
+"""The plate behind the name of a block, so that arrows do not cross the name."""
+
+
 def draw(analysis: _drystone.Analysis, frame: int, ax: Any, *, forces: bool, labels: bool) -> Any:
     """Draws one frame in metres and returns the axes."""
     try:
@@ -30,7 +34,7 @@ def draw(analysis: _drystone.Analysis, frame: int, ax: Any, *, forces: bool, lab
             number += 1
     if labels:
         for row in _rows(analysis, "blocks", frame):
-            ax.text(row["x"], row["y"], row["id"], ha="center", va="center", zorder=3, gid=f"label:{row['id']}")
+            ax.text(row["x"], row["y"], row["id"], ha="center", va="center", zorder=5, bbox=_PLATE, gid=f"label:{row['id']}")
     if forces:
         _forces(ax, analysis, frame, corners)
     ax.set_aspect("equal")
