@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use drystone::internals::chart::{Growing, Growth, Point, growth};
+use drystone::internals::chart::{Growth, GrowthLine, Point, growth};
 
 /// A row of the table: structure, blocks, whether it stands, program, answer, milliseconds.
 type Row = (String, f64, bool, String, String, f64);
@@ -49,13 +49,13 @@ fn name(program: &str) -> Option<String> {
 const MANY: &str = "drystone, one of many scenes";
 
 /// Standing walls: every program by its name without a version, in the order of the table.
-fn walls() -> Vec<Growing> {
-    let mut lines: Vec<Growing> = Vec::new();
+fn walls() -> Vec<GrowthLine> {
+    let mut lines: Vec<GrowthLine> = Vec::new();
     for (structure, blocks, stands, program, answer, milliseconds) in rows() {
         let Some(name) = name(&program).filter(|_| structure == "wall" && stands) else {
             continue;
         };
-        let ours = program.starts_with("drystone");
+        let is_highlighted = program.starts_with("drystone");
         let point = Point {
             x: blocks,
             y: milliseconds,
@@ -63,9 +63,9 @@ fn walls() -> Vec<Growing> {
         };
         match lines.iter_mut().find(|line| line.name == name) {
             Some(line) => line.points.push(point),
-            None => lines.push(Growing {
+            None => lines.push(GrowthLine {
                 name,
-                ours,
+                is_highlighted,
                 points: vec![point],
             }),
         }
@@ -106,12 +106,12 @@ fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
 #[test]
 fn one_of_many_is_ahead_of_all_others_at_ten_blocks_and_at_a_thousand() {
     let lines = walls();
-    let at = |line: &Growing, least: f64| line.points.iter().find(|p| p.x >= least).map(|p| p.y);
+    let at = |line: &GrowthLine, least: f64| line.points.iter().find(|p| p.x >= least).map(|p| p.y);
     let many = lines.iter().find(|line| line.name == MANY);
     let many = many.expect("in the table");
     for size in [10.0, 1000.0] {
         let own = at(many, size).expect("measured");
-        for other in lines.iter().filter(|line| !line.ours) {
+        for other in lines.iter().filter(|line| !line.is_highlighted) {
             let others = at(other, size);
             assert!(
                 others.is_none_or(|y| y > 2.0 * own),

@@ -430,7 +430,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         "to_writer",
         &["result/", "scene/format.rs", "scene/format/"],
     ),
-    (".ours(", &["cli/"]),
+    (".literal(", &["cli/"]),
     ("page.block(", &["cli/complaint.rs"]),
 ];
 

@@ -148,7 +148,7 @@ impl CliError {
             CliError::Drawing(page) => return page.clone(),
             CliError::CommandLine(what) | CliError::NoSuchFrame(what) => {
                 page.line(&format!("error: {what}"));
-                page.ours("\nFor more information, try '--help'.\n");
+                page.literal("\nFor more information, try '--help'.\n");
             }
             CliError::Book(problems) => {
                 for (number, problem) in problems.iter().enumerate() {

@@ -24,7 +24,7 @@ impl Page {
     }
 
     /// Appends fixed text of this program without escaping.
-    pub(crate) fn ours(&mut self, text: &'static str) {
+    pub(crate) fn literal(&mut self, text: &'static str) {
         self.text.push_str(text);
     }
 
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn foreign_words_begin_no_line_and_set_no_colour() {
         let mut page = Page::new("a\n\u{1b}[31mb\rc");
-        page.ours("x\n");
+        page.literal("x\n");
         assert_eq!(page.text(), "a \u{fffd}[31mb c\nx\n");
     }
 

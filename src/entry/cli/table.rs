@@ -194,7 +194,7 @@ fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
         (0, least[0]),
     ] {
         let widths = widths(rows, heads);
-        let beyond = taken(&widths).saturating_sub(width);
+        let beyond = row_width(&widths).saturating_sub(width);
         if beyond == 0 {
             return true;
         }
@@ -203,7 +203,7 @@ fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
             row[column] = shortened(&row[column], most);
         }
     }
-    taken(&widths(rows, heads)) <= width
+    row_width(&widths(rows, heads)) <= width
 }
 
 fn style(verdict: Verdict) -> Style {
@@ -219,7 +219,7 @@ fn style(verdict: Verdict) -> Style {
 const COLUMN_GAPS: [&str; 2] = ["  ", "  "];
 
 /// Returns the width of a row with cells of these widths, in columns of the terminal.
-fn taken(widths: &[usize]) -> usize {
+fn row_width(widths: &[usize]) -> usize {
     let gaps = COLUMN_GAPS[0].len() + COLUMN_GAPS[1].len() * (widths.len() - 1);
     widths.iter().sum::<usize>() + gaps
 }

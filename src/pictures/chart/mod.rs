@@ -120,18 +120,18 @@ pub struct Growth {
     /// The name of the vertical axis.
     pub y: String,
     /// The lines.
-    pub lines: Vec<Growing>,
+    pub lines: Vec<GrowthLine>,
     /// The meaning of the crosses that replace dots.
     pub wrong: String,
 }
 
 /// A line of a growth chart.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Growing {
+pub struct GrowthLine {
     /// Its name.
     pub name: String,
     /// Whether the line is important.
-    pub ours: bool,
+    pub is_highlighted: bool,
     /// The points of the line, by ascending x.
     pub points: Vec<Point>,
 }

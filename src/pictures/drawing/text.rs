@@ -175,14 +175,14 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
     let common = common_advances(face);
     let advance = |c: char| match common.get(c as usize) {
         Some(advance) => *advance,
-        None => advance(face as usize, c).unwrap_or_else(|| elsewhere(c)),
+        None => advance(face as usize, c).unwrap_or_else(|| estimated_advance(c)),
     };
     words.chars().map(advance).sum::<f64>() * size
 }
 
 /// Estimates the width of a character that the built-in font does not have, as a fraction of the font size. Square
 /// characters, such as Chinese characters, have the width 1.
-fn elsewhere(c: char) -> f64 {
+fn estimated_advance(c: char) -> f64 {
     match u32::from(c) {
         0x1100..=0x115F
         | 0x2E80..=0xA4CF
@@ -201,7 +201,7 @@ fn common_advances(face: Face) -> &'static [f64] {
     static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
         [const { OnceLock::new() }; Face::ALL.len()];
     KNOWN[face as usize].get_or_init(|| {
-        let width = |c| advance(face as usize, c).unwrap_or_else(|| elsewhere(c));
+        let width = |c| advance(face as usize, c).unwrap_or_else(|| estimated_advance(c));
         (0..128_u8).map(|c| width(char::from(c))).collect()
     })
 }

@@ -196,7 +196,7 @@ pub(crate) fn round_above(amount: f64) -> f64 {
 
 /// Returns the distance of a point from the drawn shape of an arrow, metres. The distance is negative inside the shape,
 /// and infinite for an arrow of length 0.
-pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
+pub(crate) fn distance_to_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let reach = arrow.reach();
     let length = reach.norm();
     if length <= 0.0 {
@@ -205,14 +205,14 @@ pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let (long, wide) = head_size(length, arrow.width);
     let tip = arrow.at + reach;
     let neck = tip - reach * (long / length);
-    let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
+    let shaft = distance_to_segment(arrow.at, neck, p) - arrow.width / 2.0;
     // The triangular head is approximated by a strip along the axis of the arrow. The strip is two thirds as wide as
     // the head.
-    let head = from_segment(neck, tip, p) - wide / 3.0;
+    let head = distance_to_segment(neck, tip, p) - wide / 3.0;
     shaft.min(head)
 }
 
-fn from_segment(a: Point, b: Point, p: Point) -> f64 {
+fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let length = along.norm_squared();
     let share = if length > 0.0 {

@@ -34,7 +34,7 @@ impl ListEntry {
     }
 
     /// Returns a last entry such as `And 3 more gaps.` if the list does not show all `count` entries; otherwise `None`.
-    fn rest(count: usize, what: &str) -> Option<ListEntry> {
+    fn unlisted(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(MAX_MARKED);
         (more > 0).then(|| ListEntry {
             number: None,
@@ -155,7 +155,7 @@ fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
         let words = problem_in_words(problem, spot.is_some());
         entries.push(ListEntry::numbered(number, words));
     }
-    entries.extend(ListEntry::rest(sketch.problems.list.len(), "problems"));
+    entries.extend(ListEntry::unlisted(sketch.problems.list.len(), "problems"));
     // The search for gaps needs a scene in which every body is valid. Overlaps do not matter.
     let scene = sketch.scene.as_ref();
     let near = scene.map(|scene| Interfaces::new(scene).near_misses);
@@ -178,7 +178,7 @@ fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
             number,
         });
     }
-    entries.extend(ListEntry::rest(near.len(), "gaps"));
+    entries.extend(ListEntry::unlisted(near.len(), "gaps"));
     (marks, entries)
 }
 

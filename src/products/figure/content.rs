@@ -168,7 +168,7 @@ impl<'a> FigureContext<'a> {
             thrust: OnceCell::new(),
             cramped: Cell::new(0),
         };
-        context.go(options.way);
+        context.move_blocks(options.way);
         context.statements = frames
             .map(|frame| content.reason(&context, frame))
             .collect();

@@ -55,10 +55,14 @@ pub(crate) struct FigureContext<'a> {
 }
 
 impl<'a> FigureContext<'a> {
-    /// Moves the blocks of every frame along their paths, together with the arrows on them. `way` is the share of the
-    /// path: 0 at its beginning, 1 at its end.
-    pub fn go(&mut self, way: f64) {
-        self.displaced = self.courses.iter().map(|course| course.at(way)).collect();
+    /// Moves the blocks of every frame along their paths, together with the arrows on them. `path_share` is 0 at the
+    /// beginning of the path and 1 at its end.
+    pub fn move_blocks(&mut self, path_share: f64) {
+        self.displaced = self
+            .courses
+            .iter()
+            .map(|course| course.at(path_share))
+            .collect();
         let frames = self.still.iter().zip(&self.displaced);
         self.marks = frames
             .map(|(marks, displaced)| displacement::moved_marks(marks, displaced))

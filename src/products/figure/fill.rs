@@ -175,7 +175,8 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
         .zip(amplitudes)
         .map(|((frame, frame_analysis), amplitudes)| {
             let of_block = |(block, amplitude): (&BlockId, f64)| {
-                held(scene, frame_analysis, *block).unwrap_or_else(|| share(amplitude, limit))
+                robot_limit_used(scene, frame_analysis, *block)
+                    .unwrap_or_else(|| share(amplitude, limit))
             };
             frame.placed.iter().zip(amplitudes).map(of_block).collect()
         })
@@ -196,7 +197,7 @@ fn share(amount: f64, limit: f64) -> f64 {
 
 /// Returns the used share of the force limits of the robot that holds this block: the larger of |Fx| / limit and |Fy| /
 /// limit. Returns `None` if no robot holds the block, or if its force has no limits.
-fn held(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
+fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = frame_analysis.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
     if !limits.fx.is_finite() && !limits.fy.is_finite() {

@@ -149,7 +149,7 @@ fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
 
-fn rest(theme: &Theme, bold: f64) -> Stroke {
+fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
     Stroke::new(theme.faint, 0.45 * bold)
         .dashed([1.1 * bold, 0.9 * bold])
         .mitred()
@@ -189,7 +189,7 @@ fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
         if !rests.segments.is_empty() {
             drawn = drawn
                 .with(casing(rests.clone()))
-                .with(Path::stroked(rests, rest(theme, bold)));
+                .with(Path::stroked(rests, rest_stroke(theme, bold)));
         }
         // A safe part of length 0 is a point, which is drawn as a dot.
         let path = if scene.kernel < 1.0 && length > 0.0 {
@@ -201,7 +201,7 @@ fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
         group.items.push(drawn.with(path).into());
     }
     if !all_rests.segments.is_empty() {
-        let path = Path::stroked(all_rests, rest(theme, bold));
+        let path = Path::stroked(all_rests, rest_stroke(theme, bold));
         group.items.push(path.into());
     }
     if !all_safe.segments.is_empty() {
@@ -275,7 +275,7 @@ fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 
 fn rest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
-    vec![Path::stroked(line, rest(theme, 4.0)).into()]
+    vec![Path::stroked(line, rest_stroke(theme, 4.0)).into()]
 }
 
 fn within_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {

@@ -114,7 +114,8 @@ impl Kind {
     }
 
     /// Analyses a scene, and also computes what a figure of this kind shows: margins, the sensitivity of a margin, and
-    /// the forces that a block can carry. If `analysis_options` names no margin or no block, the default of the scene is used.
+    /// the forces that a block can carry. If `analysis_options` names no margin or no block, the default of the scene is
+    /// used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
         let mut analysis_options = *analysis_options;

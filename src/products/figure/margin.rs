@@ -78,7 +78,7 @@ impl PanelContent for CollapseMargin {
             frame,
             options,
         } = of;
-        let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
+        let (displaced, edge) = displacements_beyond_margin(analysis, frame, unit, options.toward)?;
         let ghosts = mechanism::reach(analysis, &displaced);
         let gravity = gravity(analysis, frame, edge, options.toward)
             .and_then(|g| Some(Bounds::from_points([g.from, g.now, g.there])?.grown(0.1 * unit)));
@@ -91,7 +91,7 @@ impl PanelContent for CollapseMargin {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let mut parts = Vec::new();
         let toward = context.options.toward;
-        if let Some((ghost, edge)) = ghost(context.analysis, frame, toward) {
+        if let Some((ghost, edge)) = falling_copy(context.analysis, frame, toward) {
             let displaced = Course::new(&ghost, frame, context.unit).at(1.0);
             let mut outline = Outline::default();
             for (block, displacement) in scene.blocks.iter().zip(&displaced) {
@@ -140,7 +140,7 @@ impl PanelContent for CollapseMargin {
         let mut entries = Vec::new();
         let toward = context.options.toward;
         let frames = 0..context.analysis.frames.len();
-        let ghosts = frames.filter_map(|f| Some((f, ghost(context.analysis, f, toward)?.0)));
+        let ghosts = frames.filter_map(|f| Some((f, falling_copy(context.analysis, f, toward)?.0)));
         let joints: Vec<Vec<Joint>> = ghosts.map(|(f, ghost)| joints(&ghost, f)).collect();
         if !joints.is_empty() {
             let ghost = "how it would begin to fall".to_owned();
@@ -172,15 +172,19 @@ impl PanelContent for CollapseMargin {
 
 /// Returns the value of the parameter at the margin, and the mechanism just beyond the margin. `toward` selects the
 /// parameter. Returns `None` if the frame does not stand or if no margin was found.
-fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
+fn mechanism_beyond_margin(
+    analysis: &Analysis,
+    frame: usize,
+    toward: Toward,
+) -> Option<(f64, Vec<Motion>)> {
     let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
     analysis.edge(frame, toward).filter(|_| stands)
 }
 
 /// Returns a copy of the analysis in which the frame falls by the mechanism just beyond its margin, and the value of
 /// the parameter at the margin. Returns `None` if there is no margin.
-fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
-    let (edge, motions) = beyond(analysis, frame, toward)?;
+fn falling_copy(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
+    let (edge, motions) = mechanism_beyond_margin(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
     let frame_analysis = ghost.frames.get_mut(frame)?;
     frame_analysis.mechanism = motions;
@@ -190,13 +194,13 @@ fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis,
 
 /// Returns how the blocks are displaced by the mechanism just beyond the margin, indexed by block, and the value of the
 /// parameter at the margin. Returns `None` if there is no margin. `unit` is the unit edge in metres.
-fn gone(
+fn displacements_beyond_margin(
     analysis: &Analysis,
     frame: usize,
     unit: f64,
     toward: Toward,
 ) -> Option<(Vec<Option<Displacement>>, f64)> {
-    let (ghost, edge) = ghost(analysis, frame, toward)?;
+    let (ghost, edge) = falling_copy(analysis, frame, toward)?;
     Some((Course::new(&ghost, frame, unit).at(1.0), edge))
 }
 

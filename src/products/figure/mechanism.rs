@@ -263,12 +263,15 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
 /// Returns the position at which a point of an interface is drawn after the displacement, metres: halfway between its
 /// displaced positions on the two bodies.
 fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
-    let [a, b] = contact.interface.bodies.map(|body| taken(pen, body, at));
+    let [a, b] = contact
+        .interface
+        .bodies
+        .map(|body| displaced_point(pen, body, at));
     a + (b - a) * 0.5
 }
 
 /// Returns the displaced position of a point of a body, metres. Ground is not displaced.
-fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
+fn displaced_point(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
     match body {
         BodyId::Ground(_) => at,
         BodyId::Block(id) => pen.moved(id, at),

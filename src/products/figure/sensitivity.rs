@@ -225,8 +225,8 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
             None => pen.camera.place(at),
         };
         // The number of a change of friction is drawn on its joint, so it may cover other shapes.
-        let near = free(ink, preferred, radius, 1.2).filter(|_| !change.is_joint);
-        let at = near.or_else(|| free(&marks, preferred, radius, 3.0));
+        let near = nearest_free_position(ink, preferred, radius, 1.2).filter(|_| !change.is_joint);
+        let at = near.or_else(|| nearest_free_position(&marks, preferred, radius, 3.0));
         let at = at.unwrap_or(preferred);
         ink.disc(at, radius + 1.0);
         marks.disc(at, radius + 1.0);
@@ -239,8 +239,13 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
 }
 
 /// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The candidates
-/// lie on circles around `wanted`, up to `most` times `radius` away. Returns `None` if no candidate is free.
-fn free(ink: &Ink, preferred: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
+/// lie on circles around `preferred`, up to `most` times `radius` away. Returns `None` if no candidate is free.
+fn nearest_free_position(
+    ink: &Ink,
+    preferred: PagePoint,
+    radius: f64,
+    most: f64,
+) -> Option<PagePoint> {
     let side = 2.0 * radius;
     let is_free = |centre: &PagePoint| {
         ink.clear(PageRect {
@@ -287,14 +292,14 @@ fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
     let words = format!(
         "{} {sign}{} for {}",
         name(plan.kind, plan.is_high),
-        plain(plan.kind, amount),
+        format_change(plan.kind, amount),
         length(plan.step)
     );
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }
 
 /// Formats a change of a margin that has been rounded, with ° for a tilt.
-fn plain(kind: MarginKind, amount: f64) -> String {
+fn format_change(kind: MarginKind, amount: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", digits(amount)),
         _ => digits(amount),

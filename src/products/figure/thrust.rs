@@ -12,7 +12,7 @@ mod state;
 
 use fan::Fans;
 use line::{carried_colour, colour, dot_sign, dots, lines, schematic_colour, seams, widest, width};
-use state::{central, limit_entries, limits, one_of_many, other_figures};
+use state::{central_thrust_text, limit_entries, limits, other_figures_note, uniqueness_note};
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::content::{About, FrameSource, PanelContent};
@@ -130,7 +130,7 @@ impl PanelContent for ThrustLine {
         }
         let largest = quantity(largest(context), context.analysis.scene.units.force());
         if stands {
-            let line = match central(context) {
+            let line = match central_thrust_text(context) {
                 Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
                 None => format!("line of thrust, this thick for {largest}"),
             };
@@ -162,7 +162,8 @@ impl PanelContent for ThrustLine {
         let why = verdict::reason(scene, frame_analysis);
         match frame_analysis.verdict {
             Verdict::Stable => {
-                let state = other_figures(context, frame).or_else(|| one_of_many(context, frame));
+                let state =
+                    other_figures_note(context, frame).or_else(|| uniqueness_note(context, frame));
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }

@@ -63,7 +63,7 @@ impl PanelContent for Utilisation {
         let robots = frames
             .iter()
             .flat_map(|f| &f.robots)
-            .any(|r| limited(scene, r.robot.0));
+            .any(|r| has_force_limits(scene, r.robot.0));
         let mut entries = Vec::new();
         let shared = all.iter().flatten().any(|b| b.friction.is_some());
         if shared || robots {
@@ -113,13 +113,13 @@ impl PanelContent for Utilisation {
     }
 }
 
-fn full(bearing: &Bearing) -> bool {
+fn uses_all_friction(bearing: &Bearing) -> bool {
     bearing
         .friction
         .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
-fn limited(scene: &Scene, robot: usize) -> bool {
+fn has_force_limits(scene: &Scene, robot: usize) -> bool {
     let limits = scene.robots[robot].limits;
     let finite = |limit: f64| limit.is_finite() && limit > 0.0;
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
@@ -137,7 +137,11 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
             most = Some((share, contact));
         }
     }
-    let sliding = bearings.iter().flatten().filter(|b| full(b)).count();
+    let sliding = bearings
+        .iter()
+        .flatten()
+        .filter(|b| uses_all_friction(b))
+        .count();
     match most {
         None => {}
         Some((share, _)) if share < 1e-6 => stated.push("no interface uses friction".to_owned()),
@@ -158,7 +162,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         frame_analysis
             .robots
             .iter()
-            .filter(|r| limited(scene, r.robot.0))
+            .filter(|r| has_force_limits(scene, r.robot.0))
     };
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
     // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
@@ -250,7 +254,7 @@ fn joined_interfaces<'c>(
         };
         edges.extend(line.clone());
         lines.add(colour(&bearing, theme), line);
-        if full(&bearing) {
+        if uses_all_friction(&bearing) {
             bars.extend(Outline::line(across(pen, contact)));
         }
     }
@@ -304,7 +308,7 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
         .titled(title)
         .with(rimmed(line.clone(), bold, rim(bold), theme))
         .with(Path::stroked(line, coloured));
-    if !full(bearing) {
+    if !uses_all_friction(bearing) {
         return drawn;
     }
     let bar = Outline::line(across(pen, contact));
@@ -345,7 +349,7 @@ fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     for robot in frame_analysis
         .robots
         .iter()
-        .filter(|r| limited(scene, r.robot.0))
+        .filter(|r| has_force_limits(scene, r.robot.0))
     {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();

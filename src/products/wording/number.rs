@@ -106,8 +106,8 @@ pub fn degrees(angle: f64) -> String {
     format!("{angle:.decimals$}°")
 }
 
-/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] gives `100 %`, and only a ratio of at
-/// most 1 − `FULL_UTILISATION` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
+/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] gives `100 %`, and only a
+/// ratio of at most 1 − `FULL_UTILISATION` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;

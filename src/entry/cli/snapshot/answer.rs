@@ -44,7 +44,7 @@ pub(super) fn ask(
         loop {
             let mut page = Page::default();
             page.words(&format!("{number} of {total}, {}: ", snapshot.name));
-            page.ours("accept? y(es), n(o), s(kip), q(uit) ");
+            page.literal("accept? y(es), n(o), s(kip), q(uit) ");
             terminal.print(&page).map_err(|c| vec![c])?;
             // At the end of the input, no further snapshot is accepted.
             let Some(Ok(answer)) = answers.next() else {

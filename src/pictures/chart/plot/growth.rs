@@ -7,10 +7,10 @@ use super::{
     DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large,
     tick, words_from,
 };
-use crate::chart::{Growing, Growth, LARGE_SIZE, Point};
+use crate::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
 
 /// The colour of our own lines.
-const OWN_COLOUR: RGBColor = RGBColor(20, 70, 130);
+const HIGHLIGHT_COLOUR: RGBColor = RGBColor(20, 70, 130);
 /// The colour of all other lines.
 const OTHER_COLOUR: RGBColor = RGBColor(140, 140, 146);
 
@@ -23,7 +23,7 @@ const MIN_NAME_DISTANCE: i32 = 17 * UNITS_PER_PIXEL;
 struct LineEnd<'c> {
     y: i32,
     x: i32,
-    line: &'c Growing,
+    line: &'c GrowthLine,
 }
 
 /// Draws lines on two logarithmic axes into `svg`.
@@ -76,10 +76,10 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Returns the colour and the width in pixels of a line. Our own lines (`ours`) are dark and thick.
-fn style(ours: bool) -> (RGBColor, i32) {
-    if ours {
-        (OWN_COLOUR, 3)
+/// Returns the colour and the width in pixels of a line. Our own lines (`is_highlighted`) are dark and thick.
+fn style(is_highlighted: bool) -> (RGBColor, i32) {
+    if is_highlighted {
+        (HIGHLIGHT_COLOUR, 3)
     } else {
         (OTHER_COLOUR, 1)
     }
@@ -93,12 +93,15 @@ fn crossing_pen() -> ShapeStyle {
 /// Draws our own lines above all other lines. Returns the right end of each line.
 fn draw_lines<'c>(
     axes: &mut LogAxes<'_, '_>,
-    lines: &'c [Growing],
+    lines: &'c [GrowthLine],
 ) -> Result<Vec<LineEnd<'c>>, Box<dyn std::error::Error>> {
     let mut ends = Vec::new();
-    for ours in [false, true] {
-        let (colour, width) = style(ours);
-        for line in lines.iter().filter(|line| line.ours == ours) {
+    for is_highlighted in [false, true] {
+        let (colour, width) = style(is_highlighted);
+        for line in lines
+            .iter()
+            .filter(|line| line.is_highlighted == is_highlighted)
+        {
             let points = || line.points.iter().map(|p| (p.x, p.y));
             let stroke = colour.stroke_width((width * UNITS_PER_PIXEL) as u32);
             axes.draw_series(LineSeries::new(points(), stroke))?;
@@ -121,7 +124,7 @@ fn draw_lines<'c>(
 /// Draws the names of the lines to the right of the picture. A thin line joins each name to the end of its line.
 fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> DrawingResult {
     for (y, end) in name_heights(ends).into_iter().zip(ends) {
-        let (colour, _) = style(end.line.ours);
+        let (colour, _) = style(end.line.is_highlighted);
         let joint = vec![
             (end.x + 8 * UNITS_PER_PIXEL, end.y),
             (NAMES_LEFT - 14 * UNITS_PER_PIXEL, y),
@@ -129,12 +132,12 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> DrawingResult {
         ];
         let thin = colour.mix(0.8).stroke_width(UNITS_PER_PIXEL as u32 / 2);
         area.draw(&PathElement::new(joint, thin))?;
-        let face = match end.line.ours {
+        let face = match end.line.is_highlighted {
             true => {
                 let bold = (FONT_FAMILY, 12 * UNITS_PER_PIXEL)
                     .into_font()
                     .style(FontStyle::Bold);
-                bold.color(&OWN_COLOUR)
+                bold.color(&HIGHLIGHT_COLOUR)
             }
             false => font(12),
         };

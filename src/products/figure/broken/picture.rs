@@ -165,14 +165,14 @@ pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options
         let stroke = Stroke::new(colour, 1.6);
         let sign = match mark.code {
             Some(Code::CrossingOutline) => {
-                let mut cross = arm(place, 5.0, 5.0);
-                cross.extend(arm(place, 5.0, -5.0));
+                let mut cross = cross_arm(place, 5.0, 5.0);
+                cross.extend(cross_arm(place, 5.0, -5.0));
                 Path::stroked(cross, stroke)
             }
             Some(_) => Path::filled(Outline::circle(place, 2.6), colour),
             None => Path::stroked(Outline::circle(place, 5.0), stroke),
         };
-        let at = beside(place, &taken);
+        let at = free_disc_position(place, &taken);
         taken.push(at);
         let leader = Outline::line([place, at]);
         let ring = Group::with_class("mark")
@@ -185,12 +185,12 @@ pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options
     group
 }
 
-fn arm(at: PagePoint, x: f64, y: f64) -> Outline {
+fn cross_arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
 /// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`.
-fn beside(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
+fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const DIRECTIONS: [(f64, f64); 8] = [
         (0.7, -0.7),
         (-0.7, -0.7),

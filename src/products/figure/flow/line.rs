@@ -117,7 +117,8 @@ impl Search<'_> {
     /// True if a point lies in the block or near it.
     fn is_near(&self, p: Point) -> bool {
         let mut edges = self.polygon.edges();
-        self.polygon.contains(p) || edges.any(|edge| from_edge(edge.from, edge.to, p) <= self.near)
+        self.polygon.contains(p)
+            || edges.any(|edge| distance_to_segment(edge.from, edge.to, p) <= self.near)
     }
 }
 
@@ -134,7 +135,7 @@ fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point
 }
 
 /// Returns the distance of a point from the segment between two points, metres.
-fn from_edge(a: Point, b: Point, p: Point) -> f64 {
+fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
     (p - (a + along * share.clamp(0.0, 1.0))).norm()

@@ -174,12 +174,17 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
         true => (other, one),
         false => (one, other),
     };
-    let loads: Vec<LineOfAction> = forces.iter().filter(given).map(pressed).collect();
+    let loads: Vec<LineOfAction> = forces.iter().filter(given).map(line_of_action).collect();
     if loads.len() + 2 != forces.len() || scene.loads.iter().any(turned) {
         return None;
     }
     let polygon = &scene.blocks[on.0].body.polygon;
-    let path = line::path(polygon, pressed(first), pressed(second), &loads)?;
+    let path = line::path(
+        polygon,
+        line_of_action(first),
+        line_of_action(second),
+        &loads,
+    )?;
     let strand = |kind, from, to, axis: Vec<Point>, widths: Vec<f64>| Strand {
         on,
         kind,
@@ -211,7 +216,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
     Some(joins.chain([through]).collect())
 }
 
-fn pressed(acting: &ForceOnBlock) -> LineOfAction {
+fn line_of_action(acting: &ForceOnBlock) -> LineOfAction {
     LineOfAction {
         at: acting.at,
         force: acting.force,

@@ -12,15 +12,15 @@ const MIN_TEXT_WIDTH: f64 = 60.0;
 const ENTRY_GAP: f64 = 28.0;
 
 /// Replaces the space after each number by a non-breaking space, so that the number and the next word stay on one line.
-fn glued(words: &str) -> String {
-    let mut glued = String::with_capacity(words.len());
+fn with_unbroken_numbers(words: &str) -> String {
+    let mut unbroken = String::with_capacity(words.len());
     let mut after_digit = false;
     for character in words.chars() {
         let joins = after_digit && character == ' ';
-        glued.push(if joins { text::NO_BREAK } else { character });
+        unbroken.push(if joins { text::NO_BREAK } else { character });
         after_digit = character.is_ascii_digit();
     }
-    glued
+    unbroken
 }
 
 /// An entry with its text broken into lines.
@@ -36,7 +36,13 @@ impl<'e> WrappedEntry<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
         let sign = entry.sign_width(theme);
         let left = (room - sign).max(MIN_TEXT_WIDTH);
-        let lines = text::balanced(&glued(&words), Face::Sans, size, left, usize::MAX);
+        let lines = text::balanced(
+            &with_unbroken_numbers(&words),
+            Face::Sans,
+            size,
+            left,
+            usize::MAX,
+        );
         let lines: Vec<String> = lines
             .iter()
             .map(|l| l.replace(text::NO_BREAK, " "))

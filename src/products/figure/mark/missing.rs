@@ -52,7 +52,7 @@ impl ArrowMaker<'_> {
                 // In printed figures, as in the thesis, every arrow begins at the point where its force acts.
                 let at = match self.options.printed() {
                     true => at,
-                    false => self.on_own_side(kind, block, at, vector, width),
+                    false => self.start_on_block(kind, block, at, vector, width),
                 };
                 marks.arrows.push(ForceArrow {
                     on,
@@ -81,7 +81,9 @@ impl ArrowMaker<'_> {
 
     fn missing_scale(&self, frame_analysis: &FrameAnalysis) -> MissingScale {
         match self.options.normalisation {
-            Normalisation::Source => MissingScale::OfBlocks(acting(self.scene, frame_analysis)),
+            Normalisation::Source => {
+                MissingScale::OfBlocks(largest_forces_on_blocks(self.scene, frame_analysis))
+            }
             Normalisation::Drawn => {
                 let amounts = frame_analysis
                     .failures
@@ -95,8 +97,8 @@ impl ArrowMaker<'_> {
     /// Converts a missing force (N) on a block to the vector of its arrow in metres, at the scale of missing forces.
     fn missing_vector(&self, scale: &MissingScale, block: BlockId, force: Vector) -> Vector {
         match scale {
-            MissingScale::OfBlocks(acting) if acting[block.0] > 0.0 => {
-                force * (SOURCE_FAILURE_SCALE * self.edge / acting[block.0])
+            MissingScale::OfBlocks(largest) if largest[block.0] > 0.0 => {
+                force * (SOURCE_FAILURE_SCALE * self.edge / largest[block.0])
             }
             MissingScale::OfBlocks(_) => force * self.metres_per_newton,
             MissingScale::Largest(largest) => {
@@ -115,7 +117,7 @@ impl ArrowMaker<'_> {
     /// A missing pull is moved along its line of action until its head is at the joint. If it began at the joint, it
     /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction, by
     /// half the distance of parallel arrows.
-    fn on_own_side(
+    fn start_on_block(
         &self,
         kind: ArrowKind,
         block: BlockId,
@@ -179,7 +181,7 @@ fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
 
 /// Returns, for each block, the largest of its weight, the normal and friction forces on it, and the force components
 /// of its robots, in N. The list is indexed by block. The thesis scales missing forces by these values.
-fn acting(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
+fn largest_forces_on_blocks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
     for contact in &frame_analysis.contacts {

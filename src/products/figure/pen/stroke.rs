@@ -6,7 +6,7 @@ use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, MISSING_RADIUS,
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{
-    ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, from_arrow,
+    ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
 };
 use crate::figure::by_colour::ByColour;
 use crate::figure::description;
@@ -157,7 +157,7 @@ impl Pen<'_> {
                 let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
                 arrows
                     .iter()
-                    .map(|a| from_arrow(a, p))
+                    .map(|a| distance_to_arrow(a, p))
                     .fold(f64::INFINITY, f64::min)
             };
             (0..9)

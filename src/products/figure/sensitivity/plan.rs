@@ -211,9 +211,12 @@ impl Sketch<'_> {
                 let between = contact.map(|c| pair(scene, c.interface.bodies));
                 let done = format!("friction of {}", between.unwrap_or_default());
                 let at = contact.map(|c| c.interface.middle());
-                (at, format!("{done} {}", rubbed(change)))
+                (at, format!("{done} {}", friction_change_text(change)))
             }
-            Target::AllFriction => (None, format!("friction of all joints {}", rubbed(change))),
+            Target::AllFriction => (
+                None,
+                format!("friction of all joints {}", friction_change_text(change)),
+            ),
         };
         let [before, after] =
             [self.end.value, change.after].map(|value| words::value(self.kind, value));
@@ -230,7 +233,7 @@ impl Sketch<'_> {
 }
 
 /// Returns the change of a friction coefficient with its sign.
-fn rubbed(change: &EffectiveChange) -> String {
+fn friction_change_text(change: &EffectiveChange) -> String {
     let sign = if change.words.starts_with("raising") {
         '+'
     } else {

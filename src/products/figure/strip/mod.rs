@@ -77,7 +77,7 @@ pub(crate) fn steps_of(
     let mut context = FigureContext::new(analysis, options, content);
     let mut pages: Vec<Drawing> = Vec::new();
     for (frame, way) in steps {
-        context.go(way);
+        context.move_blocks(way);
         let strip = Strip {
             content,
             context: &context,

@@ -57,7 +57,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
         for first in joints[block.0].clone() {
             let before = other(&frame_analysis.contacts[first], BodyId::Block(*block));
             if !matches!(before, BodyId::Block(b) if joints[b.0].len() == 2) {
-                chains.extend(walked(*block, first, &joints, frame_analysis));
+                chains.extend(follow_chain(*block, first, &joints, frame_analysis));
             }
         }
     }
@@ -77,7 +77,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
 
 /// Follows a chain of blocks from the joint `first` of the block `start` to the other end of the chain. Returns `None`
 /// if the blocks form a closed ring.
-fn walked(
+fn follow_chain(
     start: BlockId,
     first: usize,
     joints: &[Vec<usize>],

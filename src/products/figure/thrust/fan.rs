@@ -169,7 +169,7 @@ impl Fans {
         let length = camera.length(newtons / self.newtons_per_metre);
         let low = camera.place(Point::new(all.min.x, all.min.y));
         let wide = length + 5.0 + text::width(&amount, Face::Sans, AMOUNT_SIZE);
-        let at = PagePoint::new(within(low.x, wide, page), low.y + 2.4 * AMOUNT_SIZE);
+        let at = PagePoint::new(fit_to_page(low.x, wide, page), low.y + 2.4 * AMOUNT_SIZE);
         if wide > page.width {
             return;
         }
@@ -240,7 +240,7 @@ impl Fan {
         let at = camera.place(Point::new(all.min.x, all.min.y));
         let thrust = format!("H = {thrust}");
         let wide = text::width(&thrust, Face::Sans, AMOUNT_SIZE);
-        let at = PagePoint::new(within(at.x, wide, page), at.y + 1.25 * AMOUNT_SIZE);
+        let at = PagePoint::new(fit_to_page(at.x, wide, page), at.y + 1.25 * AMOUNT_SIZE);
         let label = words(at, thrust, AMOUNT_SIZE, Anchor::Start);
         if wide <= page.width {
             group.items.push(label.into());
@@ -326,6 +326,6 @@ impl Fan {
 
 /// Returns the x coordinate of the left end of a text that is `wide` pixels wide: `x` if the text fits on the page
 /// there, otherwise the position at which it ends at the right edge of the page.
-fn within(x: f64, wide: f64, page: PageRect) -> f64 {
+fn fit_to_page(x: f64, wide: f64, page: PageRect) -> f64 {
     x.min(page.at.x + page.width - wide)
 }

@@ -31,21 +31,23 @@ fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
 }
 
 /// Returns the thrust states (least, greatest and most central) of each frame.
-fn families<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
+fn thrust_states_of_frames<'c>(
+    context: &'c FigureContext<'_>,
+) -> impl Iterator<Item = &'c ThrustStates> {
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
 /// Returns the part of the legend text that gives the horizontal thrust of the most central line. Returns `None` if no
 /// frame shows this line.
-pub(super) fn central(context: &FigureContext<'_>) -> Option<String> {
-    let state = families(context).find_map(|family| family.central.as_ref())?;
+pub(super) fn central_thrust_text(context: &FigureContext<'_>) -> Option<String> {
+    let state = thrust_states_of_frames(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))
 }
 
 /// Returns the legend entries for the lines of least and greatest thrust.
 pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
-    let least = families(context).find_map(|family| family.least.as_ref());
-    let greatest = families(context).find_map(|family| family.greatest.as_ref());
+    let least = thrust_states_of_frames(context).find_map(|family| family.least.as_ref());
+    let greatest = thrust_states_of_frames(context).find_map(|family| family.greatest.as_ref());
     let entry = |state: Option<&ThrustState>, sign: fn(PagePoint, &Theme) -> Vec<Item>, name| {
         let words = amount_in_words(context, state?.thrust);
         let words = words.replace(", horizontal thrust", "");
@@ -62,7 +64,7 @@ pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
 
 /// Returns a note for the reader that other figures show a different equilibrium of the frame. Returns `None` if the
 /// state of least thrust is not known.
-pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option<String> {
+pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let family = context.thrust_states(frame);
     family.least.as_ref()?;
     let present = quantity(family.present, context.analysis.scene.units.force());
@@ -73,7 +75,7 @@ pub(super) fn other_figures(context: &FigureContext<'_>, frame: usize) -> Option
 
 /// Returns a note for the reader that the line shown is one of many possible lines. Returns `None` if there are no more
 /// unknown forces than equations of equilibrium.
-pub(super) fn one_of_many(context: &FigureContext<'_>, frame: usize) -> Option<String> {
+pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let unknowns = |contact: &Contact| match contact.interface.kind {
         ContactKind::Corner => 2,

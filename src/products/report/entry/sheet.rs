@@ -79,7 +79,7 @@ pub(super) fn sheet(
         report_options,
         &ranking,
     )));
-    parts.extend(told(analysis, number));
+    parts.extend(failure_description(analysis, number));
     parts.push(given(scene, number, Units::new(scene, frame_analysis)));
     if let Some(steps) = steps {
         parts.push(SheetPart::Heading("Steps".to_owned()));
@@ -230,7 +230,7 @@ fn figures(
 }
 
 /// Describes where the frame fails first, and what would change its verdict.
-fn told(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
+fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let column = |heading: &str, words: Vec<String>| {
         let words = words.into_iter().map(SheetPart::Text);
