@@ -79,7 +79,7 @@ impl PanelContent for Utilisation {
             .iter()
             .flat_map(|f| &f.robots)
             .any(|r| r.limit_used >= FULL_UTILISATION);
-        if spent || all.iter().flatten().any(full) {
+        if spent || all.iter().flatten().any(uses_all_friction) {
             let all = if spent {
                 "all of it".to_owned()
             } else {
