@@ -54,7 +54,7 @@ impl Accuracy {
             forms.push((path, form(path).map_err(|c| vec![c])?));
         }
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
-        destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
+        destination::refuse_overwrites(&self.output, &scenes).map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, None, None)?;
         // A scene without a title gets the name of its file as its title.
         let scenes: Vec<Scene> = sources

@@ -189,7 +189,7 @@ impl Check {
         }
         let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
         page.append(&sensitivities(&analysis));
-        page.append(&noted(&analysis.notes));
+        page.append(&notes_page(&analysis.notes));
         page.end();
         Ok((ending, verdicts, String::new(), page))
     }
@@ -279,7 +279,7 @@ fn sensitivities(analysis: &Analysis) -> Page {
 }
 
 /// Writes the notes below a table. Each note has two lines: its message, and a hint what to change.
-fn noted(notes: &[Note]) -> Page {
+fn notes_page(notes: &[Note]) -> Page {
     let mut page = Page::default();
     for note in notes {
         let line = match note.line {

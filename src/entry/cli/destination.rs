@@ -71,7 +71,7 @@ fn one_of(names: &[String]) -> String {
 }
 
 /// Refuses outputs that would overwrite an input or another output, even through other names or links.
-pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
+pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
     // If a shell redirects a file to standard input, `/dev/stdin` is this file. Not all systems have this path.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");

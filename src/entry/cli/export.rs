@@ -41,7 +41,8 @@ impl Export {
             .filter(|path| *path != Path::new("-"));
         if let Some(file) = file {
             check_name(file).map_err(|c| vec![c])?;
-            destination::apart(&[file.to_owned()], &[&self.scene]).map_err(|c| vec![c])?;
+            destination::refuse_overwrites(&[file.to_owned()], &[&self.scene])
+                .map_err(|c| vec![c])?;
         }
         let scenes = [self.scene.clone()];
         let sources = source::read(&scenes, Some(self.frame), self.level.contact_tolerance)?;

@@ -62,7 +62,7 @@ impl Figures {
         files.push((captions, captions_of(&plates).into_bytes()));
         let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
         let style: Vec<&Path> = self.look.file().into_iter().collect();
-        destination::apart(&paths, &style).map_err(|c| vec![c])?;
+        destination::refuse_overwrites(&paths, &style).map_err(|c| vec![c])?;
         let count = files.len();
         destination::make_folder(&self.output).map_err(|c| vec![c])?;
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;

@@ -160,7 +160,7 @@ impl Import {
             return Err(CliError::CommandLine(why));
         }
         if let Some(file) = file {
-            destination::apart(&[file.to_owned()], &[&self.drawing])?;
+            destination::refuse_overwrites(&[file.to_owned()], &[&self.drawing])?;
         }
         if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit) {
             let why = format!(

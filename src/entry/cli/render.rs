@@ -88,7 +88,7 @@ impl Render {
         let read: Vec<&Path> = sources.iter().map(|source| source.path.as_path()).collect();
         let paths = paths(&destination, &read, format).map_err(one)?;
         let inputs: Vec<&Path> = read.into_iter().chain(self.look.file()).collect();
-        destination::apart(&paths, &inputs).map_err(one)?;
+        destination::refuse_overwrites(&paths, &inputs).map_err(one)?;
 
         let options = self.options(theme);
         let rendered = self.render_all(&sources, joins, &options, format, &fonts, terminal);

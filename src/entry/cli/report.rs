@@ -182,7 +182,7 @@ impl Report {
             .chain(self.look.file())
             .chain(self.interactive.as_deref());
         let inputs: Vec<&Path> = inputs.collect();
-        destination::apart(&[main], &inputs)
+        destination::refuse_overwrites(&[main], &inputs)
     }
 
     /// Analyses the scenes of all tasks. Returns the parts of the report, the files that are not valid scenes, and the

@@ -50,7 +50,7 @@ impl Shapes {
             Destination::Folder(folder) => folder.join(format!("shapes.{}", format.ending())),
         };
         let style: Vec<&Path> = self.look.file().into_iter().collect();
-        destination::apart(std::slice::from_ref(&path), &style)?;
+        destination::refuse_overwrites(std::slice::from_ref(&path), &style)?;
         if let Destination::Folder(folder) = &destination {
             destination::make_folder(folder)?;
         }

@@ -56,10 +56,10 @@ impl Snapshot {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let asks = matches!(self.review, Some(None));
         let accepts = self.accept || self.accept_in_ci;
-        self.sound(asks, accepts).map_err(|c| vec![c])?;
+        self.check_options(asks, accepts).map_err(|c| vec![c])?;
         let found = discover(&self.folders, self.only.as_deref()).map_err(complaints)?;
         if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
-            return Err(vec![self.nothing()]);
+            return Err(vec![self.nothing_found_error()]);
         }
         let shown = if terminal.shows_progress() {
             BarVisibility::WhenLong
@@ -121,7 +121,7 @@ impl Snapshot {
     }
 
     /// Refuses options that contradict each other.
-    fn sound(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
+    fn check_options(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {
             let html = page
@@ -152,10 +152,10 @@ impl Snapshot {
             .chain(&self.junit)
             .cloned()
             .collect();
-        destination::apart(&outputs, &[])
+        destination::refuse_overwrites(&outputs, &[])
     }
 
-    fn nothing(&self) -> CliError {
+    fn nothing_found_error(&self) -> CliError {
         let places: Vec<String> = self
             .folders
             .iter()

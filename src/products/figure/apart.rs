@@ -1,4 +1,4 @@
-//! [`apart`]: moves overlapping parallel arrows sideways, so that they are drawn next to each other.
+//! [`separate_parallel_arrows`]: moves overlapping parallel arrows sideways, so that they are drawn next to each other.
 //!
 //! The ground often pushes a block up on the same line on which its weight pulls it down. On this line, the two arrows
 //! would look like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
@@ -39,7 +39,7 @@ const OFFSET_RESOLUTION: f64 = 1e-6;
 const CLEAR_TOL: f64 = 1e-6;
 
 /// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other.
-pub(crate) fn apart(marks: &mut Marks) {
+pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {
         return;
@@ -212,7 +212,7 @@ mod tests {
         let largest = crate::figure::mark::largest(&analysis, 0, &options);
         let mut marks = marks(&analysis, 0, &options, largest);
         let before = marks.clone();
-        apart(&mut marks);
+        separate_parallel_arrows(&mut marks);
         for (a, b) in marks.arrows.iter().zip(&before.arrows) {
             assert_eq!((a.vector, a.force), (b.vector, b.force));
             // Never farther than a few widths from the line along which the force acts.

@@ -6,7 +6,7 @@
 
 use core::cell::{Cell, OnceCell};
 
-use super::apart::apart;
+use super::apart::separate_parallel_arrows;
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::context::FigureContext;
 use super::displacement::Course;
@@ -130,7 +130,7 @@ impl<'a> FigureContext<'a> {
             .map(|frame| content.course(analysis, frame, unit))
             .collect();
         let shown = match options.zoom {
-            Some(block) => vec![view::around(scene, block); marks.len()],
+            Some(block) => vec![view::zoomed_view(scene, block); marks.len()],
             None => {
                 let extent = |frame: usize| {
                     let source = FrameSource {
@@ -191,7 +191,7 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     let shared = own.iter().copied().fold(0.0, f64::max);
     let zoomed = options
         .zoom
-        .map(|block| view::around(&analysis.scene, block));
+        .map(|block| view::zoomed_view(&analysis.scene, block));
     let (stretch, least_load) = match about.stretches_arrows && !options.printed() {
         true => stretch(analysis, options),
         false => (1.0, 0.0),
@@ -207,11 +207,11 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
         }
         lengthen_loads(&mut marks, least_load);
         if let Some(near) = zoomed {
-            marks.arrows.retain(|arrow| view::holds(near, arrow.at));
-            marks.turns.retain(|turn| view::holds(near, turn.at));
+            marks.arrows.retain(|arrow| view::contains(near, arrow.at));
+            marks.turns.retain(|turn| view::contains(near, turn.at));
         }
         if about.draws_forces && !options.printed() {
-            apart(&mut marks);
+            separate_parallel_arrows(&mut marks);
         }
         marks
     };

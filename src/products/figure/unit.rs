@@ -10,7 +10,7 @@ const UNEVEN_RATIO: f64 = 3.0;
 /// it is 0.6·√A, about the edge of a regular hexagon of area A. A is the area of the median block, or the mean area if
 /// this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its surroundings.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
-    let near = zoom.map(|block| view::around(scene, block));
+    let near = zoom.map(|block| view::zoomed_view(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
     let mut sizes: Vec<f64> = scene
         .blocks

@@ -32,8 +32,14 @@ pub(crate) fn shown(
             let ends = Bounds::from_points([arrow.at, arrow.at + arrow.reach()]);
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
-        let turns = marks.turns.iter().map(|turn| near(turn.at, 0.7 * unit));
-        let robots = frame.holds.iter().map(|hold| near(hold.at, disc * unit));
+        let turns = marks
+            .turns
+            .iter()
+            .map(|turn| square_around(turn.at, 0.7 * unit));
+        let robots = frame
+            .holds
+            .iter()
+            .map(|hold| square_around(hold.at, disc * unit));
         let all = blocks
             .chain(arrows)
             .chain(turns)
@@ -41,7 +47,7 @@ pub(crate) fn shown(
             .chain(ground)
             .chain(*reach);
         all.reduce(Bounds::union)
-            .unwrap_or(near(Point::origin(), unit))
+            .unwrap_or(square_around(Point::origin(), unit))
             .grown(PADDING * unit)
     };
     scene
@@ -84,29 +90,29 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
         if small && far.intersects(part) {
             Some(part)
         } else {
-            common(near, part)
+            intersection(near, part)
         }
     };
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
 /// Returns a box around a block, metres: the bounding box, enlarged on all sides by half of its longer side.
-pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
+pub(crate) fn zoomed_view(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
     bounds.grown(ZOOM_PADDING * bounds.width().max(bounds.height()))
 }
 
 /// True if a point lies in a box or on its boundary.
-pub(crate) fn holds(bounds: Bounds, p: Point) -> bool {
+pub(crate) fn contains(bounds: Bounds, p: Point) -> bool {
     (bounds.min.x..=bounds.max.x).contains(&p.x) && (bounds.min.y..=bounds.max.y).contains(&p.y)
 }
 
-fn near(p: Point, radius: f64) -> Bounds {
+fn square_around(p: Point, radius: f64) -> Bounds {
     Bounds { min: p, max: p }.grown(radius)
 }
 
 /// Returns the intersection of two boxes; `None` if they neither overlap nor touch.
-pub(crate) fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
+pub(crate) fn intersection(a: Bounds, b: Bounds) -> Option<Bounds> {
     let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
     let size: Vector = max - min;
     (size.x >= 0.0 && size.y >= 0.0).then_some(Bounds { min, max })

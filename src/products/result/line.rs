@@ -181,7 +181,7 @@ pub fn line_of(
     picture: &PictureOutcome,
     fields: &Fields,
 ) -> String {
-    let mut out = begun(origin);
+    let mut out = line_start(origin);
     let verdict = word(analysis.verdict());
     let all = fields.are_all();
     if fields.are_few() {
@@ -223,15 +223,15 @@ pub fn line_of(
             put(&mut out, "picture_refused", &Value::from(&**why));
         }
     }
-    ended(out)
+    line_end(out)
 }
 
 /// Writes the title of a scene and its verdict as one line that ends with a line feed. If one of these fields is not
 /// selected, it is left out.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
-    let mut out = begun(origin);
+    let mut out = line_start(origin);
     put_few(&mut out, title, verdict, fields);
-    ended(out)
+    line_end(out)
 }
 
 fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
@@ -246,7 +246,7 @@ fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
     }
 }
 
-fn begun(origin: &Origin) -> String {
+fn line_start(origin: &Origin) -> String {
     let mut out = String::from("{");
     if let Some(file) = &origin.file {
         put(&mut out, "file", &Value::from(&**file));
@@ -257,7 +257,7 @@ fn begun(origin: &Origin) -> String {
     out
 }
 
-fn ended(mut out: String) -> String {
+fn line_end(mut out: String) -> String {
     out.push_str("}\n");
     text::json(&out)
 }

@@ -325,7 +325,8 @@ impl<'a> Frame<'a> {
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
-            only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
+            only_by_wedging: is_simulated(frame, EffectName::Wedging)
+                .then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
             effects: frame
                 .effects
@@ -345,7 +346,7 @@ impl<'a> Frame<'a> {
 }
 
 /// True if the analysis simulated this effect in the frame.
-fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
+fn is_simulated(frame: &FrameAnalysis, effect: EffectName) -> bool {
     frame
         .effects
         .iter()

@@ -10,7 +10,7 @@ pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> St
     let load = if loads == 1 { "load" } else { "loads" };
     match (verdict, margin.parameter) {
         (Verdict::Undecided, _) => "It is undecided whether it stands".to_owned(),
-        (Verdict::Stable, Parameter::LoadFactor) => carries(margin, load),
+        (Verdict::Stable, Parameter::LoadFactor) => load_factor_phrase(margin, load),
         (Verdict::Unstable, Parameter::LoadFactor) => lacks(margin, load),
         (Verdict::Stable, _) => reserve(margin),
         (Verdict::Unstable, _) => falls(margin),
@@ -28,7 +28,7 @@ fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
     })
 }
 
-fn carries(margin: &StatedMargin<'_>, load: &str) -> String {
+fn load_factor_phrase(margin: &StatedMargin<'_>, load: &str) -> String {
     let low = margin.interval.low().and_then(confirmed);
     match end(margin.interval.high(), &three_down) {
         Some(value) => format!("It carries {value} times its {load}"),

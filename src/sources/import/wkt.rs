@@ -40,7 +40,7 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
             if reader.rest.trim().is_empty() {
                 Ok(())
             } else {
-                Err(reader.stuck("the end of the line"))
+                Err(reader.expected_error("the end of the line"))
             }
         });
         if let Err(why) = read {
@@ -107,7 +107,7 @@ impl Reader<'_> {
         }
         let mut word = self.word();
         if word.is_empty() {
-            return Err(self.stuck("a geometry such as POLYGON"));
+            return Err(self.expected_error("a geometry such as POLYGON"));
         }
         if matches!(self.peek_word().as_str(), "Z" | "M" | "ZM") {
             self.word();
@@ -192,7 +192,7 @@ impl Reader<'_> {
                 self.rest = &self.rest[end..];
                 Ok(number)
             }
-            Err(_) => Err(self.stuck("a number")),
+            Err(_) => Err(self.expected_error("a number")),
         }
     }
 
@@ -224,11 +224,11 @@ impl Reader<'_> {
         if self.accept(mark) {
             Ok(())
         } else {
-            Err(self.stuck(&format!("`{mark}`")))
+            Err(self.expected_error(&format!("`{mark}`")))
         }
     }
 
-    fn stuck(&self, wanted: &str) -> String {
+    fn expected_error(&self, wanted: &str) -> String {
         let found: String = self.rest.trim_start().chars().take(20).collect();
         if found.is_empty() {
             format!("it ends where {wanted} should be")

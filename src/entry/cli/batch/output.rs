@@ -51,7 +51,7 @@ impl Output {
         };
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
         let outputs = [path.to_owned(), ResumeFile::path_for(path)];
-        destination::apart(&outputs, &inputs)?;
+        destination::refuse_overwrites(&outputs, &inputs)?;
         if target.resume && resume::has_content(path)? {
             let checked = resume::check(path, &target.settings, records)?;
             let (file, log) = resume::reopen(path, &checked)?;

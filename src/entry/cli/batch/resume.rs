@@ -205,7 +205,7 @@ pub(super) fn check(
                 checked.answers
             )));
         };
-        agree(&line, &entry_line, &record)
+        check_line_matches(&line, &entry_line, &record)
             .map_err(|why| refused(&format!("line {number} of {name} {why}")))?;
         checked.answers += 1;
         checked.bytes += line.len() as u64;
@@ -258,7 +258,7 @@ fn refused(why: &str) -> CliError {
 
 /// Checks that an output line is unchanged since it was written, and that it answers this scene. The error states the
 /// difference.
-fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
+fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
     let expected = entry(scene, line);
     let (expected, found) = (expected.as_bytes(), &entry_line[..ENTRY_BYTES - 1]);

@@ -32,7 +32,7 @@ impl Render {
         let targets: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
         let paths = paths(destination, &targets, format).map_err(one)?;
         let inputs: Vec<&Path> = targets.iter().copied().chain(self.look.file()).collect();
-        destination::apart(&paths, &inputs).map_err(one)?;
+        destination::refuse_overwrites(&paths, &inputs).map_err(one)?;
 
         let mut pictures = Vec::new();
         let mut complaints = Vec::new();

@@ -252,7 +252,7 @@ impl ConvexSide {
 
     /// True if the line through this side separates its piece from these points.
     fn separates(&self, others: &[PagePoint]) -> bool {
-        self.apart(self.reach(others))
+        self.is_disjoint(self.reach(others))
     }
 
     /// True if the line through this side separates its piece from the box from `min` to `max`.
@@ -270,10 +270,10 @@ impl ConvexSide {
         };
         let least = self.offset(PagePoint::new(right, below));
         let most = self.offset(PagePoint::new(left, above));
-        self.apart((least, most))
+        self.is_disjoint((least, most))
     }
 
-    fn apart(&self, other: (f64, f64)) -> bool {
+    fn is_disjoint(&self, other: (f64, f64)) -> bool {
         self.own.1 <= other.0 + self.touch || other.1 <= self.own.0 + self.touch
     }
 }

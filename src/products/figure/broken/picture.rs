@@ -202,8 +202,10 @@ fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
         (-1.0, 0.0),
     ];
     let clear = |at: &PagePoint| {
-        let apart = |other: &PagePoint| libm::hypot(at.x - other.x, at.y - other.y);
-        taken.iter().all(|other| apart(other) > 2.2 * DISC_RADIUS)
+        let distance = |other: &PagePoint| libm::hypot(at.x - other.x, at.y - other.y);
+        taken
+            .iter()
+            .all(|other| distance(other) > 2.2 * DISC_RADIUS)
     };
     let far = |turn: usize| 2.2 * DISC_RADIUS * (1 + turn) as f64;
     let places =

@@ -1,4 +1,4 @@
-//! [`apart`]: moves arrows of a free-body diagram sideways if they overlap on the same line.
+//! [`separate_arrows`]: moves arrows of a free-body diagram sideways if they overlap on the same line.
 //!
 //! In the middle of a pile, forces push a block up on the same line on which its weight pulls it down. On this line,
 //! the two arrows would overlap. Only the position of the arrow changes; the list of forces keeps the line of action.
@@ -16,7 +16,7 @@ const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * SHAFT_WIDTH;
 
 /// Moves each arrow that overlaps an earlier arrow sideways, by one or two arrow widths to its left or right. Without
 /// enough space, the arrow is not moved.
-pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
+pub(super) fn separate_arrows(arrows: &mut [Arrow], camera: &Camera) {
     for i in 1..arrows.len() {
         let (before, rest) = arrows.split_at_mut(i);
         let Some(arrow) = rest.first_mut() else {

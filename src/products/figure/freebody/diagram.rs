@@ -3,7 +3,7 @@
 
 use super::super::option::{Corners, Options};
 use super::super::unit::unit;
-use super::apart::apart;
+use super::apart::separate_arrows;
 use super::around::{aside, corners, distinct, inward};
 use super::arrow::{Arrow, MAX_LENGTH, SHAFT_WIDTH};
 use super::force::{Detail, Force, detail, largest};
@@ -70,7 +70,7 @@ pub(super) fn arrows(
             arrows.push(diagram.unit_normal(number, contact));
         }
     }
-    apart(&mut arrows, camera);
+    separate_arrows(&mut arrows, camera);
     arrows
 }
 

@@ -163,7 +163,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let shown = |id: &&BlockId| {
         let body = &scene.blocks[id.0].body;
-        options.zoom.is_none() || view::common(view, body.polygon.bounds()).is_some()
+        options.zoom.is_none() || view::intersection(view, body.polygon.bounds()).is_some()
     };
     let few = frame.placed.iter().filter(shown).count() <= MAX_LABELLED_BLOCKS;
     let mut labels = Vec::new();

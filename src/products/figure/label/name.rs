@@ -31,7 +31,7 @@ fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
 pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.context.analysis.scene.blocks[id.0];
     let zoomed = pen.context.options.zoom.is_some();
-    if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
+    if zoomed && view::intersection(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
     // The name of a block that is much larger than the unit edge has a larger font size.
@@ -54,7 +54,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
             .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
         padding: 0.5 * size,
-        max_distance: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
+        max_distance: (!zoomed || view::contains(view, block.centroid)).then_some(f64::INFINITY),
     };
     let label = label(block.id.clone(), Face::SansBold, size, "name", request);
     let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
@@ -90,7 +90,7 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     };
     let zoomed = pen.context.options.zoom.is_some();
     let holds = scene.frames[pen.number].holds.iter();
-    let shown = holds.filter(|hold| !zoomed || view::holds(view, hold.at));
+    let shown = holds.filter(|hold| !zoomed || view::contains(view, hold.at));
     shown.map(named).collect()
 }
 
@@ -98,7 +98,9 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 /// `view`, only points inside the visible part of the polygon are returned.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
-    let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
+    let bounds = view
+        .and_then(|v| view::intersection(v, whole))
+        .unwrap_or(whole);
     let share = |i: usize| (i as f64 + 0.5) / POSITIONS_PER_AXIS as f64;
     let points: Vec<Point> = (0..POSITIONS_PER_AXIS * POSITIONS_PER_AXIS)
         .map(|i| {

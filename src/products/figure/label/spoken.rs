@@ -5,7 +5,7 @@ use crate::drawing::text::NO_BREAK;
 /// True if a text contains `name` as a separate word. In `3 N` or `3 hinges`, the number is a quantity or a count and
 /// not a name. A number with decimals is not a name either.
 pub(super) fn names(text: &str, name: &str) -> bool {
-    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    let is_word_boundary = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
     let begins_with_digit = name.starts_with(|c: char| c.is_ascii_digit());
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
@@ -24,7 +24,9 @@ pub(super) fn names(text: &str, name: &str) -> bool {
     !name.is_empty()
         && text.match_indices(name).any(|(at, _)| {
             let (before, rest) = (&text[..at], &text[at + name.len()..]);
-            apart(before.chars().next_back()) && apart(rest.chars().next()) && !counts(before, rest)
+            is_word_boundary(before.chars().next_back())
+                && is_word_boundary(rest.chars().next())
+                && !counts(before, rest)
         })
 }
 

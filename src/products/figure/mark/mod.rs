@@ -36,8 +36,8 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     let scene = &analysis.scene;
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
-    let near = options.zoom.map(|block| view::around(scene, block));
-    let shown = |at: Point| near.is_none_or(|near| view::holds(near, at));
+    let near = options.zoom.map(|block| view::zoomed_view(scene, block));
+    let shown = |at: Point| near.is_none_or(|near| view::contains(near, at));
     let blocks = frame.placed.iter().map(|b| &scene.blocks[b.0]);
     let blocks = blocks.filter(|b| shown(b.centroid));
     let weights = blocks.map(|b| b.weight);

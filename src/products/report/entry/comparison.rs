@@ -101,7 +101,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
             [Some(a), Some(b)] => both([was, is], number, [a, b], report_options),
             [a, b] => {
                 let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
-                alone(side, number, drawing, only_in(counts, number))
+                unpaired_step(side, number, drawing, only_in(counts, number))
             }
         };
         // Set the letter here: `sheet::empty` knows only one scene, but letters are needed if either scene has several
@@ -139,7 +139,12 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
 
 /// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`, which says
 /// which scene has the step.
-fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
+fn unpaired_step(
+    side: Side<'_>,
+    number: usize,
+    drawing: Option<Drawing>,
+    why: &str,
+) -> (String, Section) {
     let (scene, frame_analysis) = (&side.analysis.scene, &side.analysis.frames[number]);
     let mut section = sheet::empty(scene, number, frame_analysis.verdict);
     section.parts.push(SheetPart::Text(why.to_owned()));

@@ -240,7 +240,7 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
             .collect::<Vec<_>>()
     };
     let first: Vec<String> = story::fails_first(analysis, number).into_iter().collect();
-    let take = story::would_take(scene, frame_analysis);
+    let take = story::changes_of_verdict(scene, frame_analysis);
     let take = match take.is_empty() {
         true => take,
         false => vec![take.join(" ")],

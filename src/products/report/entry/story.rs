@@ -1,4 +1,4 @@
-//! [`fails_first`] and [`would_take`]: sentences on where a frame fails first, and what would change its verdict.
+//! [`fails_first`] and [`changes_of_verdict`]: sentences on where a frame fails first, and what would change its verdict.
 
 use super::joints::name;
 use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
@@ -44,7 +44,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
                 .into_iter()
                 .collect();
             // Use the elementary mechanism, because the figure shows it too.
-            let shown = alone(analysis, number).elementary();
+            let shown = with_only_frame(analysis, number).elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
         }
@@ -80,7 +80,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     if mechanism.is_empty() {
         return None;
     }
-    let mut moved = alone(analysis, number);
+    let mut moved = with_only_frame(analysis, number);
     moved.frames[0].mechanism = mechanism.to_vec();
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
     let frame_analysis = joints(&moved, 0);
@@ -125,7 +125,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
 }
 
 /// Makes an analysis that contains only this frame.
-fn alone(analysis: &Analysis, number: usize) -> Analysis {
+fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
     Analysis {
         scene: analysis.scene.clone(),
         frames: vec![analysis.frames[number].clone()],
@@ -141,7 +141,7 @@ fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
 
 /// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for each
 /// computed margin.
-pub(super) fn would_take(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     stated(scene, frame_analysis)
         .iter()
         .filter_map(|margin| change(margin, frame_analysis.verdict))
@@ -257,7 +257,7 @@ mod tests {
                 beyond: 2.5,
             },
         });
-        let said = would_take(&scene, frame);
+        let said = changes_of_verdict(&scene, frame);
         let expected = "(upper end not confirmed: between 2 and 2.5)";
         assert!(said[0].contains(expected), "{said:?}");
         assert!(

@@ -56,7 +56,7 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
     }
     let keys = |list: &[Element]| list.iter().map(|e| key(e, stage)).collect::<Vec<u64>>();
     let (mut a, mut b) = (0, 0);
-    for (i, j) in common(&keys(old), &keys(new)) {
+    for (i, j) in longest_common_subsequence(&keys(old), &keys(new)) {
         between(&old[a..i], &new[b..j], stage + 1, pairs);
         pairs.push((Some(&old[i]), Some(&new[j])));
         (a, b) = (i + 1, j + 1);
@@ -87,7 +87,7 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
 
 /// Finds a longest common subsequence of two lists of keys, and returns it as pairs of indices. A common prefix and a
 /// common suffix are paired first. For very long lists, the subsequence may not be the longest.
-fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
+fn longest_common_subsequence(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
     let behind = a
@@ -99,7 +99,7 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let (a, b) = (&a[..a.len() - behind], &b[..b.len() - behind]);
     let mut found: Vec<(usize, usize)> = (0..ahead).map(|i| (i, i)).collect();
     let middle = if a.len().saturating_mul(b.len()) > MAX_TABLE_ENTRIES {
-        greedy(a, b)
+        greedy_common_subsequence(a, b)
     } else {
         longest(a, b)
     };
@@ -139,7 +139,7 @@ fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
 }
 
 /// Finds a common subsequence with a greedy method: pairs each key with its next occurrence among the next 64 keys.
-fn greedy(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
+fn greedy_common_subsequence(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut next = 0;
     for (i, key) in a.iter().enumerate() {

@@ -227,7 +227,7 @@ impl Difference {
                     PixelMark::Changed => [0xd4, 0x00, 0x1a, 255],
                     PixelMark::Smoothed => [0xe8, 0xb4, 0x00, 255],
                     PixelMark::Beyond => [0xb8, 0xd4, 0xf0, 255],
-                    PixelMark::Same if x < ew && y < eh => faded(expected.pixel(x, y)),
+                    PixelMark::Same if x < ew && y < eh => pale_grey(expected.pixel(x, y)),
                     PixelMark::Same => [255; 4],
                 });
             }
@@ -254,7 +254,7 @@ fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
 }
 
 /// Converts a colour to one of 32 levels of pale grey, by its brightness. With few colours, the PNG is small.
-fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+fn pale_grey([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let grey = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
     let ink = (255 - grey) * u32::from(a) / 255;
     let pale = 255 - (ink / 8 * 8) * 2 / 5;

@@ -132,7 +132,7 @@ impl Picture {
     /// assert_eq!(Picture::decode(pointer), Err(PictureError::Pointer));
     /// ```
     pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
-        if let Some(foreign) = foreign(bytes) {
+        if let Some(foreign) = not_png_error(bytes) {
             return Err(foreign);
         }
         let wrong = |error: DecodingError| match error {
@@ -219,7 +219,7 @@ impl Picture {
 }
 
 /// Returns an error that says what the bytes are, if they do not begin like a PNG. Returns `None` if they do.
-fn foreign(bytes: &[u8]) -> Option<PictureError> {
+fn not_png_error(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {
         return Some(PictureError::Empty);
