@@ -185,7 +185,7 @@ fn the_figure_of_a_margin_tells_the_interval_of_the_result() {
             (verdict, true) => {
                 assert_ne!(verdict, "stable", "{file}");
                 assert!(
-                    words.contains("falls under every multiple of its loads"),
+                    words.contains("falls at every factor on its loads"),
                     "{words}"
                 );
                 never += 1;
