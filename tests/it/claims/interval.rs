@@ -463,7 +463,7 @@ fn what_it_would_take_lies_on_the_right_side_of_the_end() {
         "The structure would stand at 1.34 times its loads.",
         "The structure would fall below 0.301 times its loads.",
         "The structure would stand at 0.327 times its loads.",
-        "The structure stands at every multiple of its loads.",
+        "The structure stands at every factor on its loads.",
         "The structure falls at every factor on its loads.",
     ]) {
         let has = told.page.contains(sentence);

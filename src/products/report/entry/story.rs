@@ -179,7 +179,7 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
                     three_down(low)
                 )
             }
-            _ => "The structure stands at every multiple of its loads.".to_owned(),
+            _ => "The structure stands at every factor on its loads.".to_owned(),
         },
         (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
             (Some(low), _) if low > 1.0 => {
