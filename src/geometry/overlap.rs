@@ -11,14 +11,20 @@
 
 use std::borrow::Cow;
 use std::ops::{Add, Sub};
+use std::sync::OnceLock;
 
 use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 
-/// A polygon cut into convex pieces: the polygon itself if it is convex, otherwise triangles.
+/// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
+/// triangles.
+///
+/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch others, and then their
+/// bounds decide.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
-    convex: Option<Piece<'p>>,
-    triangles: Vec<Piece<'p>>,
+    polygon: &'p Polygon,
+    bounds: Bounds,
+    pieces: OnceLock<Vec<Piece<'p>>>,
 }
 
 /// A convex piece with two quick tests: its bounds, and its extent across its longest side.
@@ -85,13 +91,37 @@ pub struct Overlap {
 }
 
 impl<'p> ConvexPieces<'p> {
-    /// Divides a polygon into convex pieces: one piece if the polygon is convex, otherwise triangles.
+    /// Prepares a polygon for [`overlap`].
     pub fn new(polygon: &'p Polygon) -> ConvexPieces<'p> {
+        ConvexPieces {
+            polygon,
+            bounds: polygon.bounds(),
+            pieces: OnceLock::new(),
+        }
+    }
+
+    fn pieces(&self) -> &[Piece<'p>] {
+        self.pieces.get_or_init(|| Piece::all_of(self.polygon))
+    }
+
+    /// Returns an upper bound of the depth of the overlap with another polygon, in metres: the least distance along x
+    /// or y by which one polygon must move until their bounds are disjoint.
+    ///
+    /// The depth of two convex pieces is the least distance, over all directions, by which one must move until it
+    /// leaves the other. No direction needs a smaller distance, and the pieces lie inside the bounds.
+    fn depth_bound(&self, other: &ConvexPieces<'_>) -> f64 {
+        let (a, b) = (self.bounds, other.bounds);
+        let (one, two) = (a.max - b.min, b.max - a.min);
+        one.x.min(two.x).min(one.y).min(two.y)
+    }
+}
+
+impl<'p> Piece<'p> {
+    /// Divides a polygon into convex pieces: one piece if the polygon is convex, otherwise triangles.
+    fn all_of(polygon: &'p Polygon) -> Vec<Piece<'p>> {
         if polygon.is_convex() {
-            return ConvexPieces {
-                convex: Piece::new(Cow::Borrowed(polygon.outline())),
-                triangles: Vec::new(),
-            };
+            let whole = Piece::new(Cow::Borrowed(polygon.outline()));
+            return whole.into_iter().collect();
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
         // Pass coordinates relative to a corner to the ear clipping. Far from the origin, differences between products
@@ -106,7 +136,7 @@ impl<'p> ConvexPieces<'p> {
         }
         let mut corners: Vec<usize> = Vec::new();
         earcut::Earcut::new().earcut(relative, &hole_starts, &mut corners);
-        let triangles = corners
+        corners
             .chunks_exact(3)
             .map(|t| {
                 let mut triangle = vec![points[t[0]], points[t[1]], points[t[2]]];
@@ -119,25 +149,21 @@ impl<'p> ConvexPieces<'p> {
             // separating-axis test.
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
             .filter_map(|t| Piece::new(Cow::Owned(t)))
-            .collect();
-        ConvexPieces {
-            convex: None,
-            triangles,
-        }
-    }
-
-    fn pieces(&self) -> impl Iterator<Item = &Piece<'p>> {
-        self.convex.iter().chain(&self.triangles)
+            .collect()
     }
 }
 
 /// Returns the overlap of two polygons that are given as convex pieces. `None` if the overlap is at most `gap` metres
 /// deep.
 pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
+    if a.depth_bound(b) <= gap {
+        return None;
+    }
     let mut depth: f64 = 0.0;
     let mut overlapping = Vec::new();
     for one in a.pieces() {
-        for two in b.pieces().filter(|two| one.bounds.intersects(two.bounds)) {
+        let near = (b.pieces().iter()).filter(|two| one.bounds.intersects(two.bounds));
+        for two in near {
             if one.is_separated_from(two) || two.is_separated_from(one) {
                 continue;
             }
@@ -156,7 +182,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
         return None;
     }
     // Compute the area and the centroid of the intersection relative to a corner near it, so that few digits are lost.
-    let base = a.pieces().next()?.corners[0];
+    let base = a.pieces().first()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
     (area > 0.0).then(|| Overlap {
         area,
@@ -244,190 +270,4 @@ where
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
-        Polygon::new(
-            vec![
-                Point::new(x, y),
-                Point::new(x + w, y),
-                Point::new(x + w, y + h),
-                Point::new(x, y + h),
-            ],
-            vec![],
-        )
-        .expect("sound")
-    }
-
-    #[test]
-    fn touching_is_not_overlapping_and_an_overlap_has_area_and_place() {
-        let a = rectangle(0.0, 0.0, 2.0, 1.0);
-        let a = ConvexPieces::new(&a);
-        assert_eq!(
-            overlap(&a, &ConvexPieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
-            None
-        );
-        assert_eq!(
-            overlap(
-                &a,
-                &ConvexPieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
-                1e-6
-            ),
-            None
-        );
-        let found = overlap(
-            &a,
-            &ConvexPieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)),
-            1e-6,
-        )
-        .expect("overlap");
-        assert!((found.area - 0.125).abs() < 1e-12);
-        assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
-        assert!((found.depth - 0.25).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_block_in_the_hole_of_another_does_not_overlap_it() {
-        let corners = |x: f64, w: f64| {
-            vec![
-                Point::new(x, x),
-                Point::new(x + w, x),
-                Point::new(x + w, x + w),
-                Point::new(x, x + w),
-            ]
-        };
-        let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
-        let pieces = ConvexPieces::new(&frame);
-        assert_eq!(
-            overlap(
-                &pieces,
-                &ConvexPieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)),
-                1e-9
-            ),
-            None
-        );
-        let stuck = overlap(
-            &pieces,
-            &ConvexPieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)),
-            1e-9,
-        )
-        .expect("overlap");
-        assert!((stuck.area - 0.5).abs() < 1e-12);
-    }
-
-    fn polygon(corners: &[[f64; 2]]) -> Polygon {
-        let corners = corners.iter().map(|p| Point::new(p[0], p[1])).collect();
-        Polygon::new(corners, vec![]).expect("sound")
-    }
-
-    /// The overlap of two, the same in either order.
-    fn both(a: &Polygon, b: &Polygon) -> Overlap {
-        let (a, b) = (&ConvexPieces::new(a), &ConvexPieces::new(b));
-        let found = overlap(a, b, 1e-9).expect("overlap");
-        let other = overlap(b, a, 1e-9).expect("overlap");
-        assert!((found.area - other.area).abs() < 1e-12);
-        assert!((found.at - other.at).norm() < 1e-12);
-        assert!((found.depth - other.depth).abs() < 1e-12);
-        found
-    }
-
-    #[test]
-    fn common_area_and_its_centroid_are_those_of_the_pieces_together() {
-        // An L and a square over its corner: 2 by ½ around (1½, ¾), and ½ by 1½ around (¾, 1¾).
-        for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
-            let corners = [
-                [0.0, 0.0],
-                [3.0, 0.0],
-                [3.0, 1.0],
-                [1.0, 1.0],
-                [1.0, 3.0],
-                [0.0, 3.0],
-            ];
-            let l = polygon(&corners.map(|p| [p[0] + x, p[1] + y]));
-            let found = both(&l, &rectangle(0.5 + x, 0.5 + y, 2.0, 2.0));
-            assert!((found.area - 1.75).abs() < 1e-12);
-            let wanted = Point::new(x + (1.5 + 0.5625) / 1.75, y + (0.75 + 1.3125) / 1.75);
-            assert!((found.at - wanted).norm() < 1e-12, "{}", found.at);
-        }
-        // A square less its four corners, cut by a diamond.
-        let diamond = polygon(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
-        let found = both(&diamond, &rectangle(-1.0, -1.0, 2.0, 2.0));
-        assert!((found.area - 3.5).abs() < 1e-12 && found.at.coords.norm() < 1e-12);
-    }
-
-    #[test]
-    fn depth_is_the_least_way_out() {
-        let slab = rectangle(0.0, 0.0, 4.0, 4.0);
-        for (x, y, depth) in [
-            (1.0, 1.0, 2.0),
-            (2.5, 1.0, 1.5),
-            (-0.75, 2.0, 0.25),
-            (3.5, 3.75, 0.25),
-        ] {
-            let found = both(&slab, &rectangle(x, y, 1.0, 1.0));
-            assert!(
-                (found.depth - depth).abs() < 1e-12,
-                "{x} {y}: {}",
-                found.depth
-            );
-        }
-        // A tip, from above and onto a slope: ¼ deep, the slope 3 along and 4 down.
-        let tip = polygon(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
-        assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
-        let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
-        let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
-        assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
-        let deep = |a: &Polygon, b: &Polygon, gap: f64| {
-            overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap)
-        };
-        assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
-        // As deep as the gap is none yet.
-        let stone = rectangle(1.0, 3.75, 1.0, 1.0);
-        assert_eq!(deep(&slab, &stone, 0.25), None);
-        assert!(deep(&slab, &stone, 0.2499).is_some());
-    }
-
-    /// 2⁵⁰ metres.
-    const FAR: f64 = 1_125_899_906_842_624.0;
-
-    #[test]
-    fn pieces_cover_the_whole_once() {
-        let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
-        let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
-        let frame = frame.expect("sound");
-        let mut area = 0.0;
-        for piece in ConvexPieces::new(&frame).pieces() {
-            let t = &piece.corners;
-            let bounds = Bounds::from_points(t.iter().copied());
-            assert_eq!((t.len(), bounds), (3, Some(piece.bounds)));
-            let part = cross(t[1] - t[0], t[2] - t[0]) / 2.0;
-            assert!(part > 0.0, "anticlockwise");
-            let centre = t[0] + (t[1] - t[0] + (t[2] - t[0])) / 3.0;
-            assert!(frame.contains(centre));
-            area += part;
-        }
-        assert!((area - 71.0).abs() < 1e-12);
-        // So far away that only quarters of a metre have a number.
-        let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
-        let corners = [
-            [0.0, 0.0],
-            [3.0, 0.0],
-            [3.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 3.0],
-            [0.0, 3.0],
-        ];
-        let l = polygon(&corners.map(far));
-        let pieces = ConvexPieces::new(&l);
-        let parts = pieces.pieces().map(|piece| {
-            let t = &piece.corners;
-            cross(t[1] - t[0], t[2] - t[0]) / 2.0
-        });
-        assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
-        let square = rectangle(0.0, 0.0, 1.0, 1.0);
-        let pieces = ConvexPieces::new(&square);
-        let convex: Vec<usize> = pieces.pieces().map(|piece| piece.corners.len()).collect();
-        assert_eq!(convex, [4], "what is convex stays whole");
-    }
-}
+mod tests;

@@ -1,0 +1,205 @@
+//! Tests of overlaps: areas, centroids and depths that follow from the coordinates.
+
+use super::*;
+
+fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
+    Polygon::new(
+        vec![
+            Point::new(x, y),
+            Point::new(x + w, y),
+            Point::new(x + w, y + h),
+            Point::new(x, y + h),
+        ],
+        vec![],
+    )
+    .expect("sound")
+}
+
+#[test]
+fn touching_is_not_overlapping_and_an_overlap_has_area_and_place() {
+    let a = rectangle(0.0, 0.0, 2.0, 1.0);
+    let a = ConvexPieces::new(&a);
+    assert_eq!(
+        overlap(&a, &ConvexPieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
+        None
+    );
+    assert_eq!(
+        overlap(
+            &a,
+            &ConvexPieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
+            1e-6
+        ),
+        None
+    );
+    let found = overlap(
+        &a,
+        &ConvexPieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)),
+        1e-6,
+    )
+    .expect("overlap");
+    assert!((found.area - 0.125).abs() < 1e-12);
+    assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
+    assert!((found.depth - 0.25).abs() < 1e-12);
+}
+
+#[test]
+fn a_block_in_the_hole_of_another_does_not_overlap_it() {
+    let corners = |x: f64, w: f64| {
+        vec![
+            Point::new(x, x),
+            Point::new(x + w, x),
+            Point::new(x + w, x + w),
+            Point::new(x, x + w),
+        ]
+    };
+    let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
+    let pieces = ConvexPieces::new(&frame);
+    assert_eq!(
+        overlap(
+            &pieces,
+            &ConvexPieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)),
+            1e-9
+        ),
+        None
+    );
+    let stuck = overlap(
+        &pieces,
+        &ConvexPieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)),
+        1e-9,
+    )
+    .expect("overlap");
+    assert!((stuck.area - 0.5).abs() < 1e-12);
+}
+
+fn polygon(corners: &[[f64; 2]]) -> Polygon {
+    let corners = corners.iter().map(|p| Point::new(p[0], p[1])).collect();
+    Polygon::new(corners, vec![]).expect("sound")
+}
+
+/// The overlap of two, the same in either order.
+fn both(a: &Polygon, b: &Polygon) -> Overlap {
+    let (a, b) = (&ConvexPieces::new(a), &ConvexPieces::new(b));
+    let found = overlap(a, b, 1e-9).expect("overlap");
+    let other = overlap(b, a, 1e-9).expect("overlap");
+    assert!((found.area - other.area).abs() < 1e-12);
+    assert!((found.at - other.at).norm() < 1e-12);
+    assert!((found.depth - other.depth).abs() < 1e-12);
+    found
+}
+
+#[test]
+fn common_area_and_its_centroid_are_those_of_the_pieces_together() {
+    // An L and a square over its corner: 2 by ½ around (1½, ¾), and ½ by 1½ around (¾, 1¾).
+    for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
+        let corners = [
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ];
+        let l = polygon(&corners.map(|p| [p[0] + x, p[1] + y]));
+        let found = both(&l, &rectangle(0.5 + x, 0.5 + y, 2.0, 2.0));
+        assert!((found.area - 1.75).abs() < 1e-12);
+        let wanted = Point::new(x + (1.5 + 0.5625) / 1.75, y + (0.75 + 1.3125) / 1.75);
+        assert!((found.at - wanted).norm() < 1e-12, "{}", found.at);
+    }
+    // A square less its four corners, cut by a diamond.
+    let diamond = polygon(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
+    let found = both(&diamond, &rectangle(-1.0, -1.0, 2.0, 2.0));
+    assert!((found.area - 3.5).abs() < 1e-12 && found.at.coords.norm() < 1e-12);
+}
+
+#[test]
+fn depth_is_the_least_way_out() {
+    let slab = rectangle(0.0, 0.0, 4.0, 4.0);
+    for (x, y, depth) in [
+        (1.0, 1.0, 2.0),
+        (2.5, 1.0, 1.5),
+        (-0.75, 2.0, 0.25),
+        (3.5, 3.75, 0.25),
+    ] {
+        let found = both(&slab, &rectangle(x, y, 1.0, 1.0));
+        assert!(
+            (found.depth - depth).abs() < 1e-12,
+            "{x} {y}: {}",
+            found.depth
+        );
+    }
+    // A tip, from above and onto a slope: ¼ deep, the slope 3 along and 4 down.
+    let tip = polygon(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
+    assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
+    let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
+    let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
+    assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
+    let deep = |a: &Polygon, b: &Polygon, gap: f64| {
+        overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap)
+    };
+    assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
+    // As deep as the gap is none yet.
+    let stone = rectangle(1.0, 3.75, 1.0, 1.0);
+    assert_eq!(deep(&slab, &stone, 0.25), None);
+    assert!(deep(&slab, &stone, 0.2499).is_some());
+}
+
+/// 2⁵⁰ metres.
+const FAR: f64 = 1_125_899_906_842_624.0;
+
+#[test]
+fn pieces_cover_the_whole_once() {
+    let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
+    let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
+    let frame = frame.expect("sound");
+    let mut area = 0.0;
+    for piece in ConvexPieces::new(&frame).pieces() {
+        let t = &piece.corners;
+        let bounds = Bounds::from_points(t.iter().copied());
+        assert_eq!((t.len(), bounds), (3, Some(piece.bounds)));
+        let part = cross(t[1] - t[0], t[2] - t[0]) / 2.0;
+        assert!(part > 0.0, "anticlockwise");
+        let centre = t[0] + (t[1] - t[0] + (t[2] - t[0])) / 3.0;
+        assert!(frame.contains(centre));
+        area += part;
+    }
+    assert!((area - 71.0).abs() < 1e-12);
+    // So far away that only quarters of a metre have a number.
+    let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
+    let corners = [
+        [0.0, 0.0],
+        [3.0, 0.0],
+        [3.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 3.0],
+        [0.0, 3.0],
+    ];
+    let l = polygon(&corners.map(far));
+    let pieces = ConvexPieces::new(&l);
+    let parts = pieces.pieces().iter().map(|piece| {
+        let t = &piece.corners;
+        cross(t[1] - t[0], t[2] - t[0]) / 2.0
+    });
+    assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
+    let square = rectangle(0.0, 0.0, 1.0, 1.0);
+    let pieces = ConvexPieces::new(&square);
+    let whole: Vec<usize> = pieces
+        .pieces()
+        .iter()
+        .map(|piece| piece.corners.len())
+        .collect();
+    assert_eq!(whole, [4], "what is convex stays whole");
+}
+
+#[test]
+fn bodies_that_only_touch_are_not_cut_into_pieces() {
+    // A block with a notch stands on the ground: their boxes share a line, so they cannot be deeper than 0.
+    let notched = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 1.0], [0.0, 2.0]];
+    let (notched, ground) = (polygon(&notched), rectangle(-9.0, -1.0, 18.0, 1.0));
+    let (a, b) = (ConvexPieces::new(&notched), ConvexPieces::new(&ground));
+    assert_eq!(overlap(&a, &b, 0.0), None);
+    assert!(a.pieces.get().is_none() && b.pieces.get().is_none());
+    // Above the notch their boxes overlap by half a metre, so the pieces decide.
+    let above = rectangle(1.5, 1.5, 1.0, 1.0);
+    assert_eq!(overlap(&a, &ConvexPieces::new(&above), 1e-9), None);
+    assert_eq!(a.pieces.get().map(Vec::len), Some(3));
+}
