@@ -178,6 +178,50 @@ fn a_robot_needs_no_more_than_what_it_holds() {
     near(&robot.fy, 8.0, 1e-6);
 }
 
+/// Forty robots hold a block of 8 N in the air, each with up to 2 N. Any 36 of them can lack a limit of their own: it
+/// takes 0 of each limit alone. The robots fall into two halves that each hold the block without the other, so three
+/// verdicts settle all 120 limits.
+#[test]
+fn robots_that_do_not_matter_are_settled_in_groups() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
+    let robot = |limit: f64| json!({ "holds": "a", "at": [0.5, 3.5], "limits": { "force": limit, "torque": 1 } });
+    let asked = Options::default()
+        .margins(true)
+        .margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
+    let judged = |file: &Value| {
+        let frame = Analysis::with(&scene(file), &asked).frames.remove(0);
+        let mut effects = frame.effects.iter();
+        let report = effects.find(|e| e.effect == EffectName::Margins);
+        let reason = report.expect("always reported").why.clone();
+        let count: Option<usize> = reason.split(' ').find_map(|word| word.parse().ok());
+        (frame.margins.expect("asked for").robots, count)
+    };
+    file["robots"] = vec![robot(2.0); 40].into();
+    let (robots, count) = judged(&file);
+    assert_eq!((robots.len(), count), (40, Some(3)));
+    for found in &robots {
+        for margin in [&found.fx, &found.fy, &found.torque] {
+            near(margin, 0.0, 0.0);
+        }
+    }
+    // With 7.9 N and 0.1 N in turn, the stronger robot must give the rest: 8 N − 0.1 N · 39.
+    file["robots"] = vec![robot(0.1); 40].into();
+    file["robots"][25]["limits"]["force"] = 7.9.into();
+    let (robots, count) = judged(&file);
+    near(&robots[25].fy, 4.1, 1e-6);
+    near(&robots[25].fx, 0.0, 0.0);
+    near(&robots[3].fy, 0.0, 0.0);
+    assert!(count.is_some_and(|count| count < 60), "{count:?}");
+    // Together they lack 4 N, and each has 4 N more without its limit upwards.
+    file["robots"] = vec![robot(0.1); 40].into();
+    let (robots, _) = judged(&file);
+    near(&robots[7].fy, 4.1, 1e-6);
+    assert_eq!(
+        (&robots[7].fx, &robots[7].torque),
+        (&Margin::None, &Margin::None)
+    );
+}
+
 /// A robot that can give 8 N each way holds 8 N turned by 45° as well, but not by 45° ± any more than its box allows.
 #[test]
 fn a_limited_robot_is_turned_to_the_first_edge() {

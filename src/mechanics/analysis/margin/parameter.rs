@@ -2,16 +2,14 @@
 //! robot limits.
 
 use super::edge::Threshold;
-use super::interval::{End, Interval, RobotIntervals};
+use super::grip_limit;
+use super::interval::Interval;
 use super::kind::{MarginKind, MarginKinds};
 use super::line::Line;
 use super::linear::linear;
 use super::margins::Margins;
 use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
-use crate::analysis::Verdict;
-use crate::program::Scale;
-use crate::solve::{Limit, least_grip_limit};
 
 /// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
 /// stands. `with_tilt` is true if its whole frame stands; only then are its tilts around 0 computed.
@@ -21,20 +19,10 @@ pub(super) fn intervals(
     kinds: MarginKinds,
     with_tilt: bool,
 ) -> ComponentIntervals {
-    let grips = match kinds.has(MarginKind::Robots) {
-        true => trial.holds(),
+    let robots = match kinds.has(MarginKind::Robots) {
+        true => grip_limit::robots(trial, stands),
         false => Vec::new(),
     };
-    let robots = grips.into_iter().enumerate().map(|(grip, robot)| {
-        let [fx, fy, torque] = [0, 1, 2].map(|component| limit(trial, grip, component, stands));
-        RobotIntervals {
-            robot,
-            fx,
-            fy,
-            torque,
-        }
-    });
-    let robots = robots.collect();
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load for both margins.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];
     let horizontal_load = horizontal
@@ -107,52 +95,4 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
         ..Setting::default()
     };
     linear(trial, &line, 1.0, stands, &alone)
-}
-
-/// Returns the values of one robot limit at which the component stands, in N or N·m. `component` selects the limit: 0
-/// is force x, 1 is force y, 2 is the torque. `stands` is true if the component stands with the limits of the scene.
-fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
-    let setting = |value: f64| Setting {
-        limits: LimitChange::Replace {
-            grip,
-            component,
-            value,
-        },
-        ..Setting::default()
-    };
-    let program = trial.program(&Setting::default());
-    let mut unit = program.scale.force;
-    if component == 2 {
-        unit *= program.scale.length;
-    }
-    let line = Line {
-        setting: &setting,
-        min_value: 0.0,
-        typical_small: unit * Scale::HEAVIEST,
-        typical_large: unit * Scale::HEAVIEST,
-    };
-    // If the component stands, the limit in the scene is sufficient, and the search starts there.
-    let given = program.grips[grip].limits[component] * unit;
-    if !stands {
-        match trial.decide(&setting(f64::INFINITY)) {
-            (Verdict::Stable, _) => {}
-            (Verdict::Unstable, motion) => return Interval::excluded_by(motion),
-            (Verdict::Undecided, _) => return Interval::Undecided,
-        }
-    }
-    let enough = if stands { given } else { f64::INFINITY };
-    // A linear program gives the smallest sufficient limit. Verdicts then confirm it.
-    let found = least_grip_limit(&program, grip, component);
-    let hint = match found.limit {
-        Limit::At(at) => {
-            let at = at * unit;
-            trial.cache_extreme(&program, &found, line.test_values(at, -1.0), &setting, None);
-            Some(at)
-        }
-        _ => None,
-    };
-    Interval::Between {
-        low: line.end(trial, line.finite_start(enough), -1.0, hint),
-        high: End::Unbounded,
-    }
 }

@@ -48,13 +48,14 @@ pub(super) enum LimitChange {
     None,
     /// Every finite limit becomes 0. The rest is what robots can carry if the loads grow without end.
     FiniteToZero,
-    /// One limit of one grip.
+    /// Consecutive limits, counted over all grips: limit 3g + c is component c of grip g. Component 0 is force x, 1 is
+    /// force y, 2 is the torque.
     Replace {
-        /// The grip.
-        grip: usize,
-        /// 0: force x, 1: force y, 2: torque.
-        component: usize,
-        /// The limit, N or N·m.
+        /// The first of them.
+        first: usize,
+        /// The limit after the last of them.
+        end: usize,
+        /// Their value, N or N·m.
         value: f64,
     },
 }
@@ -280,29 +281,28 @@ pub(super) fn is_limited(component: &Assembly) -> bool {
     })
 }
 
-/// Returns the limits of the grip with index `number` as `setting` changes them: unchanged, with one limit replaced, or
-/// with all finite limits set to 0.
+/// Returns the limits of the grip with index `number` as `setting` changes them: unchanged, with some limits replaced,
+/// or with all finite limits set to 0.
 fn limits(given: Limits, number: usize, setting: LimitChange) -> Limits {
     let finite_to_zero = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
+        LimitChange::None => given,
         LimitChange::FiniteToZero => Limits {
             fx: finite_to_zero(given.fx),
             fy: finite_to_zero(given.fy),
             torque: finite_to_zero(given.torque),
         },
-        LimitChange::Replace {
-            grip,
-            component,
-            value,
-        } if grip == number => match component {
-            0 => Limits { fx: value, ..given },
-            1 => Limits { fy: value, ..given },
-            _ => Limits {
-                torque: value,
-                ..given
-            },
-        },
-        _ => given,
+        LimitChange::Replace { first, end, value } => {
+            let changed = |component: usize, given: f64| match 3 * number + component {
+                k if (first..end).contains(&k) => value,
+                _ => given,
+            };
+            Limits {
+                fx: changed(0, given.fx),
+                fy: changed(1, given.fy),
+                torque: changed(2, given.torque),
+            }
+        }
     }
 }
 
