@@ -15,6 +15,7 @@ mod capacity;
 mod built;
 mod circle;
 mod claims;
+mod costly;
 mod edge;
 mod falls;
 mod features;

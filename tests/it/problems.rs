@@ -95,6 +95,7 @@ fn every_code_of_a_problem_occurs() {
         Code::NotUtf8,
         Code::NotFinite,
         Code::TooManySteps,
+        Code::TooManyTips,
         Code::MoreProblems,
     ];
     assert_eq!(missing, elsewhere);

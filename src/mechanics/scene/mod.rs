@@ -6,6 +6,7 @@
 
 mod body;
 mod collision;
+mod crowd;
 mod fault;
 mod finding;
 pub mod format;

@@ -12,6 +12,7 @@ use self::list::material_values;
 pub use self::sketch::SketchedBody;
 pub(super) use self::sketch::sketch;
 use super::collision::{self, Comparison, Penetration};
+use super::crowd;
 use super::finding::{Finding, Findings, UnreadParts};
 use super::format::{self, Pair, SceneFile, UnitsEntry};
 use super::frame::{Frame, Hold};
@@ -247,8 +248,12 @@ impl<'f> Resolution<'f> {
         if self.has_schematic_bodies() {
             return Vec::new();
         }
+        let bodies: Vec<_> = grounds.chain(blocks).collect();
+        if self.file.corner_contacts == Some(true) && self.file.contacts.is_empty() {
+            crowd::check(findings, &bodies, frames, closeness.tolerance().gap);
+        }
         let comparison = Comparison {
-            bodies: grounds.chain(blocks).collect(),
+            bodies,
             names: &self.ids,
             frames,
             lattice: self.lattice.filter(|_| closeness.exact),

@@ -30,6 +30,10 @@ const NEARBY_DISTANCE: f64 = 24.0;
 /// Largest number of candidates that are tried. If none of them is free, the page is full at this position, and the
 /// arrow is drawn at its ideal offset.
 const MAX_CANDIDATES: usize = 1000;
+/// Largest number of candidates of a frame. If arrows crowd more than this, the remaining ones are drawn at their ideal
+/// offsets: the number of candidates grows with the square of the number of arrows on one line, and three thousand
+/// loads on a block have some ten million.
+const MAX_CANDIDATES_PER_FRAME: usize = 1_000_000;
 /// In frames with more arrows, no arrows are moved, because nobody can follow a single arrow there.
 const MAX_ARROWS: usize = 4000;
 /// Distances from the ideal offset are rounded to this share of a shaft's width. Rounding errors must not decide
@@ -49,6 +53,7 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     let mut placed = BoxGrid::sized_for(original.iter().map(space_around));
     let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut candidates = 0;
     for i in 0..arrows.len() {
         if let Some(across) = across(&original[i]) {
             let has_opposite = has_opposite(&by_x, &original, i);
@@ -57,7 +62,16 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
             } else {
                 0.0
             };
-            let offset = offset_of_least_change(&original[i], across, ideal, arrows, &placed);
+            let offset = match candidates < MAX_CANDIDATES_PER_FRAME {
+                true => offset_of_least_change(
+                    &original[i],
+                    across,
+                    ideal,
+                    (arrows, &placed),
+                    &mut candidates,
+                ),
+                false => ideal,
+            };
             arrows[i].at = original[i].at + across * offset;
         }
         placed.put(space_around(&arrows[i]));
@@ -65,13 +79,14 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
 }
 
 /// Returns the sideways offset of an arrow in metres, positive to its left. Of all offsets at which the arrow overlaps
-/// no placed arrow, the result is the nearest to `ideal`. Returns `ideal` if no such offset is found.
+/// no placed arrow, the result is the nearest to `ideal`. Returns `ideal` if no such offset is found. Adds the number of
+/// candidates to `candidates`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
     ideal: f64,
-    arrows: &[ForceArrow],
-    placed: &BoxGrid,
+    (arrows, placed): (&[ForceArrow], &BoxGrid),
+    candidates: &mut usize,
 ) -> f64 {
     let clear = |offset: &f64| {
         let there = ForceArrow {
@@ -88,7 +103,7 @@ fn offset_of_least_change(
     }
     let distance =
         |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
-    let nearest = |within: Option<Bounds>| {
+    let mut nearest = |within: Option<Bounds>| {
         let mut offsets = vec![ideal, 0.0];
         for other in placed.meeting(within) {
             let other = &arrows[other];
@@ -97,6 +112,7 @@ fn offset_of_least_change(
                 offsets.extend([needed - now, -needed - now]);
             }
         }
+        *candidates += offsets.len();
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };

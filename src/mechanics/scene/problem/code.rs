@@ -82,6 +82,7 @@ codes! {
     OffLattice "off_lattice" "a coordinate or an angle does not fit the lattice",
     Overlap "overlap" "two bodies that are present at the same time overlap",
     TooManySteps "too_many_steps" "the frames contain too many blocks in total",
+    TooManyTips "too_many_tips" "with corner contacts, corners of too many blocks meet in one point",
     PlacedTwice "placed_twice" "a block is placed or planned although it is already placed",
     NotPlaced "not_placed" "a block is removed or held although it is not placed",
     RemovedWhileHeld "removed_while_held" "a block is removed while a robot holds it",

@@ -95,6 +95,19 @@ pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wo
     )
 }
 
+pub(in crate::mechanics::scene) fn crowded(count: usize, most: usize, at: Point) -> Wording {
+    let pairs = count * (count - 1) / 2;
+    say(
+        Code::TooManyTips,
+        format!(
+            "corners of {count} blocks meet at {}, which gives {pairs} corner contacts; at most {most} blocks may meet \
+             in one point",
+            point(at)
+        ),
+        "remove `corner_contacts`, or cut the tips off, so that the blocks touch along edges",
+    )
+}
+
 pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
     new_wording(
         Code::HolesWithoutPolygon,

@@ -9,7 +9,10 @@ use crate::drawing::{Colour, Face, PagePoint, text};
 use crate::scene::BodyId;
 
 /// Approximate largest number of magnitudes of loads and missing forces in frames with many blocks.
-const MAX_AMOUNTS: usize = 16;
+pub(crate) const MAX_AMOUNTS: usize = 16;
+/// If a frame would have more magnitudes, only the largest [`MAX_AMOUNTS`] are written. Nobody can read hundreds of
+/// numbers in a picture, and the search for free positions takes milliseconds for each.
+pub(crate) const CROWDED_AMOUNTS: usize = 200;
 /// Forces whose relative difference is below this count as equal. The value is ten times the tolerance of a proof of
 /// equilibrium.
 pub(crate) const EQUAL_FORCE_TOL: f64 = 1e-6;
@@ -64,7 +67,12 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         let written = is_written(pen, arrow, few, least) && is_first_of_pair(arrow);
         seen && (is_first(arrow) || written)
     };
-    let straight = marks.arrows.iter().filter(has_amount).map(|arrow| {
+    let straight: Vec<&ForceArrow> = marks.arrows.iter().filter(has_amount).collect();
+    let straight = largest(straight, |arrow| match is_first(arrow) {
+        true => f64::INFINITY,
+        false => arrow.force.norm(),
+    });
+    let straight = straight.into_iter().map(|arrow| {
         let amount = quantity(arrow.force.norm(), pen.context.analysis.scene.units.force());
         let words = match is_first(arrow) && !options.amounts {
             true => format!("largest: {amount}"),
@@ -75,9 +83,22 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
     let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
     let turns = turns.filter(|t| (options.amounts && few) || is_given(t));
-    straight
-        .chain(turns.map(|turn| torque_label(pen, turn)))
-        .collect()
+    let turns = largest(turns.collect(), |turn| turn.torque.abs());
+    let turns = turns.into_iter().map(|turn| torque_label(pen, turn));
+    straight.chain(turns).collect()
+}
+
+/// Returns the items whose magnitudes are written, in their order: all of them, or if there are more than
+/// [`CROWDED_AMOUNTS`], the largest [`MAX_AMOUNTS`]. Of items of one size, the first come first.
+fn largest<'a, T>(items: Vec<&'a T>, size: impl Fn(&T) -> f64) -> Vec<&'a T> {
+    if items.len() <= CROWDED_AMOUNTS {
+        return items;
+    }
+    let mut order: Vec<usize> = (0..items.len()).collect();
+    order.sort_by(|a, b| size(items[*b]).total_cmp(&size(items[*a])));
+    order.truncate(MAX_AMOUNTS);
+    order.sort_unstable();
+    order.into_iter().map(|k| items[k]).collect()
 }
 
 /// True unless the magnitude of the force is written at the opposite arrow. The two opposite forces between two blocks
@@ -200,4 +221,21 @@ fn centres_along(
     let beyond = length + 3.0 + reach(ux, uy);
     middles.push(from.moved(ux * beyond, uy * beyond));
     middles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_too_many_magnitudes_the_largest_are_written() {
+        let few: Vec<f64> = (0..CROWDED_AMOUNTS).map(|k| k as f64).collect();
+        assert_eq!(largest(few.iter().collect(), |v| *v).len(), CROWDED_AMOUNTS);
+        // 0, 1, 2, …, 499 repeated: the largest 16 of 15 000 are the first 16 with the value 499.
+        let many: Vec<f64> = (0..15_000).map(|k| f64::from(k % 500)).collect();
+        let written = largest(many.iter().collect(), |v| *v);
+        assert_eq!(written, vec![&499.0; MAX_AMOUNTS]);
+        assert!(core::ptr::eq(written[0], &raw const many[499]));
+        assert!(core::ptr::eq(written[15], &raw const many[499 + 15 * 500]));
+    }
 }

@@ -13,7 +13,7 @@ mod obstacle;
 mod solid;
 mod spoken;
 
-pub(crate) use amount::{Callout, EQUAL_FORCE_TOL};
+pub(crate) use amount::{CROWDED_AMOUNTS, Callout, EQUAL_FORCE_TOL, MAX_AMOUNTS};
 pub(crate) use obstacle::ink;
 
 use amount::{amounts, called_out};

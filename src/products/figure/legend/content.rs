@@ -3,6 +3,7 @@
 use super::super::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, Marks, TurnKind};
 use super::super::context::FigureContext;
 use super::super::description;
+use super::super::label::{CROWDED_AMOUNTS, MAX_AMOUNTS};
 use super::super::limit;
 use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
@@ -207,12 +208,28 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         true => format!("{words}, drawn larger than other forces"),
         false => words,
     };
+    let words = match context.options.labels && has_too_many_loads(context) {
+        true => format!("{words}, amounts at the largest {MAX_AMOUNTS}"),
+        false => words,
+    };
     let words = if turns {
         format!("{words}; {TURN_SCALE_TEXT}")
     } else {
         words
     };
     Some(Entry::Sign(load_sign, SAMPLE_LENGTH, words))
+}
+
+/// True if a frame has so many loads that only the largest have their amounts.
+fn has_too_many_loads(context: &FigureContext<'_>) -> bool {
+    let loads = |marks: &Marks| {
+        let arrows = marks.arrows.iter();
+        arrows.filter(|arrow| arrow.kind == ArrowKind::Load).count()
+    };
+    context
+        .marks
+        .iter()
+        .any(|marks| loads(marks) > CROWDED_AMOUNTS)
 }
 
 /// True if, in at least one frame, an arrow of a load is drawn at a larger scale than other forces.

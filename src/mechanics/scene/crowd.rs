@@ -1,0 +1,62 @@
+//! [`check`]: refuses corner contacts of very many blocks in one point.
+//!
+//! Each pair of corners in a point is a contact of its own, and none of them can replace others: two corners push each
+//! other along the difference of their bisectors, and this direction differs from pair to pair. n corners in one point
+//! give n·(n − 1)/2 contacts, and a dense linear program of 3·n rows. 400 wedges in a file of 48 KB would be 79 800
+//! contacts and a third of a minute.
+
+use std::collections::BTreeSet;
+
+use super::BodyId;
+use super::collision::Numbered;
+use super::finding::Findings;
+use super::frame::Frame;
+use super::path::Trail;
+use super::problem;
+use crate::geometry::Point;
+
+/// The largest number of bodies of one frame whose corners may meet in one point: 4 950 contacts, half a second.
+pub(super) const MOST: usize = 100;
+
+/// Reports the first point in which corners of more than [`MOST`] bodies of one frame meet. Points within about `gap`,
+/// in the units of the file, count as one.
+pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) {
+    if let Some((at, count)) = crowded(bodies, frames, gap) {
+        let top = Trail::Top;
+        let key = top.key("corner_contacts");
+        findings.add(&key, problem::outline::crowded(count, MOST, at));
+    }
+}
+
+/// Returns a point in which corners of more than [`MOST`] bodies meet, and their number in one frame.
+fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point, usize)> {
+    // Adding 0 turns −0 into 0.
+    let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
+    let mut corners: Vec<([f64; 2], Point, BodyId)> = Vec::new();
+    for (id, body) in bodies {
+        let own = body.polygon.rings().iter().flatten();
+        corners.extend(own.map(|p| ([cell(p.x), cell(p.y)], *p, *id)));
+    }
+    corners.sort_by(|(a, _, one), (b, _, two)| {
+        a[0].total_cmp(&b[0])
+            .then(a[1].total_cmp(&b[1]))
+            .then(one.cmp(two))
+    });
+    let together = corners.chunk_by(|a, b| a.0 == b.0);
+    together
+        .filter(|group| group.len() > MOST)
+        .find_map(|group| {
+            let meeting: BTreeSet<BodyId> = group.iter().map(|(_, _, id)| *id).collect();
+            let ground = meeting.iter().filter(|id| matches!(id, BodyId::Ground(_)));
+            let ground = ground.count();
+            let present = |frame: &Frame| {
+                let placed = frame.placed.iter();
+                ground
+                    + placed
+                        .filter(|id| meeting.contains(&BodyId::Block(**id)))
+                        .count()
+            };
+            let most = frames.iter().map(present).max()?;
+            (most > MOST).then_some((group[0].1, most))
+        })
+}
