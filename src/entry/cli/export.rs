@@ -26,6 +26,9 @@ pub(crate) struct Export {
     /// The .dxf file to write; - or nothing prints the drawing
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the output file if it exists
+    #[arg(long, requires = "output")]
+    force: bool,
     /// Frame: its number from 1, its letter, or last
     #[arg(long, value_name = "N", default_value = "last")]
     frame: FrameChoice,
@@ -58,7 +61,16 @@ impl Export {
         });
         let bytes = text.map_err(|c| vec![c])?.into_bytes();
         match file {
-            Some(path) => destination::write(&[(path.to_owned(), bytes)], Existing::Replace),
+            // The drawing from which a scene was imported often has the same name.
+            Some(path) => {
+                let existing = if self.force {
+                    Existing::Replace
+                } else {
+                    Existing::Keep
+                };
+                let written = destination::write(&[(path.to_owned(), bytes)], existing);
+                written.map(|()| terminal.note(&format!("wrote {}", path.display())))
+            }
             None => terminal.print_bytes(&bytes),
         }
         .map_err(|c| vec![c])?;

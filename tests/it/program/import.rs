@@ -213,7 +213,12 @@ fn export_writes_a_frame_for_cad_programs() {
     let bench = bench();
     assert_eq!(bench.run("new --example falls -o door.json").code, 0);
     let ran = bench.run("export door.json --frame c -o falls.dxf");
-    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    assert_eq!((ran.code, ran.err.as_str()), (0, "wrote falls.dxf\n"));
+    let again = bench.run("export door.json -o falls.dxf");
+    assert_eq!(again.code, 4, "{}", again.err);
+    assert!(again.err.contains("--force replaces it"), "{}", again.err);
+    let again = bench.run("export door.json --frame c -o falls.dxf --force");
+    assert_eq!(again.code, 0, "{}", again.err);
     let text = fs::read_to_string(bench.path("falls.dxf")).expect("written");
     assert!(text.contains("guide mechanism") && text.is_ascii());
     let printed = bench.run("export door.json --frame c");
