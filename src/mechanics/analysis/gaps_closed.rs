@@ -240,10 +240,11 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let named = slivers.iter().take(MAX_NAMED_PLACES).map(|sliver| {
         let [a, b] = sliver.bodies.map(|body| scene.name(body));
         let (length, at) = (sliver.length(), sliver.middle());
-        format!(
-            "{length:.2e} m between {a} and {b} at ({:.4}, {:.4})",
-            at.x, at.y
-        )
+        let (length, at) = (
+            scene.units.small_length(length, 2),
+            scene.units.coordinates(at),
+        );
+        format!("{length} between {a} and {b} at {at}")
     });
     let named: Vec<String> = named.collect();
     let more = match slivers.len() - named.len() {
@@ -257,8 +258,10 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     );
     let words = format!(
         "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
-         contact_tolerance of {counting:.2e} m counts them, one of {ignoring:.2e} m does not",
+         contact_tolerance of {} counts them, one of {} does not",
         named.join(", "),
+        scene.units.small_length(counting, 2),
+        scene.units.small_length(ignoring, 2),
     );
     UndecidedReason::Slivers {
         counting,
@@ -297,12 +300,13 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
             ""
         };
         let message = format!(
-            "{a} and {b} nearly touch at ({:.4}, {:.4}), {:.2e} m apart{more}",
-            gap.at.x, gap.at.y, gap.distance
+            "{a} and {b} nearly touch at {}, {} apart{more}",
+            scene.units.coordinates(gap.at),
+            scene.units.small_length(gap.distance, 2)
         );
         let hint = format!(
             "close it, or give \"contact_tolerance\": {:.1e} to count it as a contact",
-            1.06 * gap.distance
+            scene.units.length().value_from_si(1.06 * gap.distance)
         );
         // The note must name a block, not the ground. If both bodies are blocks, it names the later one.
         let body = gap.bodies[0].max(gap.bodies[1]);
@@ -336,7 +340,8 @@ fn gaps_explanation(
         Verdict::Unstable => "falls",
         Verdict::Undecided => "is undecided",
     });
-    let enough = format!("a contact_tolerance of {closing:.2e} m closes them");
+    let closing = scene.units.small_length(closing, 2);
+    let enough = format!("a contact_tolerance of {closing} closes them");
     let (places, overlap) = (
         list_places(scene, places),
         places.iter().any(|p| p.overlaps),
@@ -348,9 +353,9 @@ fn gaps_explanation(
         );
     }
     format!(
-        "it {written} with narrow gaps open and {closed} with them closed: {places}; {enough}, one of {:.2e} m leaves them \
+        "it {written} with narrow gaps open and {closed} with them closed: {places}; {enough}, one of {} leaves them \
          open",
-        scene.tolerance.gap,
+        scene.units.small_length(scene.tolerance.gap, 2),
     )
 }
 
@@ -359,12 +364,11 @@ fn list_places(scene: &Scene, places: &[AmbiguousPlace]) -> String {
     let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };
         format!(
-            "{:.2e} m{kind} between {} and {} at ({:.4}, {:.4})",
-            place.size,
+            "{}{kind} between {} and {} at {}",
+            scene.units.small_length(place.size, 2),
             scene.name(place.bodies[0]),
             scene.name(place.bodies[1]),
-            place.at.x,
-            place.at.y
+            scene.units.coordinates(place.at)
         )
     });
     let named: Vec<String> = named.collect();

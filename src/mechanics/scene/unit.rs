@@ -83,6 +83,19 @@ impl UnitsEntry {
         }
     }
 
+    /// Writes a small length with its unit in scientific notation, such as `6.71e-3 mm`. `digits` is the number of
+    /// digits after the point.
+    pub(crate) fn small_length(&self, metres: f64, digits: usize) -> String {
+        let unit = self.length();
+        format!("{:.digits$e} {}", unit.value_from_si(metres), unit.symbol())
+    }
+
+    /// Writes the coordinates of a point in the unit of length, with four digits after the point and without the unit.
+    pub(crate) fn coordinates(&self, at: Point) -> String {
+        let [x, y] = [at.x, at.y].map(|v| self.length().value_from_si(v));
+        format!("({x:.4}, {y:.4})")
+    }
+
     /// Returns the unit of forces and weights; newtons if the file gives none.
     pub fn force(&self) -> Unit {
         let (symbol, size) = self.force.unwrap_or_default().parts();

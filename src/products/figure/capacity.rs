@@ -15,7 +15,7 @@ use super::label::{self, Callout};
 use super::legend::{self, Entry};
 use super::panel::composed_with;
 use super::pen::{DISPLACED_OPACITY, Pen};
-use super::words::{quantity, round_below};
+use super::words::{quantity, round_below_in};
 use crate::analysis::CapacityShape;
 use crate::drawing::arrow::straight;
 use crate::drawing::placement::Ink;
@@ -109,10 +109,11 @@ impl PanelContent for CarriedForces {
         }
         // The legend shows the scale of the forces: an arrow of at most 64 pixels for a round number of newtons.
         let pixels_per_newton = first.scale * unit / context.unit;
-        let newtons = round_below(64.0 / pixels_per_newton);
+        let force = analysis.scene.units.force();
+        let newtons = round_below_in(64.0 / pixels_per_newton, force);
         if newtons > 0.0 && newtons.is_finite() {
             let length = newtons * pixels_per_newton;
-            entries.push(Entry::Scale(length, 2.6, quantity(newtons, "N")));
+            entries.push(Entry::Scale(length, 2.6, quantity(newtons, force)));
         }
         entries.extend(legend::robots(context));
         entries
@@ -133,7 +134,7 @@ impl PanelContent for CarriedForces {
 /// Draws the polygon of carried forces: its area, its edges with their numbers, and a dot for the force 0.
 fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let theme = &pen.context.options.theme;
-    let words = wording::capacity::ranges(plan.capacity);
+    let words = wording::capacity::ranges(&pen.context.analysis.scene, plan.capacity);
     let mut group = Group::with_class("capacity").titled(format!("Carried forces: {words}"));
     let ring: Vec<PagePoint> = plan.ring.iter().map(|p| pen.camera.place(*p)).collect();
     if plan.is_apart {

@@ -25,6 +25,7 @@ use crate::drawing::{
     text,
 };
 use crate::geometry::Bounds;
+use crate::scene::Scene;
 use crate::wording::number::digits;
 use crate::wording::sensitivity::{length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
@@ -87,7 +88,7 @@ impl PanelContent for CornerEffects {
         let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
         if let Some(plan) = plans.iter().max_by(strongest) {
             let pixels = scale(analysis, context.unit) * unit / context.unit;
-            entries.extend(scale_entry(plan, pixels));
+            entries.extend(scale_entry(&analysis.scene, plan, pixels));
         }
         if plans
             .iter()
@@ -173,7 +174,10 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         let outline = straight(from, along, width);
         let casing = Stroke::new(theme.page, 1.6);
         let per_step = value(plan.kind, arrow.effect.norm() * plan.step);
-        let title = format!("{per_step} for {}", length(plan.step));
+        let title = format!(
+            "{per_step} for {}",
+            length(&context.analysis.scene, plan.step)
+        );
         let one = Group::with_class("effect").titled(title);
         let casing = Path::stroked(outline.clone(), casing).with_opacity(0.85);
         let fill = Path::filled(outline, colour(theme, arrow.number.is_some()));
@@ -280,7 +284,7 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
 
 /// Returns the legend entry for the scale of the arrows. `pixels` is the length of the arrow of a corner at which the
 /// margin grows by 1 per metre.
-fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
+fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
     let amount = round_below(longest.min(MAX_SCALE_ARROW) / pixels * plan.step);
@@ -293,7 +297,7 @@ fn scale_entry(plan: &Plan, pixels: f64) -> Option<Entry> {
         "{} {sign}{} for {}",
         name(plan.kind, plan.is_high),
         format_change(plan.kind, amount),
-        length(plan.step)
+        length(scene, plan.step)
     );
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }

@@ -11,11 +11,11 @@ pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     let what = match capacity.shape() {
         CapacityShape::Empty => format!("it falls under any force {place}"),
         CapacityShape::Everything => format!("every force {place} is carried"),
-        _ => match sides(capacity) {
+        _ => match sides(scene, capacity) {
             Some(sides) => format!("{place} it carries {sides}"),
             None => format!(
                 "without a force {place} it falls; it stands with {} in some combinations",
-                ranges(capacity)
+                ranges(scene, capacity)
             ),
         },
     };
@@ -32,7 +32,7 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
     let plain = |v: f64| match v.abs() <= 1e-9 * bounds.diagonal() {
         true => digits(0.0),
-        false => digits(v),
+        false => digits(scene.units.length().value_from_si(v)),
     };
     let point = |k: usize| {
         let at = capacity.at[k];
@@ -59,11 +59,14 @@ const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
 
 /// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if the
 /// frame falls without a force.
-pub fn sides(capacity: &LoadCapacity) -> Option<String> {
+pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
     let each = NAMED_DIRECTIONS.map(|(direction, word)| {
         let most = capacity.reach(direction)?;
         Some(match most.is_finite() {
-            true => format!("{} {word}", quantity(rounded(most, capacity), "N")),
+            true => format!(
+                "{} {word}",
+                quantity(rounded(most, capacity), scene.units.force())
+            ),
             false => format!("any force {word}"),
         })
     });
@@ -73,13 +76,13 @@ pub fn sides(capacity: &LoadCapacity) -> Option<String> {
 
 /// Writes the ranges of the horizontal and the vertical component of the force: `Fx from −3 N to 2 N and Fy of at least
 /// 4 N`.
-pub fn ranges(capacity: &LoadCapacity) -> String {
+pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
     let range = |name: &str, direction: [f64; 2]| {
         let most = capacity.most(direction).map(|v| rounded(v, capacity));
         let least = capacity
             .most(direction.map(|v| -v))
             .map(|v| rounded(-v, capacity));
-        let newtons = |v: f64| quantity(v, "N");
+        let newtons = |v: f64| quantity(v, scene.units.force());
         match (least, most) {
             (None, None) => format!("any {name}"),
             (Some(least), None) => format!("{name} of at least {}", newtons(least)),

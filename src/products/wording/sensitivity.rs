@@ -1,7 +1,7 @@
 //! Describes the sensitivity of a margin: which small changes of the scene change the margin most.
 
 use super::failure::{named, pair};
-use super::number::{digits, round_below, three};
+use super::number::{amount, digits, round_below_in, three};
 use crate::analysis::{
     CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope,
 };
@@ -64,14 +64,22 @@ pub fn most_effective(
     list
 }
 
-/// Returns the length in metres by which the described changes move corners and loads. It is 1, 2 or 5 times a power of
-/// ten.
-pub fn step_length(frame_analysis: &FrameAnalysis) -> f64 {
-    round_below(LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9))
+/// Returns the length in metres by which the described changes move corners and loads. In the unit of the scene, it is 1,
+/// 2 or 5 times a power of ten.
+pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
+    round_below_in(
+        LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9),
+        scene.units.length(),
+    )
 }
 
-/// Writes a length below 1 m in millimetres, and any other length in metres.
-pub fn length(metres: f64) -> String {
+/// Writes a length in the unit of the scene. If the scene gives no unit, writes a length below 1 m in millimetres, and
+/// any other length in metres.
+pub fn length(scene: &Scene, metres: f64) -> String {
+    let unit = scene.units.length();
+    if unit.is_chosen {
+        return amount(metres, unit);
+    }
     match metres < 1.0 {
         true => format!("{} mm", digits(1e3 * metres)),
         false => format!("{} m", digits(metres)),
@@ -129,7 +137,7 @@ fn corners(
     end: &EndSensitivity,
     outward: f64,
 ) -> Vec<EffectiveChange> {
-    let step = step_length(frame_analysis);
+    let step = step_length(scene, frame_analysis);
     let mut list = Vec::new();
     for (number, best) in corner_moves(frame_analysis, end, outward) {
         let corner = &end.corners[number];
@@ -147,7 +155,7 @@ fn corners(
                 "moving corner {} of {}{with} by {} {}",
                 corner.corner + 1,
                 named(scene, crate::scene::BodyId::Block(corner.block)),
-                length(step),
+                length(scene, step),
                 toward(direction)
             ),
             amount: step,
@@ -199,14 +207,14 @@ fn others(
     for (target, words, amount, rate) in all.chain(whole) {
         add(target, words, amount, rate);
     }
-    let step = step_length(frame_analysis);
+    let step = step_length(scene, frame_analysis);
     for (load, slopes) in &end.loads {
         if let Some((direction, rate)) = best_direction(*slopes, outward) {
             let block = scene.loads[*load].block;
             let words = format!(
                 "moving the load on {} by {} {}",
                 named(scene, crate::scene::BodyId::Block(block)),
-                length(step),
+                length(scene, step),
                 toward(direction)
             );
             add(Target::Load(*load, direction), words, step, rate);

@@ -152,3 +152,63 @@ fn problems_name_the_units_of_the_file() {
         "{notes:?}"
     );
 }
+
+/// Texts of capacity and sensitivity, on the terminal, in figures and in their keys.
+#[test]
+fn capacities_and_sensitivities_have_the_units_of_the_file() {
+    let file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
+    let bench = Bench::new();
+    std::fs::write(bench.path("mm.json"), file.to_string()).expect("writable");
+    for arguments in [
+        "check mm.json --frame 1 --capacity lintel@3000,4000",
+        "check mm.json --frame 1 --sensitivity load_factor",
+        "render mm.json --frame 1 --kind capacity --capacity lintel@3000,4000 -o capacity.svg",
+        "render mm.json --frame 1 --kind sensitivity --margin load-factor -o sensitivity.svg",
+    ] {
+        let ran = bench.run(arguments);
+        assert_eq!(ran.code, 0, "{arguments}: {}", ran.err);
+        let picture = arguments.rsplit_once(" -o ").map(|(_, name)| name);
+        let words = picture.map_or(ran.out, |name| {
+            std::fs::read_to_string(bench.path(name)).expect("written")
+        });
+        let words = words.replace('\u{a0}', " ");
+        let unit = if arguments.contains("capacity") {
+            " kN"
+        } else {
+            " mm"
+        };
+        assert!(words.contains(unit), "{arguments}: {words}");
+        for wrong in [" N<", " N ", " N,", " N;", " m ", " m<", " MN", " cm"] {
+            assert!(!words.contains(wrong), "{arguments}: {wrong:?} in {words}");
+        }
+        if arguments.contains("check") && picture.is_none() && unit == " kN" {
+            assert!(words.contains("at (3000, 4000) on block lintel"), "{words}");
+        }
+    }
+}
+
+/// A block 0.02 mm above the ground nearly touches it: the note and its remedy use the unit of the file.
+#[test]
+fn notices_have_the_units_of_the_file() {
+    let mut file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
+    file.as_object_mut().expect("an object").remove("steps");
+    file["blocks"][0]["polygon"] = json!([[0, 0.02], [1000, 0.02], [1000, 3000], [0, 3000]]);
+    let scene = Scene::from_json(&file.to_string()).expect("sound");
+    let analysis = Analysis::new(&scene);
+    let mut words: Vec<String> = analysis
+        .notes
+        .iter()
+        .map(|n| format!("{} {}", n.message, n.hint))
+        .collect();
+    words.extend(analysis.frames.iter().flat_map(|f| f.notices.clone()));
+    words.extend(
+        analysis
+            .frames
+            .iter()
+            .flat_map(|f| &f.doubts)
+            .map(ToString::to_string),
+    );
+    let words = words.join("\n");
+    assert!(words.contains("2.00e-2 mm"), "{words}");
+    assert!(!words.contains("e-5 m"), "{words}");
+}

@@ -2,11 +2,11 @@
 
 use super::request::{CapacityRequest, Cases, ForceAt};
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::{Scene, Unit};
 use crate::text::{line, nearest};
 
-/// Parses the values of two options: `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in metres) and `--for-all`
-/// (ranges).
+/// Parses the values of two options: `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in the scene's unit of
+/// length) and `--for-all` (ranges).
 ///
 /// # Errors
 /// Returns a message for the user if a text is not valid, or if the scene has no such block.
@@ -31,7 +31,7 @@ pub(crate) fn typed_capacity(
     let request = CapacityRequest::of_block(block).cases(cases);
     match places {
         None => Ok(request),
-        Some(places) => Ok(request.at(force_at(places)?)),
+        Some(places) => Ok(request.at(force_at(places, scene.units.length())?)),
     }
 }
 
@@ -47,18 +47,22 @@ fn unknown(scene: &Scene, name: &str) -> String {
     format!("--capacity: the scene has no block {}{hint}", line(name))
 }
 
-/// Parses one point `x,y`, or two different points `x,y..x,y`, in metres. The error is a message for the user.
-fn force_at(places: &str) -> Result<ForceAt, String> {
+/// Parses one point `x,y`, or two different points `x,y..x,y`, in the unit `unit`. The error is a message for the user.
+fn force_at(places: &str, unit: Unit) -> Result<ForceAt, String> {
     let wrong = || {
+        let unit = match unit.is_chosen {
+            true => unit.symbol(),
+            false => "metres".into(),
+        };
         format!(
-            "--capacity: {} is not a point; write x,y in metres, such as 1.5,2, or two points, such as 1,2..3,2",
+            "--capacity: {} is not a point; write x,y in {unit}, such as 1.5,2, or two points, such as 1,2..3,2",
             line(places)
         )
     };
     let point = |text: &str| {
         let (x, y) = text.split_once(',')?;
         let read = |v: &str| v.trim().parse::<f64>().ok().filter(|v| v.abs() <= 1e12);
-        Some(Point::new(read(x)?, read(y)?))
+        Some(Point::new(unit.size * read(x)?, unit.size * read(y)?))
     };
     match places.split_once("..") {
         None => point(places).map(ForceAt::Point),

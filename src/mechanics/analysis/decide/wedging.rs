@@ -37,7 +37,12 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
         match check_self_stress(&program, &given) {
             SelfStressCheck::FromRest => {}
             SelfStressCheck::OnlyWedged(self_stress) => {
-                let shown = describe(&self_stress, component.scale.force, body, face);
+                let newtons = |force: f64| {
+                    let unit = scene.units.force();
+                    let force = unit.value_from_si(force * component.scale.force);
+                    format!("{force:.3e} {}", unit.symbol())
+                };
+                let shown = describe(&self_stress, newtons, body, face);
                 let wedged = Wedged::new(assembly, component.scale, &self_stress);
                 return (Some(true), Wedging::OnlyByWedging(shown), Some(wedged));
             }
@@ -53,7 +58,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
 /// which self-stress a balance needs.
 fn describe<'n>(
     self_stress: &SelfStress,
-    unit: f64,
+    force: impl Fn(f64) -> String,
     body: impl Fn(usize) -> &'n str,
     face: impl Fn(usize) -> String,
 ) -> String {
@@ -66,9 +71,9 @@ fn describe<'n>(
     }
     let faces = first_names(self_stress.contacts.iter().map(|contact| face(*contact)));
     if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
-        let newtons = least * unit;
         words.push_str(&format!(
-            "; to balance, {faces} must press with {newtons:.3e} N or more in all"
+            "; to balance, {faces} must press with {} or more in all",
+            force(least)
         ));
     }
     words.push_str(&format!(

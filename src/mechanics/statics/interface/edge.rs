@@ -220,7 +220,7 @@ fn collect(
         near_misses: found.near_misses,
         slivers: found.slivers,
         pinned_gaps,
-        notices: found.notices.into_sentences(scene.tolerance),
+        notices: found.notices.into_sentences(scene.tolerance, scene.units),
     }
 }
 

@@ -2,6 +2,7 @@
 //! one about contacts that are too short, one about gaps that are too wide.
 
 use crate::geometry::Tolerance;
+use crate::scene::format::UnitsEntry;
 use crate::scene::{BodyId, Scene};
 
 /// Collects the segments that are too short and the edges that are too far apart for an interface.
@@ -32,14 +33,16 @@ impl Notices {
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
-    /// Returns the notices as sentences for users: at most one about contacts that are too short, and at most one about
+    /// Returns the notices as sentences for users, with lengths in the unit of the scene: at most one about contacts that are too short, and at most one about
     /// gaps that are too wide.
-    pub(super) fn into_sentences(self, tolerance: Tolerance) -> Vec<String> {
+    pub(super) fn into_sentences(self, tolerance: Tolerance, units: UnitsEntry) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.short_count > 0 {
             sentences.push(format!(
-                "{} contact(s) up to {:.1e} m long are shorter than {:.1e} m and count as touching corners, which carry no force",
-                self.short_count, self.longest_short, self.required_length
+                "{} contact(s) up to {} long are shorter than {} and count as touching corners, which carry no force",
+                self.short_count,
+                units.small_length(self.longest_short, 1),
+                units.small_length(self.required_length, 1)
             ));
         }
         if let Some((names, distance)) = self.unjoined.first() {
@@ -48,8 +51,9 @@ impl Notices {
                 n => format!(", and so do {n} other pair(s) of edges"),
             };
             sentences.push(format!(
-                "{names} nearly touch, {distance:.1e} m apart, more than the {:.1e} m that count as contact{others}",
-                tolerance.gap
+                "{names} nearly touch, {} apart, more than the {} that count as contact{others}",
+                units.small_length(*distance, 1),
+                units.small_length(tolerance.gap, 1)
             ));
         }
         sentences

@@ -100,7 +100,7 @@ impl Plan {
             changes: changes.collect(),
             arrows,
             kinks,
-            step: step_length(frame_analysis),
+            step: step_length(scene, frame_analysis),
         })
     }
 
@@ -182,7 +182,7 @@ impl Sketch<'_> {
     /// Describes a change in words and finds the position of its number.
     fn numbered(&self, number: usize, change: &EffectiveChange) -> Numbered {
         let (scene, frame_analysis) = (self.scene, self.frame_analysis);
-        let by = length(change.amount);
+        let by = length(scene, change.amount);
         let (at, done) = match change.target {
             Target::Corner(corner, direction) => {
                 let corner = &self.end.corners[corner];
