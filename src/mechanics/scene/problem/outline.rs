@@ -97,7 +97,7 @@ pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wo
 
 pub(in crate::mechanics::scene) fn crowded(count: usize, most: usize, at: Point) -> Wording {
     let pairs = count * (count - 1) / 2;
-    say(
+    new_wording(
         Code::TooManyTips,
         format!(
             "corners of {count} blocks meet at {}, which gives {pairs} corner contacts; at most {most} blocks may meet \
