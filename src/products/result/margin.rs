@@ -231,7 +231,9 @@ fn range(interval: &Interval) -> Range {
 fn end(margin: &Margin) -> End {
     match margin {
         Margin::Value { at, .. } => End::At(Number(*at)),
-        Margin::None | Margin::NotApplicable | Margin::Unconfirmed { .. } => End::None,
+        Margin::None | Margin::NotApplicable | Margin::Undecided | Margin::Unconfirmed { .. } => {
+            End::None
+        }
         Margin::NotAsked => End::NotAsked,
         Margin::Unbounded => End::Unbounded("unbounded"),
     }

@@ -119,6 +119,18 @@ impl Interval {
         }
     }
 
+    /// True if the frame is known not to stand at a value, because the value lies beyond a confirmed end.
+    pub fn excludes(&self, value: f64) -> bool {
+        match self {
+            Interval::Between { low, high } => {
+                low.value().is_some_and(|low| value < low)
+                    || high.value().is_some_and(|high| high < value)
+            }
+            Interval::Empty(_) => true,
+            Interval::Undecided => false,
+        }
+    }
+
     /// Returns the intersection of two intervals: the values at which two components of a frame both stand.
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
@@ -250,6 +262,24 @@ mod tests {
             assert_eq!(a.clone().intersection(b.clone()), expected);
             assert_eq!(b.intersection(a), expected);
         }
+    }
+
+    #[test]
+    fn a_value_is_excluded_only_beyond_a_confirmed_end() {
+        // At `beyond` the verdict may be undecided: the frame may stand there and farther on.
+        let open = Interval::Between {
+            low: End::Unconfirmed {
+                stands: 2.0,
+                beyond: 1.0,
+            },
+            high: End::natural(3.0),
+        };
+        let found = |value: f64| (open.contains(value), open.excludes(value));
+        assert_eq!(found(0.5), (false, false));
+        assert_eq!(found(2.0), (true, false));
+        assert_eq!(found(3.5), (false, true));
+        assert!(!Interval::Undecided.excludes(0.0));
+        assert!(Interval::excluded_by(Vec::new()).excludes(0.0));
     }
 
     #[test]

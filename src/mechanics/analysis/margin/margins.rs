@@ -28,6 +28,8 @@ pub enum Margin {
         /// Here it falls, or is undecided.
         beyond: f64,
     },
+    /// No verdict shows at which values the frame stands.
+    Undecided,
     /// The margin was not requested.
     NotAsked,
     /// The parameter has no meaning in this scene: it lists no loads.
@@ -155,7 +157,7 @@ impl Margins {
 
 impl Sides {
     /// Returns how far the interval extends from 0 to the left and to the right. Both margins are [`Margin::None`] if
-    /// the interval does not contain 0 or is undecided.
+    /// the interval excludes 0, and [`Margin::Undecided`] if no verdict shows whether it contains 0.
     fn around_zero(interval: Option<&Interval>) -> Sides {
         let both = |margin: Margin| Sides {
             left: margin.clone(),
@@ -167,21 +169,30 @@ impl Sides {
                 left: margin(low, -1.0),
                 right: margin(high, 1.0),
             },
-            Some(_) => both(Margin::None),
+            Some(interval) if interval.excludes(0.0) => both(Margin::None),
+            Some(_) => both(Margin::Undecided),
         }
     }
 }
 
 /// Returns the lower end of an interval as a margin: the smallest value at which the frame stands. [`Margin::None`] if
-/// the interval is empty or undecided.
+/// the interval is empty, [`Margin::Undecided`] if it is undecided.
 fn least(interval: &Interval) -> Margin {
-    interval.low().map_or(Margin::None, |end| margin(end, 1.0))
+    match interval {
+        Interval::Between { low, .. } => margin(low, 1.0),
+        Interval::Empty(_) => Margin::None,
+        Interval::Undecided => Margin::Undecided,
+    }
 }
 
 /// Returns the upper end of an interval as a margin: the largest value at which the frame stands. [`Margin::None`] if
-/// the interval is empty or undecided.
+/// the interval is empty, [`Margin::Undecided`] if it is undecided.
 fn most(interval: &Interval) -> Margin {
-    interval.high().map_or(Margin::None, |end| margin(end, 1.0))
+    match interval {
+        Interval::Between { high, .. } => margin(high, 1.0),
+        Interval::Empty(_) => Margin::None,
+        Interval::Undecided => Margin::Undecided,
+    }
 }
 
 /// Converts an end of an interval to a margin. Its value is multiplied by `sign` (−1 or 1).
