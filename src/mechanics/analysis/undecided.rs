@@ -57,6 +57,10 @@ impl fmt::Display for UndecidedReason {
                     )?;
                 }
                 match motion {
+                    Some(motion) if motion.holds() => write!(
+                        f,
+                        "; a motion violates no contact, but within the tolerance of forces its power may be zero"
+                    ),
                     Some(Proof::Mechanism {
                         power,
                         worst_violation,

@@ -2,7 +2,8 @@
 //!
 //! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
 //! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
-//! program has shown that no forces balance: that of least residual, or that of least adhesion.
+//! program has shown that no forces balance: that of least residual, or that of least adhesion. If no program shows
+//! this, the component is undecided.
 
 use super::parallel_joints::LeastForce;
 use super::rebalance::RebalanceOutcome;
@@ -185,30 +186,22 @@ impl Component<'_> {
         })
     }
 
-    /// Returns the decision if no strategy gave a strong proof: unstable if there is a weak motion, otherwise
-    /// undecided.
+    /// Returns the decision if no strategy gave a proof: undecided, with the best forces and the best motion. A weak
+    /// motion does not decide, because no program has excluded a balance. The programs failed, or the deadline passed
+    /// before they were solved.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
         let decision = match &progress.last {
             Some((strategy, _)) => progress.decision(program, *strategy),
             None => Decision::new(program, Method::LeastForce),
         };
         let attempt = progress.last.map(|(_, attempt)| attempt);
-        // There is a motion, even if weak, and no strategy found balancing forces. The motion decides.
-        if let Some((mechanism, proof)) = progress.weak_motion {
-            return Decision {
-                verdict: Verdict::Unstable,
-                mechanism,
-                proof,
-                least_adhesion: attempt.and_then(|a| a.least_adhesion),
-                ..decision
-            };
-        }
         let forces = attempt.as_ref().and_then(|a| a.unproved_forces());
         let amounts = forces.cloned().unwrap_or_else(|| Amounts::zero(program));
         let proof = self.prove_forces(&amounts).proof;
+        let weak = progress.weak_motion.map(|(_, proof)| proof);
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
-        // Neither forces nor a motion are proved. The reason reports the errors of both.
-        let unproved_motion = motion.map(|y| self.check_mechanism(&self.to_motions(y).1));
+        // The reason reports the errors of both.
+        let unproved_motion = weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
         Decision {
             verdict: Verdict::Undecided,
             doubt: Some(UndecidedReason::Unproved {
@@ -244,5 +237,55 @@ impl Decision {
             only_some_fall: false,
             effort: Effort::default(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Options;
+    use crate::effect::{self, FrameContext};
+    use crate::interface::Interfaces;
+    use crate::program::Scale;
+    use crate::scene::{BlockId, Scene};
+
+    /// A proved motion that does little work is no verdict: forces that no program has looked for may balance.
+    #[test]
+    fn a_weak_motion_without_a_program_that_excludes_a_balance_leaves_it_undecided() {
+        let scene = Scene::from_json(
+            r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
+                "blocks": [{ "id": "a", "polygon": [[1, 0], [2, 0], [2, 1], [1, 1]], "weight": 1 }] }"#,
+        )
+        .expect("sound");
+        let interfaces = Interfaces::new(&scene);
+        let (assembly, _) = effect::assemble(&FrameContext {
+            scene: &scene,
+            frame: &scene.frames[0],
+            interfaces: &interfaces.in_frame(&scene, &scene.frames[0]),
+        });
+        let component = Component::new(&assembly, Options::default());
+        let program = Program::new(&assembly, Scale::from_assembly(&assembly));
+        let motion = Motion {
+            block: BlockId(0),
+            velocity: crate::geometry::Vector::new(1.0, 0.0),
+            spin: 0.0,
+        };
+        let weak = Proof::Mechanism {
+            power: 1e-9,
+            worst_violation: 0.0,
+        };
+        let progress = Progress {
+            weak_motion: Some((vec![motion], weak)),
+            ..Progress::default()
+        };
+        let decision = component.without_proof(&program, progress);
+        assert_eq!(decision.verdict, Verdict::Undecided);
+        assert!(decision.mechanism.is_empty());
+        let Some(doubt @ UndecidedReason::Unproved { motion, .. }) = decision.doubt else {
+            panic!("{:?}", decision.doubt);
+        };
+        assert_eq!(motion, Some(weak));
+        let words = doubt.to_string();
+        assert!(words.contains("its power may be zero"), "{words}");
     }
 }

@@ -201,7 +201,11 @@ impl Strategy {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
             Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
-            Strategy::Adhesion(_) => attempt.least_adhesion.is_some(),
+            // A program that ended without a status shows nothing.
+            Strategy::Adhesion(_) => {
+                let found = attempt.least_adhesion.as_ref();
+                found.is_some_and(|found| found.balanced.is_some())
+            }
         }
     }
 
