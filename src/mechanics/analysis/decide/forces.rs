@@ -181,3 +181,54 @@ impl Component<'_> {
         sums
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Options;
+    use crate::effect::{self, FrameContext};
+    use crate::interface::Interfaces;
+    use crate::program::{Program, Scale};
+    use crate::scene::Scene;
+
+    /// A block of 2 N on the ground needs no robot: 2 N suffice. If the robot presses with 2 N, the sum is 6 N.
+    #[test]
+    fn only_forces_that_reach_the_bound_are_said_to_be_the_least() {
+        let scene = Scene::from_json(
+            r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
+                "blocks": [{ "id": "a", "polygon": [[1, 0], [2, 0], [2, 1], [1, 1]], "weight": 2 }],
+                "robots": [{ "id": "r", "holds": "a" }] }"#,
+        )
+        .expect("sound");
+        let interfaces = Interfaces::new(&scene);
+        let (assembly, _) = effect::assemble(&FrameContext {
+            scene: &scene,
+            frame: &scene.frames[0],
+            interfaces: &interfaces.in_frame(&scene, &scene.frames[0]),
+        });
+        let component = Component::new(&assembly, Options::default());
+        let scale = Scale::from_assembly(&assembly);
+        let program = Program::new(&assembly, scale);
+        let pressed = |robot: f64| {
+            let mut amounts = Amounts::none(&program);
+            amounts.normal[0] = [0.5 * (2.0 + robot) / scale.force; 2];
+            amounts.grip[0] = [0.0, -robot / scale.force, 0.0];
+            amounts
+        };
+        // A motion downwards with speed 1: a sum below 2 N cannot balance 2 N.
+        let witness = [0.0, -1.0, 0.0];
+        let found = |robot: f64| component.bound_force_sum(Some(&witness), &pressed(robot));
+        for robot in [0.0, 2.0] {
+            assert!(component.believes(&component.prove_forces(&pressed(robot)).proof));
+        }
+        for (robot, is_least) in [(0.0, true), (2.0, false), (1e-5, false)] {
+            let (bound, told) = found(robot);
+            assert!((bound.expect("a bound") - 2.0).abs() < 1e-12);
+            assert_eq!(told, is_least, "{robot}");
+        }
+        assert_eq!(
+            component.bound_force_sum(None, &pressed(0.0)),
+            (None, false)
+        );
+    }
+}
