@@ -1,4 +1,5 @@
-//! [`Program::with_parallel_joints`]: makes joints exactly parallel or perpendicular if they are nearly so.
+//! Simpler programs near a given one: [`Program::with_parallel_joints`] makes joints exactly parallel or perpendicular if
+//! they are nearly so, [`Program::without_slight_loads`] leaves out loads far smaller than the others.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -13,7 +14,27 @@ const PARALLEL_TOL: f64 = 1e-5;
 /// Rotations below this, in radians, are the rounding of the angles themselves.
 const ROUNDING_TOL: f64 = 1e-12;
 
+/// Loads below this fraction of the largest one are slight.
+const SLIGHT: f64 = 1e-6;
+
 impl Program {
+    /// Returns the program without its slight loads. `None` if it has none.
+    ///
+    /// A push of 10⁻⁸ of the weights can need a force that has no part in the balance of the rest. The solver, which is
+    /// accurate to 10⁻⁹, then ends without a result. Without the push it solves the program.
+    pub fn without_slight_loads(&self) -> Option<Program> {
+        let largest = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let is_slight = |load: &f64| *load != 0.0 && load.abs() < SLIGHT * largest;
+        if !self.loads.iter().any(is_slight) {
+            return None;
+        }
+        let mut plain = self.clone();
+        for load in plain.loads.iter_mut().filter(|load| is_slight(load)) {
+            *load = 0.0;
+        }
+        Some(plain)
+    }
+
     /// Returns the program with all nearly parallel or perpendicular joints made exactly parallel or perpendicular.
     /// `None` if this changes no joint.
     ///

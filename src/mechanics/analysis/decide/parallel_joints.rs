@@ -1,4 +1,5 @@
-//! Finds forces of least sum for joints that are parallel except for rounding, where the solver may fail.
+//! Finds forces of least sum where the solver may fail: for joints that are parallel except for rounding, and for loads
+//! far smaller than the others.
 
 use super::Component;
 use super::strategy::Strategy;
@@ -16,30 +17,40 @@ pub(super) struct LeastForce {
 }
 
 impl Component<'_> {
-    /// Returns forces with a smaller sum if there are any, otherwise the forces `found`. Computes the least forces with
-    /// the nearly parallel joints made exactly parallel. Then changes these forces as little as possible, so that they
-    /// balance with the real joints.
+    /// Returns forces with a smaller sum if there are any, otherwise the forces `found`.
+    ///
+    /// Computes the least forces of simpler programs: with the nearly parallel joints made exactly parallel, and without
+    /// the slight loads. Then changes these forces as little as possible, so that they balance in the real program.
     pub(super) fn reduce_force_sum(
         &self,
         program: &Program,
         found: LeastForce,
         effort: &mut Effort,
     ) -> LeastForce {
-        match self.least_force_with_parallel_joints(program, effort) {
-            Some(least) if least.amounts.total() < found.amounts.total() => least,
-            _ => found,
+        let simpler = [
+            program.with_parallel_joints(),
+            program.without_slight_loads(),
+        ];
+        let mut best = found;
+        for simpler in simpler.into_iter().flatten() {
+            match self.least_force_near(program, &simpler, effort) {
+                Some(least) if least.amounts.total() < best.amounts.total() => best = least,
+                _ => {}
+            }
         }
+        best
     }
 
-    fn least_force_with_parallel_joints(
+    /// Returns the least forces of the program `simpler`, changed to balance in `program`. `None` if they have no proof.
+    fn least_force_near(
         &self,
         program: &Program,
+        simpler: &Program,
         effort: &mut Effort,
     ) -> Option<LeastForce> {
         let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
         let settings = self.settings.iter().find(wanted)?;
-        let straight = program.with_parallel_joints()?;
-        let attempt = Strategy::Force(*settings).attempt(&straight);
+        let attempt = Strategy::Force(*settings).attempt(simpler);
         *effort = effort.plus(attempt.effort);
         let amounts = rebalance_absolute(program, attempt.forces.as_ref()?, effort)?;
         let proof = self.prove_forces(&amounts).proof;
