@@ -6,8 +6,9 @@
 //! 1960). One linear program gives the end and the forces and the mechanism there; verdicts confirm them. If they do
 //! not, cutting planes and bisection narrow the range that contains the end.
 
-use super::exclusion::Exclusion;
-use super::interval::{End, Interval};
+mod nearest;
+
+use super::interval::End;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::decide::LimitDistance;
@@ -23,14 +24,27 @@ pub(super) struct Line<'a> {
     pub typical_small: f64,
     /// A typical large size of the parameter: a load of 10⁻⁵ N equals a weight of 1 N at the factor 10⁵.
     pub typical_large: f64,
+    /// The change of the parameter that changes the loads by half of the tolerance of the proofs. It matters if the
+    /// parameter belongs to loads far smaller than the others.
+    pub unsure: f64,
 }
 
 /// Two values between which an end lies.
 struct Bracket {
     /// Here the component stands.
     inside: f64,
-    /// From here outward a mechanism proves that it falls.
-    beyond: Option<(f64, Vec<Motion>)>,
+    /// The fall that is proved from the innermost value outward.
+    beyond: Option<Fall>,
+}
+
+/// A fall that is proved from a value outward.
+struct Fall {
+    /// From here outward the mechanism proves the fall. The component may have been found to stand slightly beyond,
+    /// within the tolerance of a proof by forces; a mechanism has no such tolerance.
+    from: f64,
+    /// The value at which the mechanism was found.
+    at: f64,
+    mechanism: Vec<Motion>,
 }
 
 /// The values at which a mechanism proves a fall: all above one value, all below it, or all values.
@@ -46,6 +60,8 @@ const END_TOL: f64 = 1e-6;
 const CONFIRMATION_TOL: f64 = 256e-6;
 /// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.
 const STABLE_BEYOND: f64 = 4e-6;
+/// Smaller values of [`Line::unsure`], relative to the natural size of the parameter, are ignored.
+const MIN_UNSURE: f64 = 1e-3;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const OFFSET_GROWTH: f64 = 16.0;
 /// The largest number of steps of one search.
@@ -70,8 +86,7 @@ impl Line<'_> {
         let is_natural = outward < 0.0 && self.min_value.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.min_value)
-            && (from <= self.min_value
-                || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
+            && (from <= self.min_value || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
         {
             return End::natural(self.min_value);
         }
@@ -85,28 +100,21 @@ impl Line<'_> {
         }
         // Step outward until the component falls. Then narrow the bracket by cutting planes and bisection.
         for _ in 0..MAX_STEPS {
-            let Some((beyond, mechanism)) = &bracket.beyond else {
+            let Some(fall) = &bracket.beyond else {
                 match self.step_outward(trial, &mut bracket, outward) {
                     Some(end) => return end,
                     None => continue,
                 }
             };
-            if (beyond - bracket.inside) * outward <= END_TOL * self.size(*beyond) {
-                // The stable value may lie slightly beyond the end, within the tolerance of the proofs.
-                let within = hint.filter(|hint| {
-                    (hint - bracket.inside) * outward >= -END_TOL * self.size(*hint)
-                        && (beyond - hint) * outward >= 0.0
-                });
-                return End::At {
-                    value: self.without_rounding(within.unwrap_or(*beyond)),
-                    mechanism: mechanism.clone(),
-                };
+            let beyond = fall.from;
+            if (beyond - bracket.inside) * outward <= END_TOL * self.size(beyond) {
+                return self.enclosed(trial, bracket, from, hint, outward);
             }
             // `beyond` is where the mechanism ceases to prove a fall. Try a value just inside it. If the verdict there
             // is undecided, try the middle of the bracket.
-            let (beyond, inside) = (*beyond, bracket.inside);
-            let just_inside = beyond - 0.5 * outward * END_TOL * self.size(beyond);
-            let end_moved = [just_inside, 0.5 * (inside + beyond)]
+            let inside = bracket.inside;
+            let just = beyond - 0.5 * outward * END_TOL * self.size(beyond);
+            let found = [just, 0.5 * (inside + beyond)]
                 .into_iter()
                 .filter(|value| (value - inside) * outward > 0.0)
                 .any(|value| {
@@ -119,7 +127,7 @@ impl Line<'_> {
                     }
                     true
                 });
-            if !end_moved {
+            if !found {
                 break;
             }
         }
@@ -141,24 +149,87 @@ impl Line<'_> {
         value.min(MAX_VALUE * self.typical_large)
     }
 
+    /// Returns the end if the bracket is narrow enough: the hint if it lies in the bracket, otherwise the value beyond
+    /// which the mechanism proves the fall.
+    ///
+    /// If this mechanism excludes even the value `from`, then the component stands there only within the tolerance of
+    /// the proofs: the loads that the parameter changes are too small. The end is then not confirmed. If they are small
+    /// and `from` lies farther inside, the end is moved inward by `unsure`, to the safe side.
+    fn enclosed(
+        &self,
+        trial: &mut Trial,
+        bracket: Bracket,
+        from: f64,
+        hint: Option<f64>,
+        outward: f64,
+    ) -> End {
+        let Bracket { inside, beyond } = bracket;
+        let Some(fall) = beyond else {
+            return self.unconfirmed(Bracket { inside, beyond }, hint, outward);
+        };
+        let within = hint.filter(|hint| {
+            (hint - inside) * outward >= -END_TOL * self.size(*hint)
+                && (fall.from - hint) * outward >= 0.0
+        });
+        let value = self.without_rounding(within.unwrap_or(fall.from)).max(self.min_value);
+        if (from - value) * outward <= END_TOL * self.size(value) {
+            return End::At {
+                value: self.on_the_safe_side(value, from, outward),
+                mechanism: fall.mechanism,
+            };
+        }
+        // Without the loads of the parameter it may stand beyond doubt.
+        let base = if self.min_value.is_finite() {
+            self.min_value
+        } else {
+            value
+        };
+        let stands = self.decide_at_limit(trial, base).0 == Verdict::Stable;
+        End::Unconfirmed {
+            stands: if stands { base } else { from },
+            beyond: fall.at,
+        }
+    }
+
+    /// Returns an end moved inward by `unsure`, but not beyond `from`. Returns the end unchanged if `unsure` is small
+    /// compared with it or with the parameter's natural size.
+    fn on_the_safe_side(&self, end: f64, from: f64, outward: f64) -> f64 {
+        let is_sure =
+            self.unsure <= MIN_UNSURE * self.typical_small || self.unsure <= END_TOL * self.size(end);
+        if is_sure || (end - from) * outward <= 0.0 {
+            return end;
+        }
+        let inward = end - outward * self.unsure;
+        if (inward - from) * outward > 0.0 {
+            inward
+        } else {
+            from
+        }
+    }
+
     /// Returns the end if the bracket could not be narrowed enough. This is the hint if the verdicts on both sides
     /// agree with it, otherwise an unconfirmed end.
     fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
-        let Some((beyond, mechanism)) = beyond else {
+        let Some(Fall {
+            from: beyond,
+            mechanism,
+            ..
+        }) = beyond
+        else {
             return End::Unconfirmed {
                 stands: inside,
                 beyond: outward * f64::INFINITY,
             };
         };
         // The hint is confirmed if the verdicts on both sides are close enough to it.
-        let is_confirmed = |hint: &f64| {
-            let [from_inside, to_beyond] = [hint - inside, beyond - hint]
-                .map(|distance| distance * outward / self.size(*hint));
+        let agrees = |hint: &f64| {
+            let [from_inside, to_beyond] =
+                [hint - inside, beyond - hint].map(|apart| apart * outward / self.size(*hint));
             (-STABLE_BEYOND..=CONFIRMATION_TOL).contains(&from_inside)
                 && (-END_TOL..=CONFIRMATION_TOL).contains(&to_beyond)
         };
-        match hint.filter(is_confirmed) {
+        match hint.filter(agrees) {
             Some(value) => End::At { value, mechanism },
             None => End::Unconfirmed {
                 stands: inside,
@@ -184,11 +255,10 @@ impl Line<'_> {
                 .take_while(|step| *step <= CONFIRMATION_TOL)
                 .filter_map(inside)
         };
-        let cached =
+        let remembered =
             near().find(|value| trial.cached_verdict(&(self.setting)(*value)).0 == Verdict::Stable);
-        let stands = cached.or_else(|| {
-            near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable)
-        });
+        let stands = remembered
+            .or_else(|| near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable));
         let outside =
             |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.min_value);
         let mut falls = steps().filter_map(outside).find_map(|value| {
@@ -221,33 +291,32 @@ impl Line<'_> {
         motion: Vec<Motion>,
         outward: f64,
     ) {
-        let reached = match self.excluded_range(trial, value, &motion) {
+        let from = match self.excluded_range(trial, value, &motion) {
             ExcludedRange::Above(bound) if outward > 0.0 => bound,
             ExcludedRange::Below(bound) if outward < 0.0 => bound,
-            // The mechanism excludes even values at which the verdict was stable: that verdict holds only within its
-            // tolerance. Use `value` itself as the outer end.
+            // The mechanism excludes even all values inside, at which the verdict was stable: that verdict holds only
+            // within its tolerance. Use `value` itself as the outer end.
             _ => value,
-        };
-        let bound = if (reached - bracket.inside) * outward < 0.0 {
-            bracket.inside
-        } else {
-            reached
         };
         let is_closer = bracket
             .beyond
             .as_ref()
-            .is_none_or(|(known, _)| (known - bound) * outward > 0.0);
+            .is_none_or(|known| (known.from - from) * outward > 0.0);
         if is_closer {
-            bracket.beyond = Some((bound, motion));
+            bracket.beyond = Some(Fall {
+                from,
+                at: value,
+                mechanism: motion,
+            });
         }
     }
 
     /// Searches farther outward while no value is known at which the component falls: decides it at a larger distance.
     /// Returns the end of the interval if the search must stop, otherwise `None`.
     fn step_outward(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
-        let max_value = MAX_VALUE * self.typical_large;
+        let most = MAX_VALUE * self.typical_large;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.typical_small);
-        let next = next.clamp(self.min_value.max(-max_value), max_value);
+        let next = next.clamp(self.min_value.max(-most), most);
         if next == bracket.inside {
             return Some(if next == self.min_value {
                 End::natural(next)
@@ -268,85 +337,9 @@ impl Line<'_> {
         None
     }
 
-    /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is
-    /// this value according to a linear program. If no value is found, the error is the interval: empty if mechanisms
-    /// exclude all values, otherwise undecided.
-    pub fn nearest(
-        &self,
-        trial: &mut Trial,
-        present: f64,
-        hint: Option<f64>,
-    ) -> Result<f64, Interval> {
-        let (mut low, mut high) = (self.min_value, f64::INFINITY);
-        // `below` and `above` are the exclusions of all values below `low` and above `high`.
-        let [mut below, mut above] = [None, None];
-        let limit = MAX_VANISHING_VALUE * self.typical_large;
-        let mut next = Some(present);
-        let mut hinted = hint;
-        for _ in 0..MAX_STEPS {
-            let value = match next.take() {
-                Some(value) => value,
-                None => {
-                    let within = |value: &f64| (low..=high).contains(value);
-                    hinted
-                        .take()
-                        .filter(within)
-                        .unwrap_or(present.clamp(low, high))
-                }
-            };
-            let found = self.decide_near(trial, value, [low, high]);
-            match found {
-                (Verdict::Stable, at, _) => return Ok(at),
-                (Verdict::Undecided, ..) => return Err(Interval::Undecided),
-                (Verdict::Unstable, at, motion) => match self.excluded_range(trial, at, &motion) {
-                    ExcludedRange::All => return Err(Interval::excluded_by(motion)),
-                    ExcludedRange::Above(bound) if bound.min(at) < high => {
-                        high = bound.min(at);
-                        above = Some(Exclusion::above(high, motion));
-                    }
-                    ExcludedRange::Below(bound) if bound.max(at) > low => {
-                        low = bound.max(at);
-                        below = Some(Exclusion::below(low, motion));
-                    }
-                    ExcludedRange::Above(_) | ExcludedRange::Below(_) => {}
-                },
-            }
-            if low > high || low > limit || high < -limit {
-                let excluded = [below, above].into_iter().flatten();
-                return Err(Interval::Empty(excluded.collect()));
-            }
-        }
-        Err(Interval::Undecided)
-    }
-
-    /// Returns the verdict at `value`. If it is undecided, tries values near it, between `low` and `high`. Also returns
-    /// the value that the verdict belongs to, and the mechanism if the component falls there.
-    fn decide_near(
-        &self,
-        trial: &mut Trial,
-        value: f64,
-        [low, high]: [f64; 2],
-    ) -> (Verdict, f64, Vec<Motion>) {
-        let steps = std::iter::successors(Some(END_TOL), |step| Some(step * OFFSET_GROWTH))
-            .take_while(|step| *step <= CONFIRMATION_TOL);
-        let away = steps
-            .flat_map(|step| [step, -step])
-            .map(|step| value + step * self.size(value));
-        let mut last = Vec::new();
-        for at in std::iter::once(value).chain(away.filter(|at| (low..=high).contains(at))) {
-            let (verdict, motion) = self.decide_at_limit(trial, at);
-            if verdict != Verdict::Undecided {
-                return (verdict, at, motion);
-            }
-            last = motion;
-        }
-        (Verdict::Undecided, value, last)
-    }
-
     /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
     fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
-        let [without, with] =
-            [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
+        let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
         let slope = (with - without) / self.typical_large;
         let bound = -without / slope;
@@ -366,7 +359,7 @@ impl Line<'_> {
     }
 
     /// Returns the magnitude of `value`, to which distances are relative; `typical_small` if `value` is nearly 0.
-    fn size(&self, value: f64) -> f64 {
+    pub fn size(&self, value: f64) -> f64 {
         if value.abs() < 1e-3 * self.typical_small {
             self.typical_small
         } else {

@@ -8,7 +8,8 @@ use super::interval::{End, Interval};
 use super::line::Line;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::solve::{Limit, largest_factor, nearest_factor};
+use crate::program::Program;
+use crate::solve::{Extreme, Limit, largest_factor, nearest_factor};
 
 /// A value at which the component stands.
 struct Start {
@@ -51,22 +52,47 @@ pub(super) fn linear(
             }
         }
     });
-    Interval::Between { low, high }
+    match (low, high) {
+        // It stands at one value only, and rounding exchanged the ends.
+        (
+            End::At {
+                value: low,
+                mechanism: below,
+            },
+            End::At {
+                value: high,
+                mechanism: above,
+            },
+        ) if low > high => Interval::Between {
+            low: End::At {
+                value: start.value,
+                mechanism: below,
+            },
+            high: End::At {
+                value: start.value,
+                mechanism: above,
+            },
+        },
+        (low, high) => Interval::Between { low, high },
+    }
 }
 
 /// Finds the value nearest to `present` at which the component stands. If there is no such value, the error is the
 /// interval: empty or undecided.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the nearest value.
-    let (program, toward) = trial.direction(
+    let (mut program, toward) = trial.direction(
         &(line.setting)(present),
         &(line.setting)(present + line.typical_large),
     );
-    let found = nearest_factor(&program, &toward);
-    let at = match found.limit {
+    let mut found = nearest_factor(&program, &toward);
+    let mut at = match found.limit {
         Limit::At(change) => (present + change * line.typical_large).max(line.min_value),
         _ => present,
     };
+    if let Some(closer) = solved_closer(trial, line, [present, at], nearest_factor) {
+        (at, program, found) = closer;
+    }
     // Add the forces and the motion of this program to the cache: they often prove later verdicts. If the component
     // stands at no value, the motion is that at the value `present`.
     let toward_present = (present - at).signum();
@@ -81,6 +107,42 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         value: line.nearest(trial, present, facing_end)?,
         facing_end,
     })
+}
+
+/// A program is solved again if its result is smaller than this fraction of its distance from the value at which the
+/// program begins.
+const SMALL: f64 = 0.1;
+
+/// The distance from the first result to the value at which the second program begins, as a fraction of the result.
+const CLOSE: f64 = 0.1;
+
+/// Solves a program for an end again, from a value close to the first result `at`. Returns the end, the program and its
+/// result. `None` if the first result is exact enough, or if the second program has no result.
+///
+/// The accuracy of a program is relative to the loads at the value `from`, at which it begins. If these are a thousand
+/// times the loads at the end, three digits of the end are lost.
+fn solved_closer(
+    trial: &mut Trial,
+    line: &Line,
+    [from, at]: [f64; 2],
+    solve: fn(&Program, &[f64]) -> Extreme,
+) -> Option<(f64, Program, Extreme)> {
+    let size = line.size(at);
+    if size >= SMALL * (from - at).abs() {
+        return None;
+    }
+    let back = (from - at).signum();
+    let begin = at + back * CLOSE * size;
+    let (program, toward) =
+        trial.direction(&(line.setting)(begin), &(line.setting)(begin - back * size));
+    let found = solve(&program, &toward);
+    match found.limit {
+        Limit::At(change) => {
+            let at = (begin - back * size * change).max(line.least);
+            Some((at, program, found))
+        }
+        _ => None,
+    }
 }
 
 /// Finds the end of the interval in the direction `outward` from `start`, a value at which the component stands. `base`
@@ -107,6 +169,8 @@ fn end(
         Limit::Unbounded if trial.decide(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
         Limit::At(change) => {
             let at = (start + step * change).max(line.min_value);
+            let closer = solved_closer(trial, line, [start, at], largest_factor);
+            let (at, program, found) = closer.unwrap_or((at, program, found));
             let around = line.test_values(at, outward);
             trial.cache_extreme(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))

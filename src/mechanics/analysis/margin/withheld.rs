@@ -16,7 +16,7 @@ impl Intervals {
                     if let End::Unconfirmed { stands, beyond } = end {
                         list.push(format!(
                             "{name} is withheld, since no verdict confirms it: it stands at {stands:.6}, and at \
-                             {beyond:.6} it was not shown to stand"
+                             {beyond:.6} it was not shown to stand; the proofs do not decide in between"
                         ));
                     }
                 }
@@ -134,5 +134,34 @@ mod tests {
         assert_eq!(margins.kernel.at(), None);
         assert!(matches!(margins.tilt.left, Margin::Unconfirmed { stands, .. } if stands == 0.25));
         assert_eq!(margins.load_factor, Margin::NotApplicable);
+        // Falling at every value is another statement than an undecided interval.
+        assert_eq!(margins.friction, Margin::None);
+        assert_eq!(margins.robots[0].fx, Margin::None);
+        assert_eq!(margins.robots[0].torque, Margin::Undecided);
+    }
+
+    #[test]
+    fn a_margin_around_a_present_value_that_no_verdict_decides_is_undecided() {
+        let read = |tilt: Interval| {
+            let found = Intervals {
+                tilt: Some(tilt),
+                ..Intervals::default()
+            };
+            Margins::new(found, MarginKinds::ALL).tilt.left
+        };
+        let open = Interval::Between {
+            low: End::Unconfirmed {
+                stands: 1.0,
+                beyond: -1.0,
+            },
+            high: End::Unbounded,
+        };
+        assert_eq!(read(Interval::Undecided), Margin::Undecided);
+        assert_eq!(read(open), Margin::Undecided);
+        let right = Interval::Between {
+            low: End::natural(1.0),
+            high: End::Unbounded,
+        };
+        assert_eq!(read(right), Margin::None);
     }
 }
