@@ -6,6 +6,7 @@ use drystone::analysis::{
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
+use crate::oracle::number_of;
 use crate::random::Random;
 use crate::structure::{block, on_floor, rectangle, scene, wall};
 
@@ -434,10 +435,28 @@ fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
     (sum, ends)
 }
 
+/// `DRYSTONE_SENSITIVITY_SCENES=200` looks at more scenes, and `DRYSTONE_SENSITIVITY_EVERY=1` at each derivative instead of
+/// one of five.
 #[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
 fn slopes_of_random_scenes_are_those_of_differences() {
-    // Two hundred scenes were compared with `every` = 1; here one derivative of five.
-    let (sum, ends) = random_scenes(1, 30, 5);
+    let first = number_of("DRYSTONE_SENSITIVITY_FIRST", 1);
+    let wanted = number_of("DRYSTONE_SENSITIVITY_SCENES", 30);
+    let every = number_of("DRYSTONE_SENSITIVITY_EVERY", 5) as usize;
+    let (sum, ends) = random_scenes(first, wanted, every);
+    println!(
+        "{ends} ends: {} derivatives, the worst off by {:.1e} of the margin; {} one-sided, {} at a kink, {} not compared; {} wrong",
+        sum.slopes,
+        sum.worst,
+        sum.one_sided,
+        sum.kinks,
+        sum.skipped,
+        sum.wrong.len()
+    );
     assert!(sum.wrong.is_empty(), "{:#?}", sum.wrong);
-    assert!(ends > 20 && sum.slopes > 150, "{ends} ends, {sum:?}");
+    assert!(ends as u64 * 3 > 2 * wanted, "{ends} ends, {sum:?}");
+    assert!(sum.slopes > 5 * ends, "{ends} ends, {sum:?}");
 }

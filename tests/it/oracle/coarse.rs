@@ -6,12 +6,13 @@
 
 use drystone::Analysis;
 use drystone::analysis::Verdict;
-use drystone::scene::Scene;
+use drystone::internals::geometry::Point;
+use drystone::scene::{BodyId, Scene};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::balance::Balance;
-use super::{number_of, random, touch};
+use super::{Standing, judged, number_of, random, touch};
 use crate::random::Random;
 
 /// Tolerances in parts of the smallest block, the square root of its area.
@@ -148,4 +149,121 @@ fn tolerances_as_large_as_blocks_change_no_verdict_without_closing_a_gap() {
         .map(|f| f.number)
         .collect();
     assert!(bad.is_empty(), "{bad:?}");
+}
+
+/// Three stones of nine corners, two of them on ground of their own below their lowest side. A tolerance of 0.05 m would
+/// push the corners of some of them into others.
+fn stones(number: u64) -> Value {
+    let mut chance = Random::new(number ^ 0x0057_0e35);
+    let mut near = |at: [f64; 2]| at.map(|v| v + 0.02 * (2.0 * chance.share() - 1.0));
+    let a: Vec<[f64; 2]> = [
+        [0.98, 0.21],
+        [0.84, 0.54],
+        [0.29, 0.96],
+        [0.0, 1.0],
+        [-0.4, 0.92],
+        [-0.53, 0.85],
+        [-0.76, 0.65],
+        [-0.3, -1.0],
+        [0.4, -0.96],
+    ]
+    .map(&mut near)
+    .into();
+    let b: Vec<[f64; 2]> = [
+        [2.97, 0.39],
+        [2.65, 0.85],
+        [2.57, 0.91],
+        [2.44, 0.98],
+        [1.59, 0.97],
+        [1.06, 0.34],
+        [1.55, -0.82],
+        [2.7, -0.85],
+        [3.02, 0.01],
+    ]
+    .map(&mut near)
+    .into();
+    let c: Vec<[f64; 2]> = [
+        [1.61, 2.52],
+        [0.78, 2.71],
+        [0.0, 1.65],
+        [1.54, 0.89],
+        [1.56, 0.9],
+    ]
+    .map(&mut near)
+    .into();
+    // The ground below a side ends at the same corners.
+    let below = |from: [f64; 2], to: [f64; 2]| json!({ "polygon": [from, [from[0], -2.0], [to[0], -2.0], to] });
+    let friction = chance.one_of(&[0.1, 0.3, 0.7, 1.5]);
+    json!({ "drystone": 1, "contact_tolerance": 0.05, "friction": friction,
+        "ground": [below(a[7], a[8]), below(b[6], b[7])],
+        "blocks": [
+            { "id": "a", "polygon": a },
+            { "id": "b", "polygon": b },
+            { "id": "c", "polygon": c }
+        ] })
+}
+
+/// The distance of a point from the outline of a body, metres.
+fn distance(scene: &Scene, body: BodyId, at: Point) -> f64 {
+    let body = match body {
+        BodyId::Block(id) => &scene.blocks()[id.0].body,
+        BodyId::Ground(part) => &scene.ground()[part].body,
+    };
+    let outline = body.polygon.outline();
+    let away = (0..outline.len()).map(|k| {
+        let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
+        let along = to - from;
+        let share = (at - from).dot(&along) / along.norm_squared();
+        (at - from - along * share.clamp(0.0, 1.0)).norm()
+    });
+    away.fold(f64::INFINITY, f64::min)
+}
+
+/// A body that cannot be healed stays as written. Every statement is about the outlines that the result uses: the exact
+/// program over the contacts found has the same verdict and sums, and bodies touch only within the stated tolerance.
+/// `DRYSTONE_ORACLE_KEPT=2000` looks at more of them.
+#[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
+fn what_is_stated_of_bodies_left_as_written_is_true_of_their_outlines() {
+    let wanted = number_of("DRYSTONE_ORACLE_KEPT", 60);
+    let (mut kept, mut touching) = (0, 0);
+    let mut verdicts = [0; 3];
+    for number in 0..wanted {
+        let Ok(scene) = Scene::from_json(&stones(number).to_string()) else {
+            continue;
+        };
+        if scene.healed().kept == 0 || !scene.penetrations().is_empty() {
+            continue;
+        }
+        kept += 1;
+        let analysis = Analysis::new(&scene);
+        let frame = &analysis.frames[0];
+        verdicts[frame.verdict as usize] += 1;
+        let (standing, error) = judged(&scene, &touch::as_found(&scene), frame, true);
+        let is_true = !matches!(standing, Standing::Wrong | Standing::Undecided);
+        assert!(is_true, "{number}: {standing:?} {:?}", frame.verdict);
+        assert!(error.is_none_or(|e| e < 1e-6), "{number}: {error:?}");
+        let words = scene.tolerance_words().expect("no lattice");
+        assert!(words.contains("stayed as written"), "{words}");
+        for contact in &frame.contacts {
+            touching += 1;
+            for (end, body) in contact.interface.ends.iter().flat_map(|end| {
+                contact
+                    .interface
+                    .bodies
+                    .iter()
+                    .map(move |body| (*end, *body))
+            }) {
+                let off = distance(&scene, body, end);
+                assert!(off <= scene.tolerance().gap, "{number}: {off} m");
+            }
+        }
+    }
+    println!(
+        "{kept} of {wanted} scenes with bodies left as written, {touching} contacts, verdicts {verdicts:?}"
+    );
+    assert!(kept > wanted / 10, "{kept}");
 }
