@@ -408,6 +408,11 @@ fn random_sets_are_those_of_an_exact_program() {
         .filter_map(|found| found.as_ref().err())
         .collect();
     let good: Vec<_> = all.iter().flatten().flatten().collect();
+    let skipped: Vec<&Skipped> = all
+        .iter()
+        .flatten()
+        .filter_map(|found| found.as_ref().err())
+        .collect();
     let worst = good
         .iter()
         .fold([0.0, 0.0], |[a, b]: [f64; 2], c| [a.max(c.0), b.max(c.1)]);
@@ -429,24 +434,50 @@ fn random_sets_are_those_of_an_exact_program() {
         let count = good.iter().filter(|c| c.2.word() == shape).count();
         println!("{shape}: {count}");
     }
+    let count = |why: Skipped| skipped.iter().filter(|found| ***found == why).count();
+    let withheld: Vec<u64> = skipped
+        .iter()
+        .filter_map(|found| match found {
+            Skipped::Withheld(number) => Some(*number),
+            _ => None,
+        })
+        .collect();
+    println!(
+        "not compared: {} no scene, {} within the band, {} withheld: {withheld:?}",
+        count(Skipped::NoScene),
+        count(Skipped::InBand),
+        withheld.len()
+    );
     assert!(bad.is_empty(), "{bad:#?}");
     assert!(good.len() as u64 * 2 > wanted);
+    assert!(withheld.len() as u64 <= 1 + wanted / 25, "{withheld:?}");
 }
 
-/// By how much the vertices lie outside and the directions are short, relative to the size of the set; `None` without a
-/// set to compare.
-type Compared = Option<(f64, f64, CapacityShape)>;
+/// By how much the vertices lie outside and the directions are short, relative to the size of the set; or why there is
+/// nothing to compare.
+type Compared = Result<(f64, f64, CapacityShape), Skipped>;
+
+/// Why a scene is not compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Skipped {
+    /// It is no sound scene, its blocks overlap, or rounding opens a contact of the exact program.
+    NoScene,
+    /// Other blocks stand or fall within the band of the verdicts, or a set that is exactly empty is not empty within it.
+    InBand,
+    /// The set of this scene is withheld, since the forces and the motions that were proved do not agree closely enough.
+    Withheld(u64),
+}
 
 fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let file = crate::oracle::random::scene(number).1;
     let Ok(scene) = Scene::from_json(&file.to_string()) else {
-        return Ok(None);
+        return Ok(Err(Skipped::NoScene));
     };
     let touches = touches(&scene);
     let frame = Analysis::new(&scene).frames.remove(0);
     let doubtful = !scene.penetrations().is_empty() || touches.len() != frame.contacts.len();
     if doubtful {
-        return Ok(None);
+        return Ok(Err(Skipped::NoScene));
     }
     let groups = Balance::groups(&scene, &touches);
     let block = (number as usize * 7) % scene.blocks().len();
@@ -463,7 +494,7 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let others = || groups.iter().filter(|g| !g.blocks.contains(&block));
     let is_borderline = others().any(Balance::is_borderline);
     if is_borderline {
-        return Ok(None);
+        return Ok(Err(Skipped::InBand));
     }
     let stand = others().all(Balance::stands);
     let exact = match stand {
@@ -472,15 +503,14 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     };
     let found = match of(&scene, request) {
         Ok(found) => found,
-        // Withheld, because the forces and the motions that were proved do not agree closely enough.
-        Err(CapacityError::Undecided) => return Ok(None),
+        Err(CapacityError::Undecided) => return Ok(Err(Skipped::Withheld(number))),
         Err(why) => return Err(format!("{number}: {why}\n{file}")),
     };
     let Some(exact) = exact else {
         return match found.shape() {
-            CapacityShape::Empty => Ok(Some((0.0, 0.0, found.shape()))),
+            CapacityShape::Empty => Ok(Ok((0.0, 0.0, found.shape()))),
             // It may be carried within the tolerance of a proof.
-            _ if own.holds_within_band(block, [at.x, at.y]) => Ok(None),
+            _ if own.holds_within_band(block, [at.x, at.y]) => Ok(Err(Skipped::InBand)),
             shape => Err(format!("{number}: {shape:?} instead of empty\n{file}")),
         };
     };
@@ -511,5 +541,5 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
             "{number}: outside {outside:e}, short {short:e}\n{file}"
         ));
     }
-    Ok(Some((outside, short, found.shape())))
+    Ok(Ok((outside, short, found.shape())))
 }

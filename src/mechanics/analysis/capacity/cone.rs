@@ -64,8 +64,10 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First compute samples in the inner directions of the interval. Their forces give the size of the set.
-        let count = ((to - from) / MAX_STEP).ceil().max(1.0);
+        // First compute samples in the inner directions of the interval. Their forces give the size of the set: if the
+        // interval is narrow, they may be far larger than the loads.
+        let least = if to - from > SAME_ANGLE { 2.0 } else { 1.0 };
+        let count = ((to - from) / MAX_STEP).ceil().max(least);
         let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
         let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
         let norms = inside.iter().map(|s| s.carried.force.norm());

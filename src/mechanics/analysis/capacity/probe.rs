@@ -19,6 +19,10 @@ const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 /// The last of these distances, which is a tenth of the accuracy of the polygon.
 const MAX_SHARE_INSIDE: f64 = 1e-7;
 
+/// The farthest force and the half-plane of its motion agree if the force lies within this distance of its boundary,
+/// relative to its size. Otherwise the program is solved again with higher accuracy.
+const AGREES: f64 = 1e-7;
+
 /// A motion in which the point is slower than this gives no limit of the force. The fastest point of a motion has speed
 /// 1.
 const MIN_SPEED: f64 = 1e-9;
@@ -54,6 +58,13 @@ pub(super) struct HalfPlane {
     pub limit: f64,
     pub motion: Vec<Motion>,
     pub proof: Proof,
+}
+
+impl HalfPlane {
+    /// Returns the distance, N, from a force outward to the boundary; negative if the force lies outside the half-plane.
+    pub fn beyond(&self, force: Vector) -> f64 {
+        self.limit - self.normal.dot(&force)
+    }
 }
 
 /// The farthest carried force in a direction.
@@ -139,29 +150,57 @@ impl Probe {
             program.grips[grip].limits[1] = most;
         }
         let first = self.farthest_in(&program, direction, false);
-        // If the force or the motion has no proof, solve the program again with higher accuracy.
+        // If the force or the motion has no proof, or if they do not agree, solve the program again with higher
+        // accuracy.
         match first {
-            Farthest::At {
-                carried: Some(_),
-                half_plane: Some(_),
-            } => first,
             Farthest::At {
                 carried,
                 half_plane,
-            } if self.proves => match self.farthest_in(&program, direction, true) {
-                Farthest::At {
-                    carried: better,
-                    half_plane: closer,
-                } => Farthest::At {
-                    carried: better.or(carried),
-                    half_plane: closer.or(half_plane),
-                },
-                _ => Farthest::At {
-                    carried,
-                    half_plane,
-                },
-            },
+            } if self.proves && !self.agree(&carried, &half_plane) => {
+                match self.farthest_in(&program, direction, true) {
+                    Farthest::At {
+                        carried: again,
+                        half_plane: closer,
+                    } => self.best(direction, [carried, again], [half_plane, closer]),
+                    _ => Farthest::At {
+                        carried,
+                        half_plane,
+                    },
+                }
+            }
             other => other,
+        }
+    }
+
+    /// True if a force and a half-plane are both proved, and the force lies on the boundary of the half-plane.
+    fn agree(&self, carried: &Option<Carried>, half_plane: &Option<HalfPlane>) -> bool {
+        let (Some(carried), Some(half_plane)) = (carried, half_plane) else {
+            return false;
+        };
+        let size = carried.force.norm().max(self.heaviest());
+        half_plane.beyond(carried.force) <= AGREES * size
+    }
+
+    /// Combines the results of two programs for the same direction: the farther force, and the half-plane whose boundary
+    /// is nearer to this force.
+    fn best(
+        &self,
+        direction: Vector,
+        carried: [Option<Carried>; 2],
+        half_planes: [Option<HalfPlane>; 2],
+    ) -> Farthest {
+        let far = |carried: &Carried| direction.dot(&carried.force);
+        let carried = carried.into_iter().flatten();
+        let carried = carried.max_by(|a, b| far(a).total_cmp(&far(b)));
+        let beyond = |half_plane: &HalfPlane| match &carried {
+            Some(carried) => half_plane.beyond(carried.force).abs(),
+            None => half_plane.limit,
+        };
+        let half_planes = half_planes.into_iter().flatten();
+        let half_plane = half_planes.min_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+        Farthest::At {
+            carried,
+            half_plane,
         }
     }
 

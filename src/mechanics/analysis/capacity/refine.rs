@@ -122,9 +122,7 @@ impl Search<'_> {
         // If the half-plane of one sample passes through both forces, the edge between them is already known.
         let touches = |half_plane: &Option<HalfPlane>, force: Vector| {
             let half_plane = half_plane.as_ref();
-            half_plane.is_some_and(|half_plane| {
-                half_plane.limit - half_plane.normal.dot(&force) <= self.tolerance
-            })
+            half_plane.is_some_and(|half_plane| half_plane.beyond(force) <= self.tolerance)
         };
         if touches(&from.half_plane, b) || touches(&to.half_plane, a) {
             return;
@@ -142,7 +140,7 @@ impl Search<'_> {
         let error = next
             .half_plane
             .as_ref()
-            .map_or(0.0, |line| (line.limit - line.normal.dot(&force)).abs());
+            .map_or(0.0, |half_plane| half_plane.beyond(force).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE_PER_TOLERANCE * self.tolerance) {
             // The chord is an edge, because the new force is not farther out. The new sample contains the half-plane of
             // this edge.

@@ -138,7 +138,7 @@ fn solved_closer(
     let found = solve(&program, &toward);
     match found.limit {
         Limit::At(change) => {
-            let at = (begin - back * size * change).max(line.least);
+            let at = (begin - back * size * change).max(line.min_value);
             Some((at, program, found))
         }
         _ => None,
