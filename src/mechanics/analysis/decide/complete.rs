@@ -3,6 +3,7 @@
 
 use super::Component;
 use super::Method;
+use super::parallel_joints::LeastForce;
 use super::programs::Decision;
 use super::rebalance::RebalanceOutcome;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
@@ -72,7 +73,23 @@ impl Component<'_> {
                 }
             }
         }
-        decision
+        if is_late() {
+            return decision;
+        }
+        let found = LeastForce {
+            amounts: decision.amounts,
+            proof: decision.proof,
+            force_bound: decision.force_bound,
+            least_force: decision.least_force,
+        };
+        let found = self.reduce_force_sum(program, found, &mut decision.effort);
+        Decision {
+            amounts: found.amounts,
+            proof: found.proof,
+            force_bound: found.force_bound,
+            least_force: found.least_force,
+            ..decision
+        }
     }
 
     /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if it can be proved:
