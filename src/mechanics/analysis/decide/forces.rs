@@ -210,7 +210,7 @@ mod tests {
         let scale = Scale::from_assembly(&assembly);
         let program = Program::new(&assembly, scale);
         let pressed = |robot: f64| {
-            let mut amounts = Amounts::none(&program);
+            let mut amounts = Amounts::zero(&program);
             amounts.normal[0] = [0.5 * (2.0 + robot) / scale.force; 2];
             amounts.grip[0] = [0.0, -robot / scale.force, 0.0];
             amounts

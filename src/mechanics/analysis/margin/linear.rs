@@ -9,7 +9,7 @@ use super::line::Line;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::program::Program;
-use crate::solve::{Extreme, Limit, largest_factor, nearest_factor};
+use crate::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
 
 /// A value at which the component stands.
 struct Start {
@@ -125,8 +125,8 @@ fn solved_closer(
     trial: &mut Trial,
     line: &Line,
     [from, at]: [f64; 2],
-    solve: fn(&Program, &[f64]) -> Extreme,
-) -> Option<(f64, Program, Extreme)> {
+    solve: fn(&Program, &[f64]) -> ExtremeValue,
+) -> Option<(f64, Program, ExtremeValue)> {
     let size = line.size(at);
     if size >= SMALL * (from - at).abs() {
         return None;
