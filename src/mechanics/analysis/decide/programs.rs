@@ -201,7 +201,8 @@ impl Component<'_> {
         let weak = progress.weak_motion.map(|(_, proof)| proof);
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
         // The reason reports the errors of both.
-        let unproved_motion = weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
+        let unproved_motion =
+            weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
         Decision {
             verdict: Verdict::Undecided,
             doubt: Some(UndecidedReason::Unproved {

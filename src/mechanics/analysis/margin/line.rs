@@ -86,7 +86,8 @@ impl Line<'_> {
         let is_natural = outward < 0.0 && self.min_value.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.min_value)
-            && (from <= self.min_value || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
+            && (from <= self.min_value
+                || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
         {
             return End::natural(self.min_value);
         }
@@ -171,7 +172,9 @@ impl Line<'_> {
             (hint - inside) * outward >= -END_TOL * self.size(*hint)
                 && (fall.from - hint) * outward >= 0.0
         });
-        let value = self.without_rounding(within.unwrap_or(fall.from)).max(self.min_value);
+        let value = self
+            .without_rounding(within.unwrap_or(fall.from))
+            .max(self.min_value);
         if (from - value) * outward <= END_TOL * self.size(value) {
             return End::At {
                 value: self.on_the_safe_side(value, from, outward),
@@ -194,8 +197,8 @@ impl Line<'_> {
     /// Returns an end moved inward by `unsure`, but not beyond `from`. Returns the end unchanged if `unsure` is small
     /// compared with it or with the parameter's natural size.
     fn on_the_safe_side(&self, end: f64, from: f64, outward: f64) -> f64 {
-        let is_sure =
-            self.unsure <= MIN_UNSURE * self.typical_small || self.unsure <= END_TOL * self.size(end);
+        let is_sure = self.unsure <= MIN_UNSURE * self.typical_small
+            || self.unsure <= END_TOL * self.size(end);
         if is_sure || (end - from) * outward <= 0.0 {
             return end;
         }
@@ -257,8 +260,9 @@ impl Line<'_> {
         };
         let remembered =
             near().find(|value| trial.cached_verdict(&(self.setting)(*value)).0 == Verdict::Stable);
-        let stands = remembered
-            .or_else(|| near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable));
+        let stands = remembered.or_else(|| {
+            near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable)
+        });
         let outside =
             |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.min_value);
         let mut falls = steps().filter_map(outside).find_map(|value| {
@@ -339,7 +343,8 @@ impl Line<'_> {
 
     /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
     fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
-        let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
+        let [without, with] =
+            [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
         let slope = (with - without) / self.typical_large;
         let bound = -without / slope;

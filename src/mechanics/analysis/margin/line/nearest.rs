@@ -1,6 +1,8 @@
 //! Finds the value nearest to the present one at which a component stands.
 
-use super::{CONFIRMATION_TOL, ExcludedRange, Line, MAX_VANISHING_VALUE, MAX_STEPS, END_TOL, OFFSET_GROWTH};
+use super::{
+    CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH,
+};
 use crate::analysis::Verdict;
 use crate::analysis::margin::exclusion::Exclusion;
 use crate::analysis::margin::interval::Interval;
