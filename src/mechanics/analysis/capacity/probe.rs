@@ -173,7 +173,7 @@ impl Probe {
     }
 
     /// True if a force and a half-plane are both proved, and the force lies on the boundary of the half-plane.
-    fn agree(&self, carried: &Option<Carried>, half_plane: &Option<HalfPlane>) -> bool {
+    fn agree(&self, carried: &Option<CarriedForce>, half_plane: &Option<HalfPlane>) -> bool {
         let (Some(carried), Some(half_plane)) = (carried, half_plane) else {
             return false;
         };
@@ -186,10 +186,10 @@ impl Probe {
     fn best(
         &self,
         direction: Vector,
-        carried: [Option<Carried>; 2],
+        carried: [Option<CarriedForce>; 2],
         half_planes: [Option<HalfPlane>; 2],
     ) -> Farthest {
-        let far = |carried: &Carried| direction.dot(&carried.force);
+        let far = |carried: &CarriedForce| direction.dot(&carried.force);
         let carried = carried.into_iter().flatten();
         let carried = carried.max_by(|a, b| far(a).total_cmp(&far(b)));
         let beyond = |half_plane: &HalfPlane| match &carried {

@@ -219,7 +219,7 @@ mod tests {
         let witness = [0.0, -1.0, 0.0];
         let found = |robot: f64| component.bound_force_sum(Some(&witness), &pressed(robot));
         for robot in [0.0, 2.0] {
-            assert!(component.believes(&component.prove_forces(&pressed(robot)).proof));
+            assert!(component.accepts(&component.prove_forces(&pressed(robot)).proof));
         }
         for (robot, is_least) in [(0.0, true), (2.0, false), (1e-5, false)] {
             let (bound, told) = found(robot);
